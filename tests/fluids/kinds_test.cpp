@@ -7,6 +7,7 @@
 
 #include "pliant/error.h"
 #include "pliant/liquid.h"
+#include "support/paths.h"
 
 namespace pliant {
 namespace {

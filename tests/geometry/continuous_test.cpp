@@ -15,6 +15,7 @@
 
 #include "apps/validate/query_sets.h"
 #include "geometry/double_double.h"
+#include "support/paths.h"
 
 namespace pliant {
 namespace {

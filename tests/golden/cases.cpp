@@ -1,4 +1,5 @@
 #include "golden/cases.h"
+#include "support/paths.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pliant/pliant.h"
+#include "support/paths.h"
 
 namespace pliant::golden {
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "mesh_support.h"
+#include "support/paths.h"
 
 namespace pliant::test {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "pliant/io.h"
 #include "pliant/save.h"
+#include "support/paths.h"
 #include "support/sanitized.h"
 #include "write_support.h"
 

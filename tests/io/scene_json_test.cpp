@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scene_support.h"
+#include "support/paths.h"
 
 namespace pliant::scene_file {
 namespace {

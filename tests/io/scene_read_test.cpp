@@ -11,6 +11,7 @@
 #include "io/scene_schema.h"
 #include "io/scene_values.h"
 #include "scene_support.h"
+#include "support/paths.h"
 
 namespace pliant {
 

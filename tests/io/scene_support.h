@@ -10,6 +10,7 @@
 
 #include "pliant/error.h"
 #include "pliant/io.h"
+#include "support/paths.h"
 
 namespace pliant::test {
 

@@ -10,6 +10,7 @@
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/joint.h"
+#include "support/paths.h"
 #include "write_support.h"
 
 namespace pliant {

@@ -8,6 +8,7 @@
 
 #include "pliant/error.h"
 #include "pliant/material.h"
+#include "support/paths.h"
 
 namespace pliant {
 namespace {

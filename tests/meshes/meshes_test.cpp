@@ -13,6 +13,7 @@
 #include "pliant/io.h"
 #include "pliant/scene.h"
 #include "pliant/world.h"
+#include "support/paths.h"
 
 namespace pliant {
 namespace {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pliant/pliant.h"
+#include "support/paths.h"
 
 namespace pliant {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "pliant/pliant.h"
+#include "support/paths.h"
 
 namespace pliant {
 namespace {

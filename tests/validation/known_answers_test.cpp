@@ -7,6 +7,7 @@
 
 #include "apps/validate/validate.h"
 #include "pliant/error.h"
+#include "support/paths.h"
 
 namespace pliant::validate {
 namespace {

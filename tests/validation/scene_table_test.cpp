@@ -9,6 +9,7 @@
 #include "apps/bench/bending_energy.h"
 #include "apps/bench/draped_meshes.h"
 #include "pliant/error.h"
+#include "support/paths.h"
 
 namespace pliant::bench {
 namespace {

@@ -47,7 +47,7 @@ TEST_P(TiedSweeps, YieldByForceTimesCompliance) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, TiedSweeps, testing::Values(Sweep::tiled, Sweep::chains),
-                         [](const auto& info) { return sweep_name(info.param); });
+                         [](const auto& of) { return sweep_name(of.param); });
 
 }  // namespace
 }  // namespace pliant

@@ -25,8 +25,8 @@ struct BodyState {
   Vec3f velocity{};              ///< [m/s]
   Vec3f spin{};                  ///< in world axes, but about axes about which the body is round [rad/s]
   bool is_fixed = false;         ///< two fixed bodies do not touch
-  bool is_driven_round = false;  ///< it turns by itself, whatever touches it
   bool deforms = false;          ///< a mesh that moves by its vertices, so that no contact with it stays
+  bool is_driven_round = false;  ///< it turns by itself, whatever touches it
 };
 
 }  // namespace pliant
