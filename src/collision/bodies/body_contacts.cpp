@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -196,6 +195,8 @@ struct BodyContacts::Task {
   const std::vector<BodyState>& bodies;
   const std::vector<BodyContact>& before;
   float dt, faster;
+  const std::vector<char>* renewed = nullptr;  ///< [body] nonzero: its contacts are found again; null: those of all are
+  float far = 1e30f;  ///< contacts of others stay unless bodies have moved farther (BodyContacts::renew)
 
   /// Finds the contacts of pairs [first, last).
   void run(int first, int last, Found& found) const {
@@ -228,22 +229,59 @@ struct BodyContacts::Task {
     return max(of.pairs_.turning(part) - (body.is_fixed ? 0 : faster), 0.f);
   }
 
+  double size_of(const Pair& pair) const {
+    return static_cast<double>(std::min(of.pairs_.size(pair.first), of.pairs_.size(pair.second)));
+  }
+
+  double reach_of(const Pair& pair, float approach) const {
+    const float fast = approach + of.pairs_.turning(pair.first) + of.pairs_.turning(pair.second);
+    return static_cast<double>(BodyPairs::margin_share) * size_of(pair) + static_cast<double>(dt * fast);
+  }
+
+  bool is_renewed(int body) const { return renewed == nullptr || (*renewed)[at(body)] != 0; }
+
+  /// True if boxes show that touch would find nothing. Between polyhedra it may find points that are farther apart.
+  bool is_out_of_reach(const Pair& pair, const BodyPart& one, const BodyPart& other) const {
+    constexpr float more_than_rounding = 1.01f;
+    const auto is_polyhedron = [](const BodyPart& part) { return part.shape.kind == ConvexShape::Kind::polyhedron; };
+    if (!one.is_convex() || !other.is_convex() || (is_polyhedron(one) && is_polyhedron(other))) return false;
+    if (!is_renewed(one.body) || !is_renewed(other.body)) return false;  // whose boxes are those of the frame's start
+    const float approach = length(bodies[at(one.body)].velocity - bodies[at(other.body)].velocity);
+    return of.pairs_.are_apart(pair.first, pair.second, more_than_rounding * static_cast<float>(reach_of(pair, approach)));
+  }
+
+  /// True if the contacts of a pair stay, or, where there are none, if no new ones are looked for.
+  bool stay(const Pair& pair, std::span<const BodyContact> old, const BodyState& a, const BodyState& b,
+            const Posed& relative) const {
+    const auto [one, other] = std::pair{of.parts_[at(pair.first)].body, of.parts_[at(pair.second)].body};
+    if (is_renewed(one) || is_renewed(other)) {
+      const double size = size_of(pair);
+      const auto hardly_changed = [&](const BodyContact& contact) {
+        return hardly_moved(relative, contact, size) && hardly_turned(a.pose.rotation, contact);
+      };
+      // Contacts of what turns by itself turn with it, so that friction acts along its surface of this frame.
+      return !old.empty() && !a.deforms && !a.is_driven_round && !b.is_driven_round &&
+             std::all_of(old.begin(), old.end(), hardly_changed);
+    }
+    const double far_away = static_cast<double>(far) * size_of(pair);
+    if (!of.parts_[at(pair.first)].is_convex()) return true;  // how far bodies move along planes and meshes does not matter
+    return std::all_of(old.begin(), old.end(), [&](const BodyContact& contact) {
+      return !(length(relative.position - convert<double>(contact.position)) > far_away);
+    });
+  }
+
   void find(const Pair& pair, std::span<const BodyContact> old, Found& found) const {
     const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
+    if (old.empty() && ((!is_renewed(one.body) && !is_renewed(other.body)) || is_out_of_reach(pair, one, other))) return;
     const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
     const Posed relative = relative_pose(a.pose, b.pose);
-    const double size = static_cast<double>(std::min(of.pairs_.size(pair.first), of.pairs_.size(pair.second)));
-    const auto stays = [&](const BodyContact& contact) {
-      return hardly_moved(relative, contact, size) && hardly_turned(a.pose.rotation, contact);
-    };
+    const double size = size_of(pair);
     const auto note_depth = [&](const BodyContact& contact) {
       const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
       const float share = -gap / static_cast<float>(size);
       if (share > found.deepest.share) found.deepest = {one.body, other.body, -gap, share};
     };
-    // Contacts of what turns by itself turn with it, so that friction acts along its surface of this frame.
-    if (!old.empty() && !a.deforms && !a.is_driven_round && !b.is_driven_round &&
-        std::all_of(old.begin(), old.end(), stays)) {
+    if (stay(pair, old, a, b, relative)) {
       found.pieces.push_back({old, one.body, other.body});
       found.count += old.size();
       std::for_each(old.begin(), old.end(), note_depth);
@@ -259,8 +297,7 @@ struct BodyContacts::Task {
         one.is_half_space && std::any_of(old.begin(), old.end(), is_close)
             ? std::fabs(dot(velocity, rotate(convert<float>(compose(a.pose, one.pose)).rotation, Vec3f{0, 1, 0})))
             : length(velocity);
-    const float fast = approach + of.pairs_.turning(pair.first) + of.pairs_.turning(pair.second);
-    const double reach = static_cast<double>(BodyPairs::margin_share) * size + static_cast<double>(dt * fast);
+    const double reach = reach_of(pair, approach);
     // An impact may turn the whole approach into spin. Of two opposite points one may rise as the other sinks.
     const double turning =
         static_cast<double>(2 * dt * (approach + turning_of(pair.first, a) + turning_of(pair.second, b)));
@@ -297,23 +334,17 @@ bool in_order(const BodyContact& a, const BodyContact& b) {
 }
 
 BodyContacts::BodyContacts(std::vector<BodyPart> parts) : parts_(std::move(parts)), pairs_(parts_) {
-  const auto is_before = [](const BodyPart& a, const BodyPart& b) { return a.id < b.id; };
-  const auto is_mesh = [](const BodyPart& part) { return part.mesh != nullptr; };
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const std::size_t body = at(parts_[i].body);
     if (size_.size() <= body) size_.resize(body + 1, 1e30f);
     size_[body] = std::min(size_[body], pairs_.size(static_cast<int>(i)));
   }
-  are_ordered_ =
-      std::is_sorted(parts_.begin(), parts_.end(), is_before) && std::none_of(parts_.begin(), parts_.end(), is_mesh);
 }
 
 /// Finds in tasks which contacts stay and which begin.
-void BodyContacts::find(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
-                        const std::vector<BodyContact>& before) {
+void BodyContacts::find(Executor& executor, const Task& task_of_pair) {
   const int count = static_cast<int>(pairs_.pairs().size());
   found_.resize(at(ranges_of(count, pairs_a_task)));
-  const Task task_of_pair{*this, bodies, before, dt, faster};
   for_ranges(executor, "bodies: contacts", count, pairs_a_task,
              [&](int first, int last) { task_of_pair.run(first, last, found_[at(first / pairs_a_task)]); });
   first_.assign(1, 0);
@@ -339,34 +370,34 @@ bool BodyContacts::all_stay(const std::vector<BodyContact>& before) const {
   return true;
 }
 
-void BodyContacts::sort(std::vector<BodyContact>& contacts) {
-  std::vector<std::size_t> order(contacts.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return in_order(contacts[i], contacts[j]); });
-  next_.clear();
-  bodies_sorted_.clear();
-  for (const std::size_t i : order) {
-    next_.push_back(contacts[i]);
-    bodies_sorted_.push_back(bodies_[i]);
-  }
-  contacts.swap(next_);
-  bodies_.swap(bodies_sorted_);
+/// Replaces the contacts of the frame before by those that tasks have found.
+void BodyContacts::replace(Executor& executor, const Task& found, std::vector<BodyContact>& now) {
+  const bool stay = &found.before == &now && all_stay(found.before);
+  bodies_.resize(first_.back());
+  if (!stay) next_.resize(first_.back());
+  BodyContact* const to = stay ? now.data() : next_.data();  // in place where all stay, because a copy takes many bytes
+  executor.parallel_for("bodies: contacts", static_cast<int>(found_.size()), [&](int task) {
+    Task::place(found_[at(task)], found.bodies, to + first_[at(task)], bodies_.data() + first_[at(task)]);
+  });
+  if (!stay) now.swap(next_);
 }
 
 void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
                           FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before,
                           std::vector<BodyContact>& now) {
   pairs_.update(executor, parts_, bodies, dt, faster, meet);
-  find(executor, bodies, dt, faster, before);
-  const bool stay = &before == &now && all_stay(before);
-  bodies_.resize(first_.back());
-  if (!stay) next_.resize(first_.back());
-  BodyContact* const to = stay ? now.data() : next_.data();  // in place where all stay, because a copy takes many bytes
-  executor.parallel_for("bodies: contacts", static_cast<int>(found_.size()), [&](int task) {
-    Task::place(found_[at(task)], bodies, to + first_[at(task)], bodies_.data() + first_[at(task)]);
-  });
-  if (!stay) now.swap(next_);
-  if (!are_ordered_ && !std::is_sorted(now.begin(), now.end(), in_order)) sort(now);
+  const Task task{*this, bodies, before, dt, faster};
+  find(executor, task);
+  replace(executor, task, now);
+}
+
+void BodyContacts::renew(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
+                         FunctionRef<bool(int, int)> meet, const std::vector<char>& of, float far,
+                         std::vector<BodyContact>& now) {
+  pairs_.renew(executor, parts_, bodies, dt, faster, meet, of);
+  const Task task{*this, bodies, now, dt, faster, &of, far};
+  find(executor, task);
+  replace(executor, task, now);
 }
 
 }  // namespace pliant

@@ -39,6 +39,12 @@ class BodyContacts {
   void update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
               FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before, std::vector<BodyContact>& now);
 
+  /// Finds the contacts of some bodies again, for what is left of a frame: of those for which `of` is not zero [body]; of a plane or
+  /// mesh, only with bodies that it may have met already. Of the others, contacts stay, with the gaps of now, unless both have moved
+  /// against each other by more than the share `far` of the smaller part's size since these began.
+  void renew(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
+             FunctionRef<bool(int, int)> meet, const std::vector<char>& of, float far, std::vector<BodyContact>& now);
+
   /// The bodies of each contact of the last update.
   const std::vector<std::pair<int, int>>& bodies() const { return bodies_; }
   const std::vector<BodyPart>& parts() const { return parts_; }
@@ -73,19 +79,17 @@ class BodyContacts {
     }
   };
 
-  void find(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
-            const std::vector<BodyContact>& before);
-  void sort(std::vector<BodyContact>& contacts);
+  void find(Executor& executor, const Task& task);
+  void replace(Executor& executor, const Task& found, std::vector<BodyContact>& now);
   bool all_stay(const std::vector<BodyContact>& before) const;
 
   std::vector<BodyPart> parts_;
-  std::vector<float> size_;   ///< [body]
-  bool are_ordered_ = false;  ///< true: contacts in the order of pairs are in order
+  std::vector<float> size_;  ///< [body]
   BodyPairs pairs_;
   std::vector<Found> found_;        ///< [task]
   std::vector<std::size_t> first_;  ///< [task] its first contact
   std::vector<BodyContact> next_;
-  std::vector<std::pair<int, int>> bodies_, bodies_sorted_;
+  std::vector<std::pair<int, int>> bodies_;
 };
 
 }  // namespace pliant

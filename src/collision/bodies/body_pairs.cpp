@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-constexpr int parts_a_task = 256, packets_a_task = 8, pairs_a_task = 2048;
+constexpr int parts_a_task = 256, packets_a_task = 8, pairs_a_task = 2048, renewed_a_task = 64;
 /// Boxes are larger by this share of their part's size than they need be, so that pairs last for more than a frame.
 constexpr float spare_share = 0.1f;
 
@@ -90,6 +90,11 @@ bool reaches(const BoxBounds& box, const Posef& half_space, float margin) {
   return dot(up, centre - half_space.position) - dot(abs(up), half) <= margin + 1e-5f * (largest(centre) + largest(half));
 }
 
+template <class Visit>
+void for_each(const std::vector<int>& of, const Visit& visit) {
+  for (const int i : of) visit(i);
+}
+
 bool is_inside(const BoxBounds& box, const BoxBounds& larger) {
   return (box.low.x >= larger.low.x) & (box.low.y >= larger.low.y) & (box.low.z >= larger.low.z) &
          (box.high.x <= larger.high.x) & (box.high.y <= larger.high.y) & (box.high.z <= larger.high.z);
@@ -104,21 +109,42 @@ BodyPairs::BodyPairs(const std::vector<BodyPart>& parts) {
     (part.is_convex() ? convex_ : others_).push_back(i);
     size_.push_back(part.is_convex() ? size_of(part.shape) : 1e30f);
   }
+  std::vector<int> order(parts.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return parts[at(a)].id < parts[at(b)].id; });
+  rank_.resize(parts.size());
+  for (std::size_t i = 0; i < order.size(); ++i) rank_[at(order[i])] = static_cast<int>(i);
 }
 
-void BodyPairs::find_boxes(Executor& executor, const Frame& frame, float faster) {
+bool BodyPairs::in_order(const Pair& a, const Pair& b) const {
+  return std::pair{rank_[at(a.first)], rank_[at(a.second)]} < std::pair{rank_[at(b.first)], rank_[at(b.second)]};
+}
+
+bool BodyPairs::are_apart(int a, int b, float reach) const {
+  const BoxBounds &one = still_[at(a)], &other = still_[at(b)];
+  const Vec3f gap = max(other.low - one.high, one.low - other.high);
+  return std::max({gap.x, gap.y, gap.z}) > reach;
+}
+
+void BodyPairs::find_box(const Frame& frame, float faster, int i) {
+  const int number = convex_[at(i)];
+  const BodyPart& part = frame.parts[at(number)];
+  const BodyState& body = frame.bodies[at(part.body)];
+  const BoxBounds box = still_[at(number)] = box_of(part, body.pose);
+  turning_[at(number)] = turning_speed(body, box) + (body.is_fixed ? 0 : faster);
+  boxes_[at(i)] =
+      swept(box, body.velocity * frame.dt).grown(0.5f * margin_share * size_[at(number)] + frame.dt * turning_[at(number)]);
+}
+
+/// Finds the boxes of all convex parts, or, unless `of` is null, of the bodies for which it is not zero.
+void BodyPairs::find_boxes(Executor& executor, const Frame& frame, float faster, const std::vector<char>* of) {
   boxes_.resize(convex_.size());
+  still_.resize(frame.parts.size());
   turning_.resize(frame.parts.size());
   for (const int part : others_)
     turning_[at(part)] = turning_of_other(frame.parts[at(part)], frame.bodies[at(frame.parts[at(part)].body)]);
   for_items(executor, "bodies: boxes", static_cast<int>(convex_.size()), parts_a_task, [&](int i) {
-    const int number = convex_[at(i)];
-    const BodyPart& part = frame.parts[at(number)];
-    const BodyState& body = frame.bodies[at(part.body)];
-    const BoxBounds box = box_of(part, body.pose);
-    turning_[at(number)] = turning_speed(body, box) + (body.is_fixed ? 0 : faster);
-    boxes_[at(i)] = swept(box, body.velocity * frame.dt)
-                        .grown(0.5f * margin_share * size_[at(number)] + frame.dt * turning_[at(number)]);
+    if (of == nullptr || (*of)[at(frame.parts[at(convex_[at(i)])].body)] != 0) find_box(frame, faster, i);
   });
 }
 
@@ -168,8 +194,8 @@ void BodyPairs::find_near(Executor& executor, const Frame& frame) {
   });
 }
 
-/// Pairs of half-spaces and meshes with convex parts.
-void BodyPairs::find_pairs_of_others(const Frame& frame) {
+/// Pairs of half-spaces and meshes with convex parts: with all of them, or, unless it is null, with `some` (indices in convex_).
+void BodyPairs::find_pairs_of_others(const Frame& frame, const std::vector<int>* some) {
   of_others_.clear();
   for (const int other : others_) {
     const BodyPart& part = frame.parts[at(other)];
@@ -182,38 +208,94 @@ void BodyPairs::find_pairs_of_others(const Frame& frame) {
     if (part.is_half_space) {
       const Posef plane = convert<float>(compose(body.pose, part.pose));
       const float grown = frame.dt * length(body.velocity);
-      for (int i = 0; i < static_cast<int>(boxes_.size()); ++i)
+      const int count = static_cast<int>(some == nullptr ? boxes_.size() : some->size());
+      for (int k = 0; k < count; ++k) {
+        const int i = some == nullptr ? k : (*some)[at(k)];
         if (reaches(boxes_[at(i)], plane, grown)) add(i);
+      }
     } else {
       const BoxBounds box =
           swept(world_box(*part.mesh, body.pose), body.velocity * frame.dt).grown(frame.dt * turning_[at(other)]);
-      tree_.query(box, [&](int i) {
+      const auto add_overlapping = [&](int i) {
         if (overlap(boxes_[at(i)], box)) add(i);
-      });
+      };
+      some == nullptr ? tree_.query(box, add_overlapping) : for_each(*some, add_overlapping);
     }
   }
-  std::sort(of_others_.begin(), of_others_.end());
+  std::sort(of_others_.begin(), of_others_.end(), [&](const Pair& a, const Pair& b) { return in_order(a, b); });
 }
 
-/// Adds the pairs of near_ whose boxes overlap to those of others.
-void BodyPairs::keep_overlapping(Executor& executor, const Frame& frame) {
+/// Finds the pairs of near_ whose boxes overlap: all, or, unless `of` is null, those of the bodies for which it is not zero.
+void BodyPairs::find_overlapping(Executor& executor, const Frame& frame, const std::vector<char>* of) {
   const int count = static_cast<int>(near_.size()), tasks = ranges_of(count, pairs_a_task);
   of_task_.resize(std::max(of_task_.size(), at(tasks)));
-  const auto is_fixed = [&](int part) { return frame.bodies[at(frame.parts[at(part)].body)].is_fixed; };
+  const auto body_of = [&](int part) { return at(frame.parts[at(part)].body); };
   for_ranges(executor, nullptr, count, pairs_a_task, [&](int from, int to) {
     std::vector<Pair>& found = of_task_[at(from / pairs_a_task)];
     found.clear();
     for (int k = from; k < to; ++k) {
       const auto& [i, j] = near_[at(k)];
       const int a = convex_[at(i)], b = convex_[at(j)];
-      if (overlap(boxes_[at(i)], boxes_[at(j)]) && !(is_fixed(a) && is_fixed(b))) found.emplace_back(a, b);
+      if (of != nullptr && (*of)[body_of(a)] == 0 && (*of)[body_of(b)] == 0) continue;
+      if (overlap(boxes_[at(i)], boxes_[at(j)]) &&
+          !(frame.bodies[body_of(a)].is_fixed && frame.bodies[body_of(b)].is_fixed))
+        found.emplace_back(a, b);
     }
   });
-  pairs_ = of_others_;
-  const auto first = static_cast<std::ptrdiff_t>(pairs_.size());
+  take_found(tasks);
+}
+
+/// Takes the pairs that tasks have found.
+void BodyPairs::take_found(int tasks) {
+  found_.clear();
   for (int task = 0; task < tasks; ++task)
-    pairs_.insert(pairs_.end(), of_task_[at(task)].begin(), of_task_[at(task)].end());
-  std::inplace_merge(pairs_.begin(), pairs_.begin() + first, pairs_.end());
+    found_.insert(found_.end(), of_task_[at(task)].begin(), of_task_[at(task)].end());
+}
+
+/// Finds the pairs of renewed_ by the tree of larger boxes, in which the others still are. Returns false if near_ costs less.
+bool BodyPairs::find_by_tree(Executor& executor, const Frame& frame) {
+  std::vector<int> escaped;
+  for (const int i : renewed_)
+    if (!is_inside(boxes_[at(i)], larger_[at(i)])) escaped.push_back(i);
+  if (4 * renewed_.size() > boxes_.size() || escaped.size() * renewed_.size() > 16 * boxes_.size()) return false;
+  const auto add = [&](int i, int j, std::vector<Pair>& found) {
+    const auto [first, second] = std::minmax(convex_[at(i)], convex_[at(j)]);
+    const int a = frame.parts[at(first)].body, b = frame.parts[at(second)].body;
+    if (a == b || !overlap(boxes_[at(i)], boxes_[at(j)])) return;
+    if (!(frame.bodies[at(a)].is_fixed && frame.bodies[at(b)].is_fixed) && frame.meet(std::min(a, b), std::max(a, b)))
+      found.emplace_back(first, second);
+  };
+  const int count = static_cast<int>(renewed_.size()), tasks = ranges_of(count, renewed_a_task);
+  of_task_.resize(std::max(of_task_.size(), at(tasks)));
+  for_ranges(executor, nullptr, count, renewed_a_task, [&](int first, int last) {
+    std::vector<Pair>& found = of_task_[at(first / renewed_a_task)];
+    found.clear();
+    for (int k = first; k < last; ++k) {
+      const int i = renewed_[at(k)];
+      tree_.query(boxes_[at(i)], [&](int j) { add(i, j, found); });
+      for (const int j : escaped) add(i, j, found);
+    }
+  });
+  take_found(tasks);
+  return true;
+}
+
+/// Puts the pairs of renewed parts in the place of those that they had. All others stay, whatever the state of the tree, so that a State
+/// that is restored goes on with the same bits.
+void BodyPairs::replace(const Frame& frame, const std::vector<char>& of) {
+  const auto is_before = [&](const Pair& a, const Pair& b) { return in_order(a, b); };
+  found_.insert(found_.end(), of_others_.begin(), of_others_.end());
+  std::sort(found_.begin(), found_.end(), is_before);
+  found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+  const auto is_replaced = [&](const Pair& pair) {
+    const BodyPart &one = frame.parts[at(pair.first)], &other = frame.parts[at(pair.second)];
+    if ((one.is_convex() && of[at(one.body)] != 0) || (other.is_convex() && of[at(other.body)] != 0)) return true;
+    return frame.bodies[at(one.body)].is_fixed && frame.bodies[at(other.body)].is_fixed;  // beside sleepers
+  };
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), is_replaced), pairs_.end());
+  const auto kept = static_cast<std::ptrdiff_t>(pairs_.size());
+  pairs_.insert(pairs_.end(), found_.begin(), found_.end());
+  std::inplace_merge(pairs_.begin(), pairs_.begin() + kept, pairs_.end(), is_before);
 }
 
 void BodyPairs::thin_crowd(const Frame& frame) {
@@ -237,11 +319,32 @@ void BodyPairs::thin_crowd(const Frame& frame) {
 void BodyPairs::update(Executor& executor, const std::vector<BodyPart>& parts, const std::vector<BodyState>& bodies,
                        float dt, float faster, FunctionRef<bool(int, int)> meet) {
   const Frame frame{parts, bodies, dt, meet};
-  find_boxes(executor, frame, faster);
+  find_boxes(executor, frame, faster, nullptr);
   const Stopwatch stopwatch(executor.timings(), "bodies: pairs");
   if (!fits()) find_near(executor, frame);
-  find_pairs_of_others(frame);
-  keep_overlapping(executor, frame);
+  find_pairs_of_others(frame, nullptr);
+  find_overlapping(executor, frame, nullptr);
+  pairs_ = of_others_;
+  pairs_.insert(pairs_.end(), found_.begin(), found_.end());
+  std::inplace_merge(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(of_others_.size()), pairs_.end(),
+                     [&](const Pair& a, const Pair& b) { return in_order(a, b); });
+  thin_crowd(frame);
+}
+
+void BodyPairs::renew(Executor& executor, const std::vector<BodyPart>& parts, const std::vector<BodyState>& bodies,
+                      float dt, float faster, FunctionRef<bool(int, int)> meet, const std::vector<char>& of) {
+  const Frame frame{parts, bodies, dt, meet};
+  find_boxes(executor, frame, faster, &of);
+  const Stopwatch stopwatch(executor.timings(), "bodies: pairs");
+  renewed_.clear();
+  for (int i = 0; i < static_cast<int>(convex_.size()); ++i)
+    if (of[at(parts[at(convex_[at(i)])].body)] != 0) renewed_.push_back(i);
+  if (!find_by_tree(executor, frame)) {
+    if (!fits()) find_near(executor, frame);
+    find_overlapping(executor, frame, &of);
+  }
+  find_pairs_of_others(frame, &renewed_);
+  replace(frame, of);
   thin_crowd(frame);
 }
 

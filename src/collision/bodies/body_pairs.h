@@ -26,9 +26,14 @@ class BodyPairs {
   /// Finds the pairs of a frame (BodyContacts::update). `meet` must not change as long as this object lives.
   void update(Executor& executor, const std::vector<BodyPart>& parts, const std::vector<BodyState>& bodies, float dt,
               float faster, FunctionRef<bool(int, int)> meet);
+  /// Finds those of some bodies again within a frame, for what is left of it: those for which `of` is not zero [body].
+  void renew(Executor& executor, const std::vector<BodyPart>& parts, const std::vector<BodyState>& bodies, float dt,
+             float faster, FunctionRef<bool(int, int)> meet, const std::vector<char>& of);
 
-  /// The pairs whose boxes overlap, ascending.
+  /// The pairs whose boxes overlap, in the order of their contacts (BodyPart::id).
   const std::vector<Pair>& pairs() const { return pairs_; }
+  /// True if the bodies of two convex parts are apart by more than `reach` [m], as their boxes show. False says nothing.
+  bool are_apart(int a, int b, float reach) const;
   /// Half of the smallest extent of a part [m].
   float size(int part) const { return size_[static_cast<std::size_t>(part)]; }
   /// An upper bound of the speed of a part's points against the centre of its body [m/s].
@@ -50,22 +55,30 @@ class BodyPairs {
     FunctionRef<bool(int, int)> meet;
   };
 
-  void find_boxes(Executor& executor, const Frame& frame, float faster);
+  void find_boxes(Executor& executor, const Frame& frame, float faster, const std::vector<char>* of);
+  void find_box(const Frame& frame, float faster, int i);
   bool fits() const;
   void find_near(Executor& executor, const Frame& frame);
   void find_near(const Frame& frame, int first, int last, std::vector<Pair>& found);
-  void keep_overlapping(Executor& executor, const Frame& frame);
-  void find_pairs_of_others(const Frame& frame);
+  void find_overlapping(Executor& executor, const Frame& frame, const std::vector<char>* of);
+  void find_pairs_of_others(const Frame& frame, const std::vector<int>* some);
+  bool find_by_tree(Executor& executor, const Frame& frame);
+  void take_found(int tasks);
+  void replace(const Frame& frame, const std::vector<char>& of);
+  bool in_order(const Pair& a, const Pair& b) const;
   void thin_crowd(const Frame& frame);
 
   std::vector<int> convex_, others_;  ///< parts: convex ones; half-spaces and meshes; ascending
   std::vector<float> size_, turning_;
+  std::vector<int> rank_;          ///< [part] its place in the order of contacts
+  std::vector<BoxBounds> still_;   ///< [part] of convex parts, without what they may move in a frame
   std::vector<BoxBounds> boxes_;   ///< of convex parts in this frame
   std::vector<BoxBounds> larger_;  ///< of convex parts when the tree was built
   Tree<BoxBounds> tree_;           ///< of larger_
   std::vector<Pair> near_;         ///< indices in convex_ whose larger boxes overlap, ascending
   std::vector<int> first_near_;    ///< of each part in convex_: its first pair in near_ as the smaller one
-  std::vector<Pair> pairs_, of_others_;
+  std::vector<Pair> pairs_, of_others_, found_;
+  std::vector<int> renewed_;  ///< indices in convex_ of the parts of bodies that are renewed
   std::vector<std::vector<Pair>> of_task_;
   std::ptrdiff_t left_out_ = 0;
 };

@@ -104,7 +104,7 @@ void BodySolver::begin_frame(Substep& s) {
 void BodySolver::renew_contacts(Substep& s) {
   if (s.number == 0 || !contacts_.are_outdated(motions_, blocks_.bounces())) return;
   take_impulses(s);
-  contacts_.renew(s);
+  contacts_.renew(s, motions_, blocks_.bounces());
   motions_.begin_frame(s);
   pushes_are_known_ = false;
   make_manifolds(s);

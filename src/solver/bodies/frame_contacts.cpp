@@ -14,7 +14,7 @@ namespace {
 using namespace bodies;
 
 /// Contacts are found again in a frame if a body has turned by more than this since they were found [rad].
-constexpr float far_turned = 0.2f;
+constexpr float far_turned = 0.2f, soon_far_turned = 0.5f * far_turned;
 /// The same if two bodies, of which some bounce, have moved against each other by more than this share of half of the smaller one's
 /// thickness: the direction of an impact is that of the place where they meet.
 constexpr float far_moved = 0.1f;
@@ -56,6 +56,7 @@ void FrameContacts::find_beside_sleepers(Substep& s, BodySleep& sleep) {
 
 void FrameContacts::find(Substep& s, BodySleep& sleep) {
   read_states(s);
+  turned_.assign(at(bodies_->dynamic()), 0);
   const bool is_alone = s.part == nullptr;  // else other groups read the State's contacts at the same time
   if (sleep.any()) {
     if (is_alone) {
@@ -83,23 +84,55 @@ void FrameContacts::warn(Substep& s) {
   overlaps_.note(s, *bodies_, finder_.deepest());
 }
 
-/// How far bodies move along planes and meshes, whose size has no end, does not matter.
-bool FrameContacts::are_outdated(const BodyMotions& motions, bool some_bounce) const {
-  const auto turned = [&](int body) { return body < bodies_->dynamic() && motions.turned(body) > far_turned; };
+/// Calls visit(a, b) for the bodies of contacts that have moved far against each other, until it returns true. Returns true if it has. How
+/// far bodies move along planes and meshes, whose size has no end, does not matter.
+template <class Visit>
+bool FrameContacts::any_moved_far(const BodyMotions& motions, const Visit& visit) const {
   const std::vector<BodyMotion>& all = motions.all();
   for (const auto& [a, b] : finder_.bodies()) {
-    if (turned(a) || turned(b)) return true;
-    if (!some_bounce || std::max(finder_.size_of_body(a), finder_.size_of_body(b)) > 1e29f) continue;
+    if (std::max(finder_.size_of_body(a), finder_.size_of_body(b)) > 1e29f) continue;
     const float far = far_moved * std::min(finder_.size_of_body(a), finder_.size_of_body(b));
-    if (length_squared(all[at(b)].displacement - all[at(a)].displacement) > far * far) return true;
+    if (length_squared(all[at(b)].displacement - all[at(a)].displacement) > far * far && visit(a, b)) return true;
   }
   return false;
 }
 
-void FrameContacts::renew(Substep& s) {
+bool FrameContacts::are_outdated(const BodyMotions& motions, bool some_bounce) const {
+  const auto turned = [&](int body) {
+    return body < bodies_->dynamic() && turned_[at(body)] + motions.turned(body) > far_turned;
+  };
+  for (const auto& [a, b] : finder_.bodies())
+    if (turned(a) || turned(b)) return true;
+  return some_bounce && any_moved_far(motions, [](int, int) { return true; });
+}
+
+/// Bodies that will soon have turned far are among them, so that contacts are found again less often.
+void FrameContacts::find_outdated(const BodyMotions& motions, bool some_bounce) {
+  is_outdated_.assign(states_.size(), 0);
+  for (int body = 0; body < bodies_->dynamic(); ++body) {
+    float& turned = turned_[at(body)];
+    turned += motions.turned(body);
+    is_outdated_[at(body)] = turned > soon_far_turned ? 1 : 0;
+  }
+  if (some_bounce)
+    any_moved_far(motions, [&](int a, int b) {
+      is_outdated_[at(a)] = is_outdated_[at(b)] = 1;
+      return false;
+    });
+  for (int body = 0; body < bodies_->dynamic(); ++body)
+    if (is_outdated_[at(body)] != 0) turned_[at(body)] = 0;
+}
+
+void FrameContacts::renew(Substep& s, const BodyMotions& motions, bool some_bounce) {
+  find_outdated(motions, some_bounce);
   bodies_->begin_frame(s);
   read_states(s);
-  update(s, contacts_);
+  for (std::size_t place = 0; place < states_.size(); ++place)  // the contacts of what is driven round turn with it
+    if (states_[place].is_driven_round) is_outdated_[place] = 1;
+  const double left = time_left(s);
+  finder_.renew(
+      s.context.executor, states_, static_cast<float>(left), static_cast<float>(left) * length(s.model.gravity),
+      [&](int a, int b) { return bodies_->meet(s.model, a, b); }, is_outdated_, some_bounce ? far_moved : 1e30f, contacts_);
 }
 
 }  // namespace pliant

@@ -25,8 +25,8 @@ class FrameContacts {
   void find(Substep& s, BodySleep& sleep);
   /// True if bodies with a contact have turned far since it was found, or, if some bounce, moved far.
   bool are_outdated(const BodyMotions& motions, bool some_bounce) const;
-  /// Finds them again within a frame.
-  void renew(Substep& s);
+  /// Finds those of such bodies again within a frame. The others stay, with the gaps of now.
+  void renew(Substep& s, const BodyMotions& motions, bool some_bounce);
 
   /// In ascending order of parts.
   std::vector<BodyContact>& all() { return contacts_; }
@@ -43,6 +43,9 @@ class FrameContacts {
   void update(Substep& s, const std::vector<BodyContact>& before);
   void find_beside_sleepers(Substep& s, BodySleep& sleep);
   void warn(Substep& s);
+  void find_outdated(const BodyMotions& motions, bool some_bounce);
+  template <class Visit>
+  bool any_moved_far(const BodyMotions& motions, const Visit& visit) const;
 
   ContactBodies* bodies_;
   BodyContacts finder_;
@@ -50,6 +53,9 @@ class FrameContacts {
   std::vector<BodyState> states_;
   std::vector<char> is_fixed_;
   std::vector<BodyContact> contacts_;
+  std::vector<float>
+      turned_;  ///< [place] by how much a body turned from when its contacts were found to the last renewal [rad]
+  std::vector<char> is_outdated_;    ///< [place] nonzero: its contacts are found again
   std::vector<BodyContact> before_;  ///< of the frame before, where bodies sleep
 };
 

@@ -1,0 +1,159 @@
+// Tests that contacts are found again within a frame for some bodies alone.
+#include "collision/bodies/body_contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "collision/random_support.h"
+
+namespace pliant {
+namespace {
+
+constexpr float dt = 1.f / 60;
+
+class Scene {
+ public:
+  std::vector<BodyState> states;
+  std::vector<BodyContact> contacts;
+
+  void add_ball(float radius, const Vec3d& place, const Vec3f& velocity = {}) {
+    const int number = static_cast<int>(states.size());
+    parts_.push_back({{0, number, 0}, number, {ConvexShape::Kind::point, radius, 0, 0, nullptr}, false, {}});
+    states.push_back({{place, {}}, velocity, {}});
+  }
+  /// Before any ball: what is below its height.
+  void add_ground(double height) {
+    parts_.push_back({{-1, 0, 0}, 0, {}, true, {}});
+    states.push_back({{{0, height, 0}, {}}, {}, {}});
+    states.back().is_fixed = true;
+  }
+  void update() {
+    if (finder_.parts().empty()) finder_ = BodyContacts(parts_);
+    finder_.update(executor_, states, dt, 0, all_meet, contacts, contacts);
+  }
+  void renew(const std::vector<char>& of, float far = 1e30f) {
+    finder_.renew(executor_, states, dt, 0, all_meet, of, far, contacts);
+  }
+
+ private:
+  static constexpr auto all_meet = [](int, int) { return true; };
+
+  std::vector<BodyPart> parts_;
+  BodyContacts finder_;
+  Executor executor_{1};
+};
+
+/// Two pairs of balls, far from one another.
+Scene two_pairs() {
+  Scene scene;
+  for (const double x : {0., 0.202, 10., 10.202}) scene.add_ball(0.1f, {x, 0, 0});
+  scene.update();
+  return scene;
+}
+
+TEST(BodyContacts, OnlyThoseOfRenewedBodiesAreFoundAgain) {
+  Scene scene = two_pairs();
+  ASSERT_EQ(scene.contacts.size(), 2u);
+  for (const int i : {1, 3}) scene.states[std::size_t(i)].pose.position += Vec3d{-0.001, 0.03, 0};
+  scene.renew({0, 1, 0, 0});
+  ASSERT_EQ(scene.contacts.size(), 2u);
+  EXPECT_NEAR(scene.contacts[0].normal.y, 0.03 / std::hypot(0.201, 0.03), 1e-4);
+  EXPECT_EQ(scene.contacts[1].normal.y, 0);
+  EXPECT_NEAR(scene.contacts[1].gap[0], 0.001, 1e-5) << "the gap is that of now";
+}
+
+TEST(BodyContacts, ThoseOfOthersAreFoundAgainIfTheyMovedFar) {
+  Scene scene = two_pairs();
+  scene.states[1].pose.position.y += 0.005;
+  scene.states[3].pose.position.y += 0.015;
+  scene.renew({0, 0, 0, 0}, 0.1f);
+  ASSERT_EQ(scene.contacts.size(), 2u);
+  EXPECT_EQ(scene.contacts[0].normal.y, 0);
+  EXPECT_GT(scene.contacts[1].normal.y, 0.05);
+}
+
+TEST(BodyContacts, ARenewedBodyMeetsWhatWasOutOfReach) {
+  Scene scene = two_pairs();
+  scene.states[1].velocity = {600, 0, 0};
+  scene.renew({0, 0, 0, 0});
+  EXPECT_EQ(scene.contacts.size(), 2u);
+  scene.renew({0, 1, 0, 0});
+  ASSERT_EQ(scene.contacts.size(), 4u) << "with both of the other pair, too";
+  EXPECT_EQ(scene.contacts[1].a.solid, 1);
+  EXPECT_EQ(scene.contacts[1].b.solid, 2);
+}
+
+/// Balls that overlap by chance, of which half turn around within the frame: so few of them that the tree is asked, or many.
+TEST(BodyContacts, RenewedOnesAreThoseOfANewSearch) {
+  for (const int every : {10, 2, 1}) {
+    testing_support::Random random(7);
+    Scene once, again;
+    std::vector<char> of;
+    for (int i = 0; i < 400; ++i) {
+      const Vec3d at = testing_support::random_place(random, 1);
+      const Vec3f before = convert<float>(testing_support::random_place(random, 4));
+      const Vec3f after = convert<float>(testing_support::random_place(random, 4));
+      const bool turns = i % every == 0;
+      again.add_ball(0.1f, at, before);
+      once.add_ball(0.1f, at, turns ? after : before);
+      of.push_back(turns ? 1 : 0);
+    }
+    again.update();
+    for (std::size_t i = 0; i < of.size(); ++i) again.states[i].velocity = once.states[i].velocity;
+    again.contacts.clear();
+    again.renew(std::vector<char>(of.size(), 0));
+    EXPECT_TRUE(again.contacts.empty());
+    again.renew(of);
+    once.update();
+    std::size_t found = 0;
+    for (const BodyContact& c : once.contacts) {
+      if (of[std::size_t(c.a.solid)] == 0 && of[std::size_t(c.b.solid)] == 0) continue;
+      ASSERT_LT(found, again.contacts.size());
+      EXPECT_EQ(again.contacts[found].a, c.a);
+      EXPECT_EQ(again.contacts[found].b, c.b);
+      EXPECT_EQ(again.contacts[found++].gap, c.gap);
+    }
+    EXPECT_EQ(found, again.contacts.size());
+    EXPECT_GT(found, 50u);
+  }
+}
+
+/// A State that is restored has a new tree of boxes, and goes on with the same bits.
+TEST(BodyContacts, RenewalDoesNotDependOnWhenTheTreeWasBuilt) {
+  Scene fresh, old;
+  std::vector<char> of{1};
+  for (Scene* scene : {&fresh, &old}) {
+    testing_support::Random random(7);
+    scene->add_ground(-1.2);
+    for (int i = 0; i < 400; ++i) scene->add_ball(0.1f, testing_support::random_place(random, 1));
+  }
+  for (int i = 0; i < 400; ++i)
+    of.push_back(i % 4 == 0 ? 1 : 0);  // so many that with a new tree, which they leave, it is not asked
+  const auto set_speed = [&](Scene& scene, float speed) {
+    for (std::size_t i = 1; i < of.size(); ++i)
+      if (of[i] != 0) scene.states[i].velocity = {speed, 0.5f * speed, 0};
+  };
+  set_speed(old, 30);
+  old.update();
+  old.contacts.clear();
+  for (Scene* scene : {&fresh, &old}) {
+    set_speed(*scene, 0);
+    scene->update();
+    scene->states[0].pose.position.y = -0.9;
+    set_speed(*scene, 30);
+    scene->renew(of);
+  }
+  ASSERT_EQ(fresh.contacts.size(), old.contacts.size());
+  ASSERT_GT(fresh.contacts.size(), 500u);
+  for (std::size_t i = 0; i < old.contacts.size(); ++i) {
+    EXPECT_EQ(fresh.contacts[i].a, old.contacts[i].a);
+    EXPECT_EQ(fresh.contacts[i].b, old.contacts[i].b);
+    EXPECT_EQ(fresh.contacts[i].gap, old.contacts[i].gap);
+  }
+}
+
+}  // namespace
+}  // namespace pliant
