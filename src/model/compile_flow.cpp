@@ -33,6 +33,7 @@ Across across(const Emitter& emitter) {
 std::vector<float> places_along(float size, float distance) {
   const int count = std::max(1, static_cast<int>(std::floor(size / distance * (1 + 1e-5f))));
   std::vector<float> places;
+  places.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) places.push_back(distance * (static_cast<float>(i) - static_cast<float>(count - 1) / 2));
   return places;
 }
