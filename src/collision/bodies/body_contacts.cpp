@@ -52,9 +52,6 @@ bool hardly_turned(const Quatd& now, const BodyContact& contact) {
   return std::fabs(dot(now, convert<double>(contact.turned))) > straight;
 }
 
-/// True for what turns by itself. Its contacts turn with it, so that friction acts along its surface of this frame.
-bool is_driven_round(const BodyState& body) { return body.is_fixed && length_squared(body.spin) > 0; }
-
 void renew_gaps(const Posed& a, const Posed& b, BodyContact& c) {
   for (std::size_t i = 0; i < at(c.count); ++i)
     c.gap[i] = static_cast<float>(dot(convert<double>(c.normal), to_world(b, convert<double>(c.anchor_b[i])) -
@@ -243,7 +240,8 @@ struct BodyContacts::Task {
       const float share = -gap / static_cast<float>(size);
       if (share > found.deepest.share) found.deepest = {one.body, other.body, -gap, share};
     };
-    if (!old.empty() && !a.deforms && !is_driven_round(a) && !is_driven_round(b) &&
+    // Contacts of what turns by itself turn with it, so that friction acts along its surface of this frame.
+    if (!old.empty() && !a.deforms && !a.is_driven_round && !b.is_driven_round &&
         std::all_of(old.begin(), old.end(), stays)) {
       found.pieces.push_back({old, one.body, other.body});
       found.count += old.size();

@@ -21,11 +21,12 @@ struct BodyPart {
 
 /// Where a body is and how it moves at a frame's start.
 struct BodyState {
-  Posed pose{};           ///< from the body's frame to the world
-  Vec3f velocity{};       ///< [m/s]
-  Vec3f spin{};           ///< in world axes, but about axes about which the body is round [rad/s]
-  bool is_fixed = false;  ///< two fixed bodies do not touch
-  bool deforms = false;   ///< a mesh that moves by its vertices, so that no contact with it stays
+  Posed pose{};                  ///< from the body's frame to the world
+  Vec3f velocity{};              ///< [m/s]
+  Vec3f spin{};                  ///< in world axes, but about axes about which the body is round [rad/s]
+  bool is_fixed = false;         ///< two fixed bodies do not touch
+  bool deforms = false;          ///< a mesh that moves by its vertices, so that no contact with it stays
+  bool is_driven_round = false;  ///< it turns by itself, whatever touches it
 };
 
 }  // namespace pliant

@@ -30,11 +30,14 @@ void fetch(const BodyContact& contact) {
     __builtin_prefetch(first + byte);
 }
 
-/// Turns the arm of a body that is driven round by half of what it turns in `left` seconds, so that displacement and friction of linear
-/// motion along the arm follow the chord of its circle, and what rides on a turntable does not drift outward.
-void turn_arm(const BodyState& body, double left, Vec3f& arm) {
-  if (!body.is_fixed) return;
-  const Vec3f half = body.spin * static_cast<float>(left / 2), along = cross(half, arm);
+/// Turns the arm of a body that is driven round by half of what it turns about the contact normal in `left` seconds, so that displacement and
+/// friction of linear motion along the arm follow the chord of its circle, and what rides on a turntable does not drift outward. Spin about
+/// other axes, as of a roller, moves the surface along itself.
+void turn_arm(const BodyState& body, const Vec3f& normal, double left, Vec3f& arm) {
+  constexpr float largest = 0.5f;  // beyond which the series is wrong [rad]
+  if (!body.is_driven_round) return;
+  const float angle = std::clamp(dot(body.spin, normal) * static_cast<float>(left / 2), -largest, largest);
+  const Vec3f half = normal * angle, along = cross(half, arm);
   arm += along + cross(half, along) * 0.5f;
 }
 
@@ -78,8 +81,8 @@ void BodySolver::make_manifolds(const Substep& s) {
   blocks_.fill(executor, colours_, contacts_.is_fixed(), prefetch, [&](int i) {
     const auto& [a, b] = bodies_of[at(i)];
     Manifold m = manifold_of(contacts_.all()[at(i)], a, b, bodies_.material(s.model, a, b), s.h);
-    turn_arm(contacts_.states()[at(a)], left, m.arm_a);
-    turn_arm(contacts_.states()[at(b)], left, m.arm_b);
+    turn_arm(contacts_.states()[at(a)], m.normal, left, m.arm_a);
+    turn_arm(contacts_.states()[at(b)], m.normal, left, m.arm_b);
     return m;
   });
   blocks_.prepare(executor, s.kernels.manifolds, motions_.all());

@@ -28,7 +28,9 @@ void FrameContacts::read_states(const Substep& s) {
   is_fixed_.clear();
   for (int place = 0; place < static_cast<int>(bodies_->places().size()); ++place) {
     states_.push_back(bodies_->state_at_start(s, place));
-    is_fixed_.push_back(states_.back().is_fixed ? 1 : 0);
+    BodyState& state = states_.back();
+    state.is_driven_round = state.is_fixed && length_squared(state.spin) > 0;
+    is_fixed_.push_back(state.is_fixed ? 1 : 0);
   }
 }
 

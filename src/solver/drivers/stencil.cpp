@@ -12,8 +12,10 @@ namespace {
 /// Colours with fewer batches run on one thread, because waking others takes longer.
 constexpr int fewest_batches_to_share = 8;
 
-bool are_ties(const CompiledObject& object, const Task& task) {
-  return constraint_type(object.pools[object.segments[task.item].pool].type).is_tie;
+/// True for ties that project_ties begins, of the objects with 1 in `of`.
+bool begin_early(const std::vector<char>& of, const CompiledObject& object, const Task& task) {
+  return of[task.object] != 0 && solves_chains(object.sweep) &&
+         constraint_type(object.pools[object.segments[task.item].pool].type).is_tie;
 }
 
 void project(Substep& s, const Task& task, bool first) {
@@ -27,7 +29,7 @@ void project_stencils(Substep& s, const Phase& phase, const Pass& pass) {
   for_tasks(s, phase, "solve: stencils", fewest_batches_to_share, [&](const Task& task) {
     const CompiledObject& object = s.model.objects[task.object];
     if (pass.number >= sweep_method(object.sweep).passes) return;
-    const bool has_begun = pass.tied != nullptr && (*pass.tied)[task.object] != 0 && are_ties(object, task);
+    const bool has_begun = pass.tied != nullptr && begin_early(*pass.tied, object, task);
     project(s, task, pass.first && !has_begun);
   });
 }
@@ -36,8 +38,7 @@ void project_ties(Substep& s, const std::vector<char>& of) {
   for (const Phase& phase : s.phases()) {
     if (phase.driver != Driver::stencil) continue;
     for_tasks(s, phase, "solve: stencils", fewest_batches_to_share, [&](const Task& task) {
-      const CompiledObject& object = s.model.objects[task.object];
-      if (of[task.object] != 0 && solves_chains(object.sweep) && are_ties(object, task)) project(s, task, true);
+      if (begin_early(of, s.model.objects[task.object], task)) project(s, task, true);
     });
   }
 }
