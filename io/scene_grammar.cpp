@@ -141,7 +141,10 @@ const Record& liquid_record() {
              "By which it yields to a pressure p: by p / (density c^2). 0: it does not yield."),
        field("viscosity", number("Pa s", 0, 1e6), "that of `kind`, else 0",
              "Dynamic viscosity: water 0.001, honey 10. 0: none. A liquid with viscosity does not slip along colliders and "
-             "bodies.")},
+             "bodies."),
+       field("surface_tension", number("N/m", 0, 1e6), 0.f,
+             "Surface tension towards air: water 0.072, oil 0.03. 0: none. It needs substeps of at most about 0.05 "
+             "sqrt(density spacing^3 / surface_tension).")},
       {"fill", "positions"}};
   return result;
 }

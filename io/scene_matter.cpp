@@ -117,6 +117,7 @@ BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const s
   set(at, "density", options.fluid.density);
   set(at, "speed_of_sound", options.fluid.speed_of_sound);
   set(at, "viscosity", options.fluid.viscosity);
+  set(at, "surface_tension", options.fluid.surface_tension);
   return {make_liquid(places_of({document, folder, name, repairs, options.fluid.spacing}, at), options)};
 }
 

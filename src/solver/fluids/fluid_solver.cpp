@@ -66,6 +66,8 @@ FluidSolver::FluidSolver(const Model& model, const std::vector<int>* objects) {
     p.law = fluid_law(object.fluid->spacing);
     p.softness = fluid_compliance(object.fluid->speed_of_sound);
     p.viscosity.add(object.fluid->viscosity, object.particles);
+    const float spacing = object.fluid->spacing;
+    p.tension.add(object.fluid->surface_tension, object.fluid->density * spacing * spacing * spacing, object.particles);
     for (int i = model.first[at(o)]; i < model.end_of(o); ++i) p.points.push_back(i);
   };
   const auto densities = [&](FluidPool& p) {
@@ -90,6 +92,7 @@ void FluidSolver::begin_frame() {
   for (auto& pool : pools_) {
     pool->age = -1;
     pool->viscosity.begin_frame();
+    pool->tension.begin_frame();
   }
 }
 
@@ -99,6 +102,7 @@ void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
   for_all(s, "neighbours: order", static_cast<int>(by_point.size()),
           [&](int i) { by_point[at(i)] = predicted(s, pool.points[at(i)]); });
   pool.neighbours.find(s.context.executor, s.kernels.neighbours, by_point, pool.law.reach);
+  pool.tension.find_neighbours(s, pool, by_point);
   const std::vector<std::int32_t>& order = pool.neighbours.order().points();
   const std::size_t padded = at(pool.neighbours.nobody()) + NeighbourLists::lanes;
   pool.of_slot.resize(order.size());
@@ -137,9 +141,11 @@ void FluidSolver::find_lightness(const State& state, FluidPool& pool) const {
 
 void FluidSolver::collide(Substep& s) {
   for (auto& pool : pools_) {
-    if (pool->age >= 0 && ++pool->age < oldest_neighbours) continue;
-    find_neighbours(s, *pool);
-    pool->age = 0;
+    if (pool->age < 0 || ++pool->age >= oldest_neighbours) {
+      find_neighbours(s, *pool);
+      pool->age = 0;
+    }
+    pool->tension.act(s, *pool);
   }
 }
 
@@ -185,6 +191,12 @@ void FluidSolver::project(Substep& s, bool is_first) {
 ViscositySolves FluidSolver::viscosity() const {
   ViscositySolves all;
   for (const auto& pool : pools_) all += pool->viscosity.solves();
+  return all;
+}
+
+TensionActs FluidSolver::tension() const {
+  TensionActs all;
+  for (const auto& pool : pools_) all += pool->tension.acts();
   return all;
 }
 
