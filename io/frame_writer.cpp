@@ -34,11 +34,31 @@ void require_fitting(const std::string& path, const Object& object, int particle
       refuse(path, object.name, "body '" + body.name + "'", "uses a particle or frame that does not exist");
 }
 
+/// Keeps the particles that are there; or if a format cannot, hides the others in the first that is there.
+void leave_out_absent(const std::vector<int>& present, bool keeps_number, std::vector<Vec3f>& positions,
+                      std::vector<Vec3f>& velocities) {
+  std::vector<Vec3f> places(keeps_number ? positions.size() : 0,
+                            positions.at(present.empty() ? 0 : static_cast<std::size_t>(present.front()))),
+      speeds(places.size());
+  for (const int i : present) {
+    const auto particle = static_cast<std::size_t>(i);
+    if (keeps_number) {
+      places[particle] = positions[particle];
+      speeds[particle] = velocities[particle];
+    } else {
+      places.push_back(positions[particle]);
+      speeds.push_back(velocities[particle]);
+    }
+  }
+  positions = std::move(places);
+  velocities = std::move(speeds);
+}
+
 class WorldWriter final : public FrameWriter {
  public:
   WorldWriter(std::unique_ptr<output::FormatWriter> format, const Scene& scene, std::vector<ObjectId> objects,
-              const FrameWriterOptions& options)
-      : format_(std::move(format)), objects_(std::move(objects)) {
+              const FrameWriterOptions& options, bool has_all_points)
+      : format_(std::move(format)), objects_(std::move(objects)), has_all_points_(has_all_points) {
     for (const Object& object : scene.objects) {
       spacings_.push_back(object.fluid && options.liquid_surfaces ? object.fluid->spacing : 0);
       Object part;
@@ -53,7 +73,7 @@ class WorldWriter final : public FrameWriter {
     output::Frame frame{.time = world.state().time, .positions = {}, .velocities = {}, .number = world.state().frame};
     for (std::size_t o = 0; o < objects_.size(); ++o) {
       const ObjectView object = world.object(objects_[o]);
-      add_matter(object, spacings_[o], world.threads(), frame);
+      add_matter(object, spacings_[o], {world.threads(), has_all_points_}, frame);
       if (has_bodies_) frame.bodies.push_back(output::body_motions(bodies_[o], object));
     }
     format_->add(frame);
@@ -64,17 +84,23 @@ class WorldWriter final : public FrameWriter {
 
  private:
   /// Adds the particles of an object, or if it has a spacing the surface of its liquid.
-  static void add_matter(const ObjectView& object, float spacing, int threads, output::Frame& frame) {
+  struct How {
+    int threads = 1;
+    bool has_all_points = false;
+  };
+  static void add_matter(const ObjectView& object, float spacing, const How& how, output::Frame& frame) {
     if (spacing == 0) {
       frame.positions.push_back(object.positions());
       frame.velocities.push_back(object.velocities());
+      if (object.flows())
+        leave_out_absent(object.present(), how.has_all_points, frame.positions.back(), frame.velocities.back());
       frame.triangles.emplace_back();
       return;
     }
     SurfaceOptions options;
     options.spacing = spacing;
-    options.threads = threads;
-    TriangleMesh mesh = liquid_surface(object.positions(), options);
+    options.threads = how.threads;
+    TriangleMesh mesh = liquid_surface(object.present_positions(), options);
     frame.positions.push_back(std::move(mesh.positions));
     frame.velocities.emplace_back();
     frame.triangles.push_back(std::move(mesh.triangles));
@@ -85,6 +111,7 @@ class WorldWriter final : public FrameWriter {
   std::vector<Object> bodies_;     ///< for each object, which particles and frames are bodies
   std::vector<float> spacings_;    ///< for each object, that of its liquid if its surface is written, else 0 [m]
   bool has_bodies_ = false;
+  bool has_all_points_ = false;  ///< the format has the same number of points in each frame
 };
 
 }  // namespace
@@ -103,8 +130,12 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
   output::Objects objects = output::describe(scene);
   for (std::size_t o = 0; o < objects.size(); ++o)
     objects[o].is_remeshed = options.liquid_surfaces && scene.objects[o].fluid.has_value();
+  const auto parts = output::split_path(path);
+  const bool has_all_points = parts.suffix == ".glb" || parts.suffix == ".pc2";
+  for (std::size_t o = 0; o < objects.size() && !has_all_points; ++o)
+    objects[o].varies = !objects[o].is_remeshed && scene.objects[o].flow.is_used();
   return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time), scene, world.objects(),
-                                       options);
+                                       options, has_all_points);
 }
 
 }  // namespace pliant

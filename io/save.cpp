@@ -29,11 +29,12 @@ constexpr std::string_view orientations_block = "state.orientations", spins_bloc
                            poses_block = "state.held_poses", substeps_block = "state.substeps",
                            contacts_block = "state.body_contacts", breaks_block = "state.broken_joints",
                            motors_block = "state.motors", rest_block = "state.rest_times",
-                           grains_block = "state.grain_contacts";
+                           grains_block = "state.grain_contacts", births_block = "state.births",
+                           emitted_block = "state.emitted";
 const std::vector<std::string_view> state_blocks{
-    time_block,         frame_block,  blocks_block,   positions_block, remainders_block, velocities_block,
-    orientations_block, spins_block,  inertias_block, channels_block,  poses_block,      substeps_block,
-    contacts_block,     breaks_block, motors_block,   rest_block,      grains_block};
+    time_block,   frame_block,    blocks_block,   positions_block, remainders_block, velocities_block, orientations_block,
+    spins_block,  inertias_block, channels_block, poses_block,     substeps_block,   contacts_block,   breaks_block,
+    motors_block, rest_block,     grains_block,   births_block,    emitted_block};
 constexpr std::string_view fingerprint_blocks[] = {"fingerprint.scene", "fingerprint.settings"};
 constexpr std::string_view scene_block = "scene", settings_block = "settings", layout_block = "layout";
 
@@ -65,7 +66,7 @@ struct Columns {
 /// written.
 std::vector<Block> blocks_of(const State& state, Columns& columns) {
   const auto& [time, frame, object_blocks, positions, remainders, velocities, frames, channels, held_poses, substeps,
-               broken_joints, motors, body_contacts, rest_times, grain_contacts] = state;
+               broken_joints, motors, body_contacts, rest_times, grain_contacts, births, emitted] = state;
   const auto bytes = [](std::string_view name, const std::string& column) {
     return Block{name, Type::bytes, 1, column.size(), column.data()};
   };
@@ -98,6 +99,9 @@ std::vector<Block> blocks_of(const State& state, Columns& columns) {
     blocks.push_back({rest_block, Type::float32, sizeof(float), rest_times.size(), rest_times.data()});
   if (!grain_contacts.empty())
     blocks.push_back({grains_block, Type::bytes, 1, grain_contacts.size() * sizeof(GrainContact), grain_contacts.data()});
+  if (!births.empty()) blocks.push_back({births_block, Type::float64, sizeof(double), births.size(), births.data()});
+  if (!emitted.empty())
+    blocks.push_back({emitted_block, Type::bytes, 1, emitted.size() * sizeof(EmittedLayers), emitted.data()});
   return blocks;
 }
 
@@ -134,7 +138,7 @@ void read_list(const Contents& from, std::string_view name, std::vector<T>& list
 State state_in(const Contents& from) {
   State state;
   auto& [time, frame, blocks, positions, remainders, velocities, frames, channels, held_poses, substeps, broken_joints,
-         motors, body_contacts, rest_times, grain_contacts] = state;
+         motors, body_contacts, rest_times, grain_contacts, births, emitted] = state;
   read(from, time_block, Type::float64, time);
   read(from, frame_block, Type::int64, frame);
   blocks = read_bytes<std::vector<StateBlock>>(from, blocks_block);
@@ -156,6 +160,12 @@ State state_in(const Contents& from) {
   if (from.has(contacts_block)) read_list(from, contacts_block, body_contacts);
   if (from.has(rest_block)) read(from, rest_block, rest_times);
   if (from.has(grains_block)) read_list(from, grains_block, grain_contacts);
+  if (from.has(births_block)) {
+    const Block& block = from.block(births_block, Type::float64, sizeof(double));
+    births.resize(block.count);
+    if (block.count > 0) std::memcpy(births.data(), block.data, block.count * sizeof(double));
+  }
+  if (from.has(emitted_block)) read_list(from, emitted_block, emitted);
   return state;
 }
 

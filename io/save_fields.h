@@ -139,13 +139,29 @@ void fields(A& a, Is<Tracers> auto& of) {
   a.aside(opacity);
 }
 template <class A>
+void fields(A& a, Is<Emitter> auto& of) {
+  auto& [name, position, direction, across, radius, width, height, speed, flow, start, end, motion] = of;
+  a(name, position, direction, across, radius, width, height, speed, flow, start, end, motion);
+}
+template <class A>
+void fields(A& a, Is<Drain> auto& of) {
+  auto& [name, shape, position, rotation] = of;
+  a(name, shape, position, rotation);
+}
+template <class A>
+void fields(A& a, Is<Flow> auto& of) {
+  auto& [emitters, drains, lifetime, spare] = of;
+  a(emitters, drains, lifetime, spare);
+}
+template <class A>
 void fields(A& a, Is<Object> auto& of) {
   auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains,
-         clusters, gas, tracers, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction,
-         kinetic_friction, restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping, colour] = of;
+         clusters, gas, tracers, flow, pins, attachments, thickness, self_collision, collides, groups, mask,
+         static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping,
+         colour] = of;
   a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, clusters,
-    gas, tracers, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction, kinetic_friction,
-    restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping);
+    gas, tracers, flow, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction,
+    kinetic_friction, restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping);
   a.aside(colour);
 }
 template <class A>

@@ -149,24 +149,6 @@ Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFo
   return std::move(built.object);
 }
 
-Shape shape_of(const JsonValue& at) {
-  if (at.key == "plane") return Plane{};
-  if (at.key == "sphere") {
-    Sphere sphere;
-    set(at, "radius", sphere.radius);
-    return sphere;
-  }
-  if (at.key == "capsule") {
-    Capsule capsule;
-    set(at, "radius", capsule.radius);
-    set(at, "half_length", capsule.half_length);
-    return capsule;
-  }
-  Box box;
-  set(at, "half_extents", box.half_extents);
-  return box;
-}
-
 Collider collider_of(const JsonDocument& document, const JsonValue& at, Names& names) {
   Collider collider;
   const JsonValue& shape = one_of(at, {"plane", "sphere", "capsule", "box"});

@@ -21,6 +21,12 @@ struct BuiltObject {
 BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, const std::string& name,
                          const MeshFolder& folder, std::vector<std::string>& repairs);
 
+/// How the particles of a record "liquid" or "grains" come and go.
+Flow particle_flow(const JsonDocument& document, const JsonValue& at);
+
+/// The shape of a record "plane", "sphere", "capsule" or "box".
+Shape shape_of(const JsonValue& at);
+
 /// Builds an object of rigid bodies. `list` is the member "bodies".
 Object build_bodies(const JsonDocument& document, const JsonValue& list, const std::string& name, const MeshFolder& folder,
                     std::vector<std::string>& repairs);

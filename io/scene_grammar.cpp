@@ -121,6 +121,36 @@ const Record& fill_record() {
   return result;
 }
 
+const Record& emitter_record() {
+  static const Record result{
+      "emitter",
+      "Emits layers of particles through a flat opening. It holds two layers behind the opening, where there must be room.",
+      {field("name", string(), "emitter", "Name."), field("position", place(), Vec3f{}, "Centre of the opening."),
+       field("direction", vector("-", largest_place), Emitter{}.direction, "Of what it emits; any length but zero."),
+       field("across", vector("-", largest_place), "level", "Along the width of a rectangle."),
+       either("radius", positive("m", largest_place), "Radius of a round opening."),
+       either("size", list(positive("m", largest_place), 2, 2), "Width and height of a rectangle."),
+       field("speed", positive("m/s", 1e4), "that of `flow`", "Speed through the opening. Give it or `flow`."),
+       field("flow", positive("m^3/s", 1e6), "that of `speed`", "Volume of particles a second."),
+       field("start", number("s", 0), Emitter{}.start, "When it begins."),
+       field("end", number("s", 0), "never", "When it ends."),
+       field("motion", record(motion_record()), "none", "Motion of the opening; its velocity adds to the speed.")},
+      {"radius", "size"}};
+  return result;
+}
+
+const Record& drain_record() {
+  static const Record result{
+      "drain",
+      "A solid that takes away particles whose centre is in it when a frame begins.",
+      {field("name", string(), "drain", "Name."), either("plane", record(plane_record()), "A half-space."),
+       either("sphere", record(sphere_record()), "A ball."), either("capsule", record(capsule_record()), "A capsule."),
+       either("box", record(box_record()), "A box."), field("position", place(), Vec3f{}, "Position of its frame."),
+       field("rotation", record(rotation_record()), "none", "Rotation of its frame.")},
+      {"plane", "sphere", "capsule", "box"}};
+  return result;
+}
+
 namespace {
 std::vector<std::string> liquid_names() {
   std::vector<std::string> names;
@@ -132,8 +162,9 @@ const Record& liquid_record() {
   static const Record result{
       "liquid",
       "A liquid of particles. Liquids with the same spacing, speed of sound, groups and mask mix; others do not meet.",
-      {either("fill", record(fill_record()), "The box or mesh that it fills at the start."),
-       either("positions", list(place(), 1), "Positions of the particles at the start, about a spacing apart."),
+      {field("fill", record(fill_record()), "none", "The box or mesh that it fills at the start."),
+       field("positions", list(place(), 1), "none",
+             "Instead of `fill`: positions of the particles at the start, about a spacing apart."),
        field("spacing", positive("m", largest_place), Fluid{}.spacing, "Distance of particles at rest."),
        field("kind", choice(liquid_names()), "none", "A real liquid, whose density and viscosity are the defaults."),
        field("density", positive("kg/m^3"), "that of `kind`, else 1000", "Density at rest."),
@@ -144,8 +175,12 @@ const Record& liquid_record() {
              "bodies."),
        field("surface_tension", number("N/m", 0, 1e6), 0.f,
              "Surface tension towards air: water 0.072, oil 0.03. 0: none. It needs substeps of at most about 0.05 "
-             "sqrt(density spacing^3 / surface_tension).")},
-      {"fill", "positions"}};
+             "sqrt(density spacing^3 / surface_tension)."),
+       field("capacity", integer(1, 1 << 26), "those at the start", "Most particles that are there at a time."),
+       field("emitters", list(record(emitter_record())), "none", "What adds particles; needs a `capacity`."),
+       field("drains", list(record(drain_record())), "none", "Solids that take particles away, as each frame begins."),
+       field("lifetime", positive("s"), "for ever", "How long each particle stays.")},
+      {}};
   return result;
 }
 
@@ -153,14 +188,19 @@ const Record& grains_record() {
   static const Record result{
       "grains",
       "Sand or gravel: spheres with friction, which do not turn. Those whose objects meet by groups and masks touch.",
-      {either("fill", record(fill_record()), "The box or mesh that it fills at the start, a diameter apart."),
-       either("positions", list(place(), 1), "Centres of the grains at the start, a diameter or more apart."),
+      {field("fill", record(fill_record()), "none", "The box or mesh that it fills at the start, a diameter apart."),
+       field("positions", list(place(), 1), "none",
+             "Instead of `fill`: centres of the grains at the start, a diameter or more apart."),
        field("radius", positive("m", largest_place), Grains{}.radius, "Radius of each grain."),
        field("density", positive("kg/m^3"), Grains{}.density, "Density of the solid, not of the bulk with its voids."),
        field("friction", number("-", 0, 1000), Grains{}.friction,
              "Coefficient of friction of the bulk: tangent of the angle of repose. It is also the default friction with "
-             "colliders.")},
-      {"fill", "positions"}};
+             "colliders."),
+       field("capacity", integer(1, 1 << 26), "those at the start", "Most particles that are there at a time."),
+       field("emitters", list(record(emitter_record())), "none", "What adds particles; needs a `capacity`."),
+       field("drains", list(record(drain_record())), "none", "Solids that take particles away, as each frame begins."),
+       field("lifetime", positive("s"), "for ever", "How long each particle stays.")},
+      {}};
   return result;
 }
 

@@ -5,12 +5,12 @@
 
 namespace pliant::scene_file {
 
-namespace {
-
 const Record& plane_record() {
   static const Record result{"plane", "The half-space y <= 0 of its frame is solid.", {}, {}};
   return result;
 }
+
+namespace {
 
 constexpr const char* mesh_meaning =
     "A static or kinematic surface, closed or open, that collides on both sides. `position` and `rotation` apply after the "

@@ -20,6 +20,7 @@ const Record& gas_record();
 const Record& tracers_record();
 
 // Defined in scene_grammar_colliders.cpp.
+const Record& plane_record();
 const Record& sphere_record();
 const Record& capsule_record();
 const Record& box_record();

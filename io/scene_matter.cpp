@@ -92,6 +92,9 @@ std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at) {
   std::vector<Vec3f> positions;
   for (const JsonValue& position : elements(at, "positions")) positions.push_back(vector_of(position));
   const JsonValue* fill = at.find("fill");
+  if (fill == nullptr && positions.empty() && at.find("emitters") == nullptr)
+    by.document.fail(at, "has no particles", "give 'fill', 'positions' or 'emitters'");
+  if (fill != nullptr && !positions.empty()) by.document.fail_key(*fill, "is given with 'positions'", "give one of them");
   if (fill == nullptr) return positions;
   if (fill->find("mesh") != nullptr) return places_in_mesh(by, *fill);
   if (fill->find("max") == nullptr) by.document.fail(*fill, "has 'min' without 'max'", "give both corners of the box");
@@ -103,6 +106,17 @@ std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at) {
 }
 
 namespace {
+
+/// Reads how particles come and go.
+template <class Options>
+void set_flow(const JsonDocument& document, const JsonValue& at, Options& options) {
+  options.flow = particle_flow(document, at);
+  set(at, "capacity", options.capacity);
+  if (const JsonValue* emitters = at.find("emitters"); emitters != nullptr && options.capacity == 0)
+    document.fail_key(*emitters, "need a 'capacity'", "say how many particles may be there at a time");
+  if (options.capacity > largest_scene)
+    document.fail(*at.find("capacity"), "more than " + std::to_string(largest_scene) + " particles", "give fewer");
+}
 
 BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
                       std::vector<std::string>& repairs) {
@@ -118,6 +132,7 @@ BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const s
   set(at, "speed_of_sound", options.fluid.speed_of_sound);
   set(at, "viscosity", options.fluid.viscosity);
   set(at, "surface_tension", options.fluid.surface_tension);
+  set_flow(document, at, options);
   return {make_liquid(places_of({document, folder, name, repairs, options.fluid.spacing}, at), options)};
 }
 
@@ -128,6 +143,7 @@ BuiltObject grains_of(const JsonDocument& document, const JsonValue& at, const s
   set(at, "radius", options.grains.radius);
   set(at, "density", options.grains.density);
   set(at, "friction", options.grains.friction);
+  set_flow(document, at, options);
   return {make_grains(places_of({document, folder, name, repairs, 2 * options.grains.radius}, at), options)};
 }
 

@@ -137,12 +137,17 @@ bool is_any_remeshed(const std::vector<FrameObject>& objects) {
   return std::any_of(objects.begin(), objects.end(), [](const FrameObject& object) { return object.is_remeshed; });
 }
 
+bool is_any_varying(const std::vector<FrameObject>& objects) {
+  return std::any_of(objects.begin(), objects.end(),
+                     [](const FrameObject& object) { return object.is_remeshed || object.varies; });
+}
+
 std::vector<FrameObject> present_objects(const std::vector<FrameObject>& objects, const Frame& frame) {
   std::vector<FrameObject> result = objects;
   for (std::size_t i = 0; i < result.size(); ++i) {
-    if (!result[i].is_remeshed) continue;
+    if (!result[i].is_remeshed && !result[i].varies) continue;
     result[i].particles = static_cast<int>(frame.positions[i].size());
-    result[i].triangles = frame.triangles[i];
+    if (result[i].is_remeshed) result[i].triangles = frame.triangles[i];
   }
   return result;
 }
@@ -155,7 +160,7 @@ void check_frame(const std::string& path, const std::vector<FrameObject>& object
     const std::vector<Vec3f>& positions = frame.positions[i];
     const bool is_mesh = objects[i].is_remeshed;
     const bool fits = is_mesh ? frame.triangles.size() == objects.size()
-                              : static_cast<int>(positions.size()) == objects[i].particles &&
+                              : (objects[i].varies || static_cast<int>(positions.size()) == objects[i].particles) &&
                                     (frame.velocities.empty() || frame.velocities[i].size() == positions.size());
     if (!fits) refuse(path, objects[i].name, {}, "a frame has another number of particles than the scene");
     const auto bad = std::find_if_not(positions.begin(), positions.end(), finite);

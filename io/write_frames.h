@@ -39,6 +39,7 @@ struct FrameObject {
   std::vector<TriangleMesh> solids{};   ///< surfaces of bodies, each in the body's principal axes about its centre of mass
   std::vector<FrameBody> bodies{};
   bool is_remeshed = false;  ///< true: a surface that is another mesh in each frame (Frame::triangles)
+  bool varies = false;       ///< true: points, of which each frame has as many as are there
 
   /// True if the object has particles to show that are no centres of bodies.
   bool has_matter() const { return bodies.empty() || !triangles.empty() || !lines.empty(); }
@@ -89,7 +90,9 @@ FrameObject describe(const Object& object);
 
 /// True if a mesh differs from frame to frame.
 bool is_any_remeshed(const std::vector<FrameObject>& objects);
-/// The objects with the meshes of a frame.
+/// True if the number of particles of an object differs from frame to frame.
+bool is_any_varying(const std::vector<FrameObject>& objects);
+/// The objects with the meshes and numbers of particles of a frame.
 std::vector<FrameObject> present_objects(const std::vector<FrameObject>& objects, const Frame& frame);
 
 /// The motions of all bodies of an object of a World.

@@ -62,7 +62,7 @@ class ObjSequence final : public SequenceWriter {
     append(text, frame.time);
     file.write(text + " s, lengths in metres\n");
     const std::vector<std::string> names = identifiers(objects());
-    if (is_any_remeshed(objects())) elements_ = elements(present_objects(objects(), frame));
+    if (is_any_varying(objects())) elements_ = elements(present_objects(objects(), frame));
     for (std::size_t o = 0; o < objects().size(); ++o) {
       file.write("o " + names[o] + "\n" + obj_vertices(frame.positions[o]));
       file.write(elements_[o]);
@@ -121,7 +121,7 @@ class PlySequence final : public SequenceWriter {
   }
 
   void write(AtomicFile& file, const Frame& frame) override {
-    if (is_any_remeshed(objects())) describe(present_objects(objects(), frame));
+    if (is_any_varying(objects())) describe(present_objects(objects(), frame));
     file.write(header_);
     for (std::size_t o = 0; o < objects().size(); ++o) {
       const auto colour = bytes(objects()[o].colour);

@@ -136,18 +136,18 @@ class PvdWriter final : public FormatWriter {
   }
 
  private:
-  /// What the frame has of an object that is remeshed.
-  static Frame mesh_of(const Frame& frame, std::size_t o) {
+  /// What the frame has of an object that varies.
+  static Frame part_of(const Frame& frame, std::size_t o) {
     Frame result;
     result.positions = {frame.positions[o]};
-    result.triangles = {frame.triangles[o]};
+    if (!frame.triangles.empty()) result.triangles = {frame.triangles[o]};
     return result;
   }
 
   void write_piece(const std::string& name, const Frame& frame, std::size_t o) {
     AtomicFile file(folder_ + "/" + name);
-    if (objects_[o].is_remeshed)
-      pieces_[o] = Piece(pieces_[o].name, present_objects({objects_[o]}, mesh_of(frame, o)).front());
+    if (objects_[o].is_remeshed || objects_[o].varies)
+      pieces_[o] = Piece(pieces_[o].name, present_objects({objects_[o]}, part_of(frame, o)).front());
     file.write(pieces_[o].head);
     if (!frame.velocities.empty() && !objects_[o].is_remeshed)
       file.write("<PointData Vectors=\"velocity\">\n" + array("Float32", "velocity", 3, frame.velocities[o]) +

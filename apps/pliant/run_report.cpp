@@ -94,6 +94,14 @@ Json compression_json(const Scene& scene, const Compression& last, const Compres
           {"crowded", last.crowded}};
 }
 
+/// How many particles came and went in all frames; null if none can.
+Json flow_json(const Scene& scene, const FlowReport& flow) {
+  const auto flows = [](const Object& object) { return object.flow.is_used(); };
+  if (std::none_of(scene.objects.begin(), scene.objects.end(), flows)) return nullptr;
+  return {{"emitted", flow.emitted}, {"drained", flow.drained}, {"expired", flow.expired},
+          {"refused", flow.refused}, {"blocked", flow.blocked}, {"present", flow.present}};
+}
+
 std::size_t body_count(const Scene& scene) {
   std::size_t count = 0;
   for (const Object& object : scene.objects) count += object.bodies.size();
@@ -146,6 +154,12 @@ void RunReport::add(const Report& report, const World& world) {
     frame_of_tie_ = report.frame;
   }
   add(report.compression, report.frame);
+  flow_.emitted += report.flow.emitted;
+  flow_.drained += report.flow.drained;
+  flow_.expired += report.flow.expired;
+  flow_.refused += report.flow.refused;
+  flow_.blocked += report.flow.blocked;
+  flow_.present = report.flow.present;
   iterations_.mean += report.iterations.mean;
   milliseconds_.push_back(report.milliseconds);
   most_substeps_ = std::max(most_substeps_, report.substeps);
@@ -226,6 +240,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["p99_stretch"] = stretch.p99;
   json["overstretch"] = overstretch_json(last_);
   json["widest_tie"] = tie_json(world, widest_tie_, frame_of_tie_);
+  json["flow"] = flow_json(scene, flow_);
   json["compression"] = compression_json(scene, last_.compression, worst_compression_, frame_of_mean_, frame_of_largest_);
   json["nonfinite"] = nonfinite_json(last_);
   json["warnings"] = warnings();

@@ -45,6 +45,7 @@ class RunReport {
   std::int64_t sum_of_substeps_ = 0;
   TieGap widest_tie_;  ///< of any frame
   std::int64_t frame_of_tie_ = 0;
+  FlowReport flow_;                ///< sums over frames; `present` of the last frame
   Compression worst_compression_;  ///< the largest mean and the largest maximum of any frame
   std::int64_t frame_of_mean_ = 0, frame_of_largest_ = 0;
   PairReport pairs_;  ///< candidates, contacts and intersections of the last frame; other counts summed

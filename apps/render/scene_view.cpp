@@ -177,7 +177,7 @@ void add_smoke(RenderScene& result, const Object& object, const ObjectView& view
 
 void add_object(RenderScene& result, const Object& object, const ObjectView& view) {
   const output::FrameObject shape = output::describe(object);
-  std::vector<Vec3f> positions = view.positions();
+  std::vector<Vec3f> positions = view.present_positions();
   add_bodies(result, object, shape, view);
   add_threads(result, object, view);
   if (!shape.has_matter()) return;

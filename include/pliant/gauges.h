@@ -67,7 +67,12 @@ class Gauges {
     ObjectId object;
     double spacing = 0;  ///< [m]
     std::vector<Vec3f> positions, before;
+    std::vector<double> ages;  ///< ObjectView::ages(); empty if its particles do not come and go
   };
+
+  /// Calls body(place, spacing) for the particles of a liquid that are there.
+  template <class Body>
+  static void for_present(const Liquid& liquid, const Body& body);
 
   double value(const World& world, std::size_t gauge) const;
   double flow(const FlowGauge& through, const std::vector<int>& of) const;

@@ -13,6 +13,8 @@ struct GrainsOptions {
   std::string name = "grains";
   Grains grains{};
   Vec3f velocity{};  ///< at the start [m/s]
+  Flow flow{};       ///< how particles come and go; `spare` follows from the capacity
+  int capacity = 0;  ///< most particles that are there at a time, up to 2^26; 0: those at the start
 };
 
 /// Makes grains with centres at given places, a diameter or more apart: fill_box of pliant/liquid.h gives such places. Each has the mass of

@@ -53,6 +53,13 @@ class ObjectView {
   std::vector<Vec3f> velocities() const;  ///< in the user's order [m/s]
   /// A channel of the State, as "temperature" of a gas: the values of the particles in the user's order. Empty if there is none.
   std::vector<float> channel(const std::string& name) const;
+  /// The particles that are there, ascending: all, unless particles of the object come and go (Flow). Others have the place at which they
+  /// went, or will not be seen before they are emitted.
+  std::vector<int> present() const;
+  std::vector<Vec3f> present_positions() const;  ///< of these [m]
+  bool flows() const;                            ///< true if particles of the object come and go
+  /// For how long each particle has been there [s]; negative: it has not left its opening yet, or (-1) is not there.
+  std::vector<double> ages() const;
   /// The orientations of the frames, in the order of Object::frames.
   std::vector<Quatf> orientations() const;
   std::vector<Vec3f> angular_velocities() const;  ///< in world axes, in the order of Object::frames [rad/s]

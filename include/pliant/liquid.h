@@ -29,6 +29,8 @@ struct LiquidOptions {
   std::string name = "liquid";
   Fluid fluid{};
   Vec3f velocity{};  ///< at the start [m/s]
+  Flow flow{};       ///< how particles come and go; `spare` follows from the capacity
+  int capacity = 0;  ///< most particles that are there at a time, up to 2^26; 0: those at the start
 };
 
 /// The points of a cubic lattice that fill a box: as many as fit, centred, half a spacing from its faces.

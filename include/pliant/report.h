@@ -81,6 +81,16 @@ struct IterationCount {
   double mean = 0;
 };
 
+/// How many particles of liquids and grains came and went in a step (Flow).
+struct FlowReport {
+  std::int64_t emitted = 0;
+  std::int64_t drained = 0;
+  std::int64_t expired = 0;  ///< their lifetime was over
+  std::int64_t refused = 0;  ///< not emitted, because all particles of the object were there
+  std::int64_t blocked = 0;  ///< not emitted, because a particle of the object was in the way
+  std::int64_t present = 0;  ///< particles that are there at the step's end, of objects whose particles come or go
+};
+
 /// Statistics of contact between surfaces, including mesh colliders.
 struct PairReport {
   std::int64_t candidates = 0;              ///< pairs of primitives in lists: mesh neighbours, and pairs found near
@@ -190,6 +200,7 @@ struct Report {
   Compression compression;                     ///< of liquids
   ViscositySolves viscosity;                   ///< of liquids
   TensionActs tension;                         ///< of liquids
+  FlowReport flow;                             ///< of liquids and grains whose particles come and go
   int sleeping_bodies = 0;                     ///< rigid bodies that sleep at the end of the step (SleepOptions)
   std::vector<JointBreak> broken_joints;       ///< joints that broke in this step, by object and index
   std::optional<NonFinite> nonfinite;

@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "pliant/flow.h"
 #include "pliant/formula.h"
 #include "pliant/material.h"
 #include "pliant/mesh.h"
@@ -155,6 +156,7 @@ struct Object {
   std::vector<Cluster> clusters;              ///< particles that keep their shape (pliant/cluster.h)
   std::optional<Gas> gas;                     ///< its `fluid` is a gas (pliant/gas.h)
   std::optional<Tracers> tracers;             ///< its particles are tracers in gases (pliant/gas.h)
+  Flow flow;                                  ///< how particles of a liquid or grains come and go (pliant/flow.h)
   std::vector<Pin> pins;
   std::vector<Attachment> attachments;
   float thickness = 0.001f;           ///< distance kept from colliders; two surfaces keep the sum of both [m]

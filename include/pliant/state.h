@@ -142,6 +142,23 @@ struct GrainContact {
 };
 static_assert(sizeof(GrainContact) == 20);
 
+/// A value of State::births: the particle is not there. It has the inverse mass 0, meets nothing, and waits to be emitted.
+inline constexpr double not_there = 1e300;
+
+/// How many layers an emitter has emitted.
+struct EmittedLayers {
+  std::int32_t block = 0;    ///< of the object: its index in State::blocks
+  std::int32_t emitter = 0;  ///< index in Flow::emitters
+  std::int64_t layers = 0;
+  friend bool operator==(const EmittedLayers&, const EmittedLayers&) = default;
+};
+static_assert(sizeof(EmittedLayers) == 16);
+
+/// The order of State::emitted.
+inline bool in_order_of_emitters(const EmittedLayers& a, const EmittedLayers& b) {
+  return a.block != b.block ? a.block < b.block : a.emitter < b.emitter;
+}
+
 /// A value of State::rest_times: the body sleeps.
 inline constexpr float asleep = -1;
 
@@ -168,7 +185,15 @@ struct State {
   /// sleep (SleepOptions), and after something was added, removed or edited: then all are awake.
   std::vector<float> rest_times;
   std::vector<GrainContact> grain_contacts;  ///< those that press, ascending by a, then b; usually none
+  /// For each particle, the time at which it came [s], or `not_there`. Empty if the particles of no object come or go (Flow).
+  std::vector<double> births;
+  std::vector<EmittedLayers> emitted;  ///< of each emitter, by block and emitter; usually none
 };
+
+/// True if a particle of the State is there (Flow).
+inline bool is_there(const State& state, std::size_t particle) {
+  return state.births.empty() || state.births[particle] != not_there;
+}
 
 /// The SHA-256 hash of a State as 64 hexadecimal digits. It includes blocks only after a removal or an edit, because
 /// contiguous blocks follow from the particles; frames, channels, held poses, settings of motors, substeps and

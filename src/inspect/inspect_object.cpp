@@ -324,6 +324,53 @@ void check_tracers(Problems& problems, const Object& object) {
   require_range(problems, "tracers, opacity", tracers.opacity, 0, 0.999);
 }
 
+namespace {
+
+bool is_direction(const Vec3f& v) { return is_place(v) && length_squared(v) > 1e-12f; }
+
+void check_emitter(Problems& problems, const std::string& name, const Emitter& emitter) {
+  require_place(problems, name + ", position", emitter.position);
+  require_place(problems, name + ", across", emitter.across);
+  if (!is_direction(emitter.direction))
+    problems.grave(name + ", direction", "has no length, or is not finite", "give a direction such as (0, -1, 0)");
+  for (const float size : {emitter.radius, emitter.width, emitter.height})
+    require_range(problems, name + ", opening", size, 0, largest_place);
+  if ((emitter.radius > 0) == (emitter.width > 0 && emitter.height > 0))
+    problems.grave(name, "is neither a disc nor a rectangle, or both", "give a radius, or a width and a height");
+  require_range(problems, name + ", speed", emitter.speed, 0, 1e4);
+  require_range(problems, name + ", flow", emitter.flow, 0, 1e6);
+  if ((emitter.speed > 0) == (emitter.flow > 0))
+    problems.grave(name, "has neither a speed nor a flow, or both", "give one of them");
+  if (!(emitter.end >= emitter.start) || !(std::abs(emitter.start) <= 3e38f))
+    problems.grave(name, "ends before it starts", "give a start, and an end that is later");
+  check_motion(problems, name, emitter.motion);
+}
+
+}  // namespace
+
+void check_flow(Problems& problems, const Object& object) {
+  const Flow& flow = object.flow;
+  if (!flow.is_used()) return;
+  if (!object.fluid && !object.grains)
+    return problems.grave("flow", "is of an object that is neither a liquid nor grains", "leave it out");
+  if (flow.spare < 0 || static_cast<std::size_t>(flow.spare) > object.positions.size())
+    problems.grave("flow", "has " + std::to_string(flow.spare) + " spare particles of " + of(object.positions.size()),
+                   "give the number of the last particles that are not there at the start");
+  if (object.gas) problems.grave("flow", "is of a gas, whose particles cannot come and go yet", "leave it out");
+  if (!object.pins.empty() || !object.attachments.empty() || !object.constraints.empty() || !object.clusters.empty())
+    problems.grave("flow",
+                   "is of an object with pins, attachments, constraints or clusters, whose particles cannot come and go",
+                   "leave these out");
+  require_range(problems, "flow, lifetime", flow.lifetime, 0, largest_place);
+  for (std::size_t i = 0; i < flow.emitters.size(); ++i) check_emitter(problems, "emitter " + of(i), flow.emitters[i]);
+  for (std::size_t i = 0; i < flow.drains.size(); ++i) {
+    require_place(problems, "drain " + of(i) + ", position", flow.drains[i].position);
+    const Quatf& q = flow.drains[i].rotation;
+    if (!(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w > 0))
+      problems.grave("drain " + of(i) + ", rotation", "is zero or not finite", "give a quaternion");
+  }
+}
+
 void check_object(Problems& problems, const Object& object) {
   check_positions(problems, object);
   check_velocities(problems, object);
@@ -337,6 +384,7 @@ void check_object(Problems& problems, const Object& object) {
   check_control(problems, object);
   require_range(problems, "thickness", object.thickness, 0, largest_place);
   check_fluid(problems, object);
+  check_flow(problems, object);
   check_grains(problems, object);
   check_gas(problems, object);
   check_tracers(problems, object);

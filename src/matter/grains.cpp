@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "matter/spare_particles.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -20,15 +21,18 @@ void require(bool is_good, const std::string& name, const char* element, float v
 Object make_grains(const std::vector<Vec3f>& positions, const GrainsOptions& options) {
   constexpr float sphere = 4.18879020f;  // 4/3 pi: volume over the cube of the radius
   const Grains& grains = options.grains;
-  if (positions.empty()) throw Error({.object = options.name}, "grains without particles", "give a position or more");
+  if (positions.empty() && options.capacity == 0)
+    throw Error({.object = options.name}, "grains without particles", "give a position or more");
   require(grains.radius > 0, options.name, "radius", grains.radius, "positive, finite radius [m]");
   require(grains.density > 0, options.name, "density", grains.density, "positive, finite density [kg/m^3]");
   require(grains.friction >= 0, options.name, "friction", grains.friction, "finite coefficient of 0 or more [-]");
   Object object;
   object.name = options.name;
   object.positions = positions;
-  object.masses.assign(positions.size(), sphere * grains.density * grains.radius * grains.radius * grains.radius);
-  if (length_squared(options.velocity) > 0) object.velocities.assign(positions.size(), options.velocity);
+  object.flow = options.flow;
+  add_spare(options.capacity, object);
+  object.masses.assign(object.positions.size(), sphere * grains.density * grains.radius * grains.radius * grains.radius);
+  if (length_squared(options.velocity) > 0) object.velocities.assign(object.positions.size(), options.velocity);
   object.grains = grains;
   object.thickness = grains.radius;
   object.collides = true;

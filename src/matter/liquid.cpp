@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "matter/spare_particles.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -22,7 +23,8 @@ void require_positive(const std::string& name, const char* element, float value,
 
 Object make_liquid(const std::vector<Vec3f>& positions, const LiquidOptions& options) {
   const Fluid& fluid = options.fluid;
-  if (positions.empty()) throw Error({.object = options.name}, "a liquid without particles", "give a position or more");
+  if (positions.empty() && options.capacity == 0)
+    throw Error({.object = options.name}, "a liquid without particles", "give a position or more");
   require_positive(options.name, "spacing", fluid.spacing, "distance of particles [m]");
   require_positive(options.name, "density", fluid.density, "density [kg/m^3]");
   if (!(fluid.speed_of_sound >= 0) || !std::isfinite(fluid.speed_of_sound))
@@ -37,8 +39,10 @@ Object make_liquid(const std::vector<Vec3f>& positions, const LiquidOptions& opt
   Object liquid;
   liquid.name = options.name;
   liquid.positions = positions;
-  liquid.masses.assign(positions.size(), fluid.density * fluid.spacing * fluid.spacing * fluid.spacing);
-  if (length_squared(options.velocity) > 0) liquid.velocities.assign(positions.size(), options.velocity);
+  liquid.flow = options.flow;
+  add_spare(options.capacity, liquid);
+  liquid.masses.assign(liquid.positions.size(), fluid.density * fluid.spacing * fluid.spacing * fluid.spacing);
+  if (length_squared(options.velocity) > 0) liquid.velocities.assign(liquid.positions.size(), options.velocity);
   liquid.fluid = fluid;
   liquid.thickness = fluid.spacing / 2;
   liquid.collides = true;

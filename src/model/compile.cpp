@@ -5,6 +5,7 @@
 
 #include "model/attachments.h"
 #include "model/chains.h"
+#include "model/compile_flow.h"
 #include "model/compile_particles.h"
 #include "model/compile_surface.h"
 #include "model/compiled_object.h"
@@ -98,6 +99,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   out.grains = object.grains;
   out.gas = object.gas;
   out.tracers = object.tracers;
+  compile_flow(object, out);
   add_whole_object_phases(out);
   out.lengths = find_length_ranges(out);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/compile_flow.h"
 #include "model/layout.h"
 #include "pliant/error.h"
 
@@ -188,6 +189,21 @@ void fill_channel(const Model& model, int object, const char* name, float value,
   std::fill_n(channel->values.begin() + model.first[object], model.objects[object].particles, value);
 }
 
+/// Particles are born when they are added; spare ones are not there yet.
+void put_births(const Model& model, int object, State& state) {
+  const CompiledObject& from = model.objects[object];
+  if (state.births.empty() && !from.flow.is_used()) return;
+  state.births.resize(static_cast<std::size_t>(model.particles()), 0.0);
+  const auto first = static_cast<std::size_t>(model.first[object]);
+  for (int i = 0; i < from.particles; ++i) {
+    const bool is_there = !is_spare(from, i);
+    state.births[first + static_cast<std::size_t>(i)] = is_there ? state.time : not_there;
+    if (is_there) continue;
+    state.positions[first + static_cast<std::size_t>(i)].w = 0;
+    state.velocities[first + static_cast<std::size_t>(i)] = {};
+  }
+}
+
 }  // namespace
 
 void put_at_start(const Model& model, int object, State& state) {
@@ -210,6 +226,7 @@ void put_at_start(const Model& model, int object, State& state) {
   for (Channel& channel : state.channels) channel.values.resize(particles * static_cast<std::size_t>(channel.components));
   if (from.gas) fill_channel(model, object, temperature_channel, from.gas->temperature, state);
   if (from.tracers) fill_channel(model, object, age_channel, no_age, state);
+  put_births(model, object, state);
 }
 
 State initial_state(const Model& model) {

@@ -214,21 +214,34 @@ bool can_follow_volume(const Object& object, double substep) {
   return overstretch_of_inflated(object, substep) <= most_overstretch_of_volumes;
 }
 
+/// The heights between which an object's particles are at the start [m]. Those that may be emitted are taken to lie in a cube with them.
+struct Heights {
+  float low = 0, high = 0;
+};
+
+Heights heights_of(const Object& object) {
+  Heights of;
+  const std::size_t start = object.positions.size() - static_cast<std::size_t>(std::max(object.flow.spare, 0));
+  for (std::size_t i = 0; i < start; ++i) {
+    of.low = i == 0 ? object.positions[i].y : std::min(of.low, object.positions[i].y);
+    of.high = i == 0 ? object.positions[i].y : std::max(of.high, object.positions[i].y);
+  }
+  if (start == object.positions.size()) return of;
+  const float size = object.fluid ? object.fluid->spacing : 2 * object.grains->radius;
+  of.high = std::max(of.high, of.low + size * static_cast<float>(std::cbrt(static_cast<double>(object.positions.size()))));
+  return of;
+}
+
 /// The height of an object's particles at the start [m].
 double depth_of(const Object& object) {
-  float low = 0, high = 0;
-  for (std::size_t i = 0; i < object.positions.size(); ++i) {
-    low = i == 0 ? object.positions[i].y : std::min(low, object.positions[i].y);
-    high = i == 0 ? object.positions[i].y : std::max(high, object.positions[i].y);
-  }
-  return static_cast<double>(high - low);
+  const Heights of = heights_of(object);
+  return static_cast<double>(of.high - of.low);
 }
 
 GrainHeights heights_of_grains(const Object& object, double frame_time) {
   if (!object.grains || object.positions.empty()) return {};
-  const auto [low, high] = std::minmax_element(object.positions.begin(), object.positions.end(),
-                                               [](const Vec3f& a, const Vec3f& b) { return a.y < b.y; });
-  return {low->y, high->y, 2 * object.grains->radius, static_cast<float>(frame_time)};
+  const Heights of = heights_of(object);
+  return {of.low, of.high, 2 * object.grains->radius, static_cast<float>(frame_time)};
 }
 
 int substeps_of_grains(const GrainHeights& grains, double height) {

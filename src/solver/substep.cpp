@@ -60,7 +60,8 @@ AdvanceArguments object_particles(const Substep& s, int object) {
 }
 
 PairParticles all_particles(const Substep& s) {
-  return {s.state.positions.data(), s.state.remainders.data(), s.work.displacements.data(), s.h};
+  return {s.state.positions.data(), s.state.remainders.data(), s.work.displacements.data(), s.h,
+          s.state.births.empty() ? nullptr : s.state.births.data()};
 }
 
 void for_tiles(Substep& s, const char* name, FunctionRef<void(int)> body) {

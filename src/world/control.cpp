@@ -118,7 +118,7 @@ const HeldPose* held_pose(const WorldData& world, bool is_mesh, int slot) {
 void stop_fixed(WorldData& world) {
   for (int number = 0; number < static_cast<int>(world.model.objects.size()); ++number) {
     const CompiledObject& object = world.model.objects[number];
-    if (object.carrier.moves() || world.workspace.control.mesh(number) != nullptr) continue;
+    if (object.carrier.moves() || object.flow.is_used() || world.workspace.control.mesh(number) != nullptr) continue;
     const ObjectControl* given = world.workspace.control.object(number);
     const auto moves = [&](int particle) {
       return lists(object.kinematics, particle) || (given != nullptr && lists(given->targets, particle));

@@ -101,7 +101,7 @@ Gauges::Gauges(std::vector<Gauge> gauges, const Scene& scene, World& world) : ga
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (!scene.objects[i].fluid) continue;
     liquids.push_back(scene.objects[i].name);
-    liquids_.push_back({world.objects()[i], static_cast<double>(scene.objects[i].fluid->spacing), {}, {}});
+    liquids_.push_back({world.objects()[i], static_cast<double>(scene.objects[i].fluid->spacing), {}, {}, {}});
   }
   std::set<std::string> names;
   for (const Gauge& gauge : gauges_) {
@@ -120,7 +120,11 @@ std::vector<double> Gauges::read(const World& world) {
   for (Liquid& liquid : liquids_) {
     liquid.before = std::move(liquid.positions);
     liquid.positions.clear();
-    if (world.has(liquid.object)) liquid.positions = world.object(liquid.object).positions();
+    liquid.ages.clear();
+    if (world.has(liquid.object)) {
+      liquid.positions = world.object(liquid.object).positions();
+      if (world.object(liquid.object).flows()) liquid.ages = world.object(liquid.object).ages();
+    }
     if (liquid.before.size() != liquid.positions.size()) liquid.before = liquid.positions;  // edited, or the first call
   }
   std::vector<double> values;
@@ -128,6 +132,12 @@ std::vector<double> Gauges::read(const World& world) {
   time_ = world.state().time;
   is_first_ = false;
   return values;
+}
+
+template <class Body>
+void Gauges::for_present(const Liquid& liquid, const Body& body) {
+  for (std::size_t p = 0; p < liquid.positions.size(); ++p)
+    if (liquid.ages.empty() || liquid.ages[p] >= 0) body(liquid.positions[p], liquid.spacing);
 }
 
 double Gauges::value(const World& world, std::size_t gauge) const {
@@ -138,18 +148,17 @@ double Gauges::value(const World& world, std::size_t gauge) const {
   if (const auto* box = std::get_if<HeightGauge>(&measures)) {
     double volume = 0;
     for (const int i : of)
-      for (const Vec3f& place : liquids_[static_cast<std::size_t>(i)].positions)
-        volume += common_volume(*box, place, liquids_[static_cast<std::size_t>(i)].spacing);
+      for_present(liquids_[static_cast<std::size_t>(i)],
+                  [&](const Vec3f& place, double spacing) { volume += common_volume(*box, place, spacing); });
     return height_of(*box, volume);
   }
   const FrontGauge& front = std::get<FrontGauge>(measures);
   const Vec3d direction = convert<double>(front.direction) * (1 / length(convert<double>(front.direction)));
   std::vector<LiquidInterval> intervals;
-  for (const int i : of) {
-    const double side = liquids_[static_cast<std::size_t>(i)].spacing;
-    for (const Vec3f& place : liquids_[static_cast<std::size_t>(i)].positions)
+  for (const int i : of)
+    for_present(liquids_[static_cast<std::size_t>(i)], [&](const Vec3f& place, double side) {
       intervals.push_back({dot(convert<double>(place), direction), side, side * side * side});
-  }
+    });
   return front_of(intervals, static_cast<double>(front.share));
 }
 
@@ -159,8 +168,10 @@ double Gauges::flow(const FlowGauge& through, const std::vector<int>& of) const 
   for (const int i : of) {
     const Liquid& liquid = liquids_[static_cast<std::size_t>(i)];
     const double of_particle = liquid.spacing * liquid.spacing * liquid.spacing;
-    for (std::size_t p = 0; p < liquid.positions.size(); ++p)
+    for (std::size_t p = 0; p < liquid.positions.size(); ++p) {
+      if (!liquid.ages.empty() && !(liquid.ages[p] > duration_ * (1 + 1e-9))) continue;  // it was not there before
       volume += of_particle * passed_share(through, liquid.before[p], liquid.positions[p], liquid.spacing);
+    }
   }
   return volume / duration_;
 }

@@ -28,7 +28,9 @@ Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
 struct ObjectState {
   Records positions, remainders, velocities, orientations, angular_velocities;
   std::vector<Channel> channels;  ///< those that the object owns
-  float substeps = 0;             ///< State::substeps
+  std::vector<double> births;     ///< empty if State::births is
+  std::vector<EmittedLayers> emitted;
+  float substeps = 0;  ///< State::substeps
 };
 
 /// Resizes the State to the model's particles and frames.
@@ -40,6 +42,7 @@ void fit_state(WorldData& world) {
   if (!world.state.substeps.empty()) world.state.substeps.resize(world.model.objects.size());
   for (Channel& channel : world.state.channels)
     channel.values.resize(particles * static_cast<std::size_t>(channel.components));
+  if (!world.state.births.empty()) world.state.births.resize(particles, 0.0);
 }
 
 /// True if a channel has values of an object's particles: of a gas or of tracers alone, or of every object.
@@ -62,6 +65,8 @@ ObjectState take_state(WorldData& world, int number) {
                   slice(world.state.frames.orientations, first_frame, frames),
                   slice(world.state.frames.angular_velocities, first_frame, frames),
                   {},
+                  {},
+                  {},
                   world.state.substeps.empty() ? 0 : world.state.substeps[static_cast<std::size_t>(number)]};
   for (Records* records :
        {&world.state.positions, &world.state.remainders, &world.state.velocities, &world.workspace.displacements})
@@ -74,6 +79,13 @@ ObjectState take_state(WorldData& world, int number) {
       out.channels.push_back({channel.name, channel.components, slice(channel.values, begin, count)});
     std::fill_n(channel.values.begin() + begin, count, 0.f);
   }
+  if (!world.state.births.empty()) {
+    out.births = slice(world.state.births, first, particles);
+    std::fill_n(world.state.births.begin() + first, particles, 0.0);
+  }
+  for (const EmittedLayers& emitted : world.state.emitted)
+    if (emitted.block == number) out.emitted.push_back(emitted);
+  std::erase_if(world.state.emitted, [&](const EmittedLayers& emitted) { return emitted.block == number; });
   return out;
 }
 
@@ -110,7 +122,13 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
     Record& x = world.state.positions[at];
     x = {kept.positions[from].x, kept.positions[from].y, kept.positions[from].z, x.w};
     world.state.remainders[at] = kept.remainders[from];
-    world.state.velocities[at] = x.w > 0 ? kept.velocities[from] : Record{};
+    bool is_held = false;  // by the opening of an emitter
+    if (!kept.births.empty() && !world.state.births.empty() && world.model.objects[number].flow.is_used()) {
+      const double birth = world.state.births[at] = kept.births[from];
+      is_held = birth > world.state.time && birth != not_there;
+      x.w = birth > world.state.time ? 0 : world.model.objects[number].positions[i].w;
+    }
+    world.state.velocities[at] = x.w > 0 || is_held ? kept.velocities[from] : Record{};
     for (const Channel& channel : kept.channels) {
       if (!owns(world.model.objects[number], channel)) continue;
       const auto components = static_cast<std::size_t>(channel.components);
@@ -211,6 +229,9 @@ void remove_object(WorldData& world, int number) {
   std::erase_if(world.model.fields, [&](const FieldCollider& field) { return field.object == number; });
   world.state.blocks[number] = {0, 0, world.model.generation[number]};
   if (!world.state.substeps.empty()) world.state.substeps[number] = 0;
+  if (std::none_of(world.model.objects.begin(), world.model.objects.end(),
+                   [](const CompiledObject& object) { return object.flow.is_used(); }))
+    world.state.births.clear();
   const auto is_zero = [](float substeps) { return substeps == 0; };
   if (std::all_of(world.state.substeps.begin(), world.state.substeps.end(), is_zero)) world.state.substeps.clear();
   fit_state(world);
@@ -237,6 +258,10 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   place_object(world, number);
   drop_unused_sweeps(world.model, world.workspace);
   give_back_state(world, number, kept, origins);
+  const auto emitters = static_cast<std::int32_t>(world.model.objects[number].flow.emitters.size());
+  for (const EmittedLayers& emitted : kept.emitted)
+    if (emitted.emitter < emitters) world.state.emitted.push_back(emitted);
+  std::sort(world.state.emitted.begin(), world.state.emitted.end(), in_order_of_emitters);
 }
 
 }  // namespace pliant

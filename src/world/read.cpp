@@ -76,6 +76,38 @@ std::vector<float> ObjectView::channel(const std::string& name) const {
   return {};
 }
 
+std::vector<int> ObjectView::present() const {
+  const int number = read_->number(id_);
+  const CompiledObject& from = read_->model.objects[number];
+  std::vector<int> out;
+  for (int user = 0; user < from.user_particles; ++user)
+    if (is_there(read_->state, static_cast<std::size_t>(read_->model.first[number] + from.place[user])))
+      out.push_back(user);
+  return out;
+}
+
+std::vector<Vec3f> ObjectView::present_positions() const {
+  std::vector<Vec3f> all = positions();
+  if (!flows()) return all;
+  std::vector<Vec3f> out;
+  for (const int i : present()) out.push_back(all[static_cast<std::size_t>(i)]);
+  return out;
+}
+
+bool ObjectView::flows() const { return read_->object(id_).flow.is_used(); }
+
+std::vector<double> ObjectView::ages() const {
+  const int number = read_->number(id_);
+  const CompiledObject& from = read_->model.objects[number];
+  std::vector<double> out(static_cast<std::size_t>(from.user_particles), read_->state.time);
+  for (int user = 0; user < from.user_particles; ++user) {
+    const auto particle = static_cast<std::size_t>(read_->model.first[number] + from.place[user]);
+    if (!read_->state.births.empty())
+      out[user] = is_there(read_->state, particle) ? read_->state.time - read_->state.births[particle] : -1;
+  }
+  return out;
+}
+
 void ObjectView::read_positions(std::span<Vec3f> into) const { read(read_->object(id_), positions_of(*read_, id_), into); }
 void ObjectView::read_velocities(std::span<Vec3f> into) const {
   read(read_->object(id_), velocities_of(*read_, id_), into);

@@ -226,6 +226,40 @@ void require_blocks(const WorldData& world, const State& given) {
               "restore a state that was taken since the last such change");
 }
 
+/// True if a particle of a State may have this inverse mass: none if it is not there, or has just left an opening.
+bool may_have_mass(const WorldData& world, const State& state, std::size_t particle, float inverse_mass) {
+  if (state.births.empty()) return inverse_mass == world.state.positions[particle].w;
+  const auto number = static_cast<std::size_t>(world.model.object_of(static_cast<int>(particle)));
+  const CompiledObject& object = world.model.objects[number];
+  if (!object.flow.is_used()) return inverse_mass == world.state.positions[particle].w;
+  if (state.births[particle] == not_there) return inverse_mass == 0;
+  return inverse_mass == 0 ||
+         inverse_mass == object.positions[particle - static_cast<std::size_t>(world.model.first[number])].w;
+}
+
+void require_births(const WorldData& world, const State& state) {
+  if (state.births.size() != world.state.births.size())
+    throw Error({},
+                "the state has times of birth of " + std::to_string(state.births.size()) + " particles, the world of " +
+                    std::to_string(world.state.births.size()),
+                "restore a state of this world");
+  for (std::size_t i = 0; i < state.births.size(); ++i)
+    if (!std::isfinite(state.births[i]))
+      throw Error({.element = "particle " + std::to_string(i)}, "its time of birth is not finite",
+                  "restore an earlier state");
+  const EmittedLayers* before = nullptr;
+  for (const EmittedLayers& emitted : state.emitted) {
+    const bool is_known = emitted.block >= 0 && static_cast<std::size_t>(emitted.block) < world.model.objects.size() &&
+                          emitted.emitter >= 0 && emitted.layers >= 0 &&
+                          static_cast<std::size_t>(emitted.emitter) <
+                              world.model.objects[static_cast<std::size_t>(emitted.block)].flow.emitters.size();
+    if (!is_known || (before != nullptr && !in_order_of_emitters(*before, emitted)))
+      throw Error({.element = "emitted layers " + std::to_string(&emitted - state.emitted.data())},
+                  "are of no emitter, or not in ascending order", "restore a state of this world");
+    before = &emitted;
+  }
+}
+
 }  // namespace
 
 void World::restore(const State& state) {
@@ -238,9 +272,10 @@ void World::restore(const State& state) {
         "the state has " + std::to_string(state.positions.size()) + " particles, the world " + std::to_string(particles),
         "restore a state of this world");
   }
+  require_births(*data_, state);
   const auto is_finite = [](const Record& r) { return std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z); };
   for (std::size_t i = 0; i < particles; ++i) {
-    if (state.positions[i].w != data_->state.positions[i].w) {
+    if (!may_have_mass(*data_, state, i, state.positions[i].w)) {
       throw Error({.element = "particle " + std::to_string(i)}, "its mass is not this world's",
                   "restore a state of this world");
     }
@@ -311,6 +346,8 @@ std::string hash(const State& state) {
   if (!state.rest_times.empty()) sha.add(state.rest_times.data(), state.rest_times.size() * sizeof(float));
   if (!state.grain_contacts.empty())
     sha.add(state.grain_contacts.data(), state.grain_contacts.size() * sizeof(GrainContact));
+  if (!state.births.empty()) sha.add(state.births.data(), state.births.size() * sizeof(double));
+  if (!state.emitted.empty()) sha.add(state.emitted.data(), state.emitted.size() * sizeof(EmittedLayers));
   return sha.finish();
 }
 

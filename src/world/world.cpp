@@ -11,6 +11,7 @@
 #include "world/advice.h"
 #include "world/control.h"
 #include "world/events.h"
+#include "world/flow.h"
 #include "world/groups.h"
 #include "world/object_store.h"
 
@@ -120,6 +121,7 @@ Report World::step(float dt) {
     report.stopped = true;
     return report;
   }
+  let_flow(*data_, static_cast<double>(dt), report.flow);
   begin_control(*data_, dt);
   const std::vector<GroupFrame> groups = plan_frame(*data_, dt, report);
   data_->stopped = true;  // if the step throws (a user's force field may), it stays true
@@ -130,6 +132,7 @@ Report World::step(float dt) {
                dt, report);
   for (JointBreak& broken : report.broken_joints) broken.object = data_->ids.objects.id_of(broken.object.slot);
   data_->stopped = report.nonfinite.has_value();
+  report.flow.present = count_present(*data_);
   if (data_->stopped || report.stopped) forget_multipliers(*data_, !data_->stopped);
   end_control(*data_, report.stopped);
   report.widest_tie.object =

@@ -272,6 +272,40 @@ TEST_F(FullScene, HasItsGrains) {
   EXPECT_EQ(scene.objects.at(12).positions.at(1), (Vec3f{-8, 12.5f, 1}));
 }
 
+TEST_F(FullScene, HasWhatComesAndGoes) {
+  const Object& drops = scene.objects.at(10);
+  EXPECT_EQ(drops.positions.size(), 40U);
+  EXPECT_EQ(drops.flow.spare, 38);
+  EXPECT_EQ(drops.flow.lifetime, 8);
+  ASSERT_EQ(drops.flow.emitters.size(), 2U);
+  const Emitter &tap = drops.flow.emitters[0], &round = drops.flow.emitters[1];
+  EXPECT_EQ(tap.name, "tap");
+  EXPECT_EQ(tap.position, (Vec3f{-8, 9, 5}));
+  EXPECT_EQ(tap.direction, (Vec3f{0, -2, 1}));
+  EXPECT_EQ(tap.across, (Vec3f{1, 0, 0}));
+  EXPECT_EQ(tap.width, 0.75f);
+  EXPECT_EQ(tap.height, 0.5f);
+  EXPECT_EQ(tap.speed, 0.5f);
+  EXPECT_EQ(tap.start, 1);
+  EXPECT_EQ(tap.end, 4);
+  EXPECT_EQ(tap.motion.keyframes.size(), 2U);
+  EXPECT_EQ(round.radius, 0.5f);
+  EXPECT_EQ(round.flow, 0.125f);
+  ASSERT_EQ(drops.flow.drains.size(), 4U);
+  const Drain& sink = drops.flow.drains[0];
+  EXPECT_EQ(sink.name, "sink");
+  EXPECT_EQ(std::get<Box>(sink.shape).half_extents, (Vec3f{1, 0.5f, 2}));
+  EXPECT_EQ(sink.position, (Vec3f{-8, -20, 1}));
+  EXPECT_NEAR(sink.rotation.y, std::sqrt(0.5), 1e-6);
+  EXPECT_TRUE(std::holds_alternative<Plane>(drops.flow.drains[1].shape));
+  EXPECT_EQ(std::get<Sphere>(drops.flow.drains[2].shape).radius, 0.5f);
+  EXPECT_EQ(std::get<Capsule>(drops.flow.drains[3].shape).half_length, 1);
+  const Object& pebbles = scene.objects.at(12);
+  EXPECT_EQ(pebbles.flow.spare, 6);
+  EXPECT_EQ(pebbles.flow.emitters.size() + pebbles.flow.drains.size(), 2U);
+  EXPECT_EQ(pebbles.flow.lifetime, 16);
+}
+
 TEST_F(FullScene, HasItsParticles) {
   const Object& object = scene.objects.at(5);
   EXPECT_EQ(object.masses, (std::vector<float>{1, 2, std::numeric_limits<float>::infinity(), 4}));

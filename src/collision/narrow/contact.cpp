@@ -363,6 +363,37 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
   for (int c = 0; c < static_cast<int>(search.colliders.size()); ++c) find_contacts_with(search, c, near, contacts);
 }
 
+namespace {
+
+/// How far above a solid the particles of a liquid are held that would enter it, over the thickness: rounding must not put them inside.
+constexpr float share_of_held_height = 0.1f;
+
+bool is_near(const MovingCollider& collider, const Record& x, const Record& d, float margin) {
+  const Vec3f from{x.x, x.y, x.z}, to = from + Vec3f{d.x, d.y, d.z}, by{margin, margin, margin};
+  const Vec3f low = min(from, to) - by, high = max(from, to) + by;
+  return low.x <= collider.swept.high.x && low.y <= collider.swept.high.y && low.z <= collider.swept.high.z &&
+         high.x >= collider.swept.low.x && high.y >= collider.swept.low.y && high.z >= collider.swept.low.z;
+}
+
+/// Appends contacts of the particles of a liquid whose displacements enter a collider. The density may have moved them far from where
+/// their contacts were predicted, so these count for nothing here.
+void find_breaches_of_liquid(const ContactSearch& search, int c, std::vector<Contact>& contacts) {
+  const MovingCollider& collider = search.colliders[static_cast<std::size_t>(c)];
+  const Meeting meeting(search, c, share_of_held_height * (search.object.thickness + collider.thickness));
+  const AdvanceArguments& a = search.particles;
+  for (int i = a.first; i < a.last; ++i) {
+    const Record& d = a.displacements[i];
+    if (!is_near(collider, a.positions[i], d, meeting.thickness)) continue;
+    const std::size_t before = contacts.size();
+    find_contact(meeting, i, contacts);
+    if (contacts.size() == before) continue;
+    const Contact& found = contacts.back();
+    if (!(found.gap + dot(found.normal, Vec3f{d.x, d.y, d.z}) < 0)) contacts.pop_back();
+  }
+}
+
+}  // namespace
+
 void find_breaches(const ContactSearch& search, const std::vector<Contact>& known, std::vector<std::int32_t>& near,
                    std::vector<Contact>& contacts) {
   // Margin of the cull: constraints rarely move particles farther than this beyond the bounds of the prediction.
@@ -379,8 +410,11 @@ void find_breaches(const ContactSearch& search, const std::vector<Contact>& know
   };
   for (int c = 0; c < static_cast<int>(search.colliders.size()); ++c) {
     const MovingCollider& collider = search.colliders[c];
-    if (collider.field != nullptr || collider.shape.kind != ShapeKind::plane) continue;
     if (!overlap(b, collider.swept, margin) || !meet(search.object, collider)) continue;
+    if (collider.field != nullptr || collider.shape.kind != ShapeKind::plane) {
+      if (search.object.fluid) find_breaches_of_liquid(search, c, contacts);
+      continue;
+    }
     const int found =
         search.find_near({a.positions, a.displacements, a.first, a.last, collider.shape, collider.after, 0}, near.data());
     const int count = without_centres(search.object, found, near);

@@ -54,7 +54,8 @@ struct ContactSearch {
 void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near, std::vector<Contact>& contacts);
 
 /// Appends contacts of thickness 0 for particles whose displacements end below a plane collider, ordered by collider,
-/// then by particle. Skips pairs of particle and collider that have a contact in `known`.
+/// then by particle. Skips pairs of particle and collider that have a contact in `known`. Particles of liquids also get contacts, of a tenth
+/// of their thickness, with all other colliders that their displacements enter.
 void find_breaches(const ContactSearch& search, const std::vector<Contact>& known, std::vector<std::int32_t>& near,
                    std::vector<Contact>& contacts);
 

@@ -1,6 +1,7 @@
 #include "collision/narrow/point_contacts.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "math/vector.h"
 #include "parallel/ranges.h"
@@ -100,13 +101,21 @@ bool PointContacts::meet(int i, int j) const {
   return model_.shared->rules.meet(body[static_cast<std::size_t>(i)], body[static_cast<std::size_t>(j)]);
 }
 
+const std::vector<int>& PointContacts::present(const std::vector<int>& points, const PairParticles& particles) {
+  if (particles.births == nullptr) return points;
+  present_.clear();
+  std::copy_if(points.begin(), points.end(), std::back_inserter(present_),
+               [&](int point) { return particles.births[point] != not_there; });
+  return present_;
+}
+
 void PointContacts::detect(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts) {
   detect_points(executor, particles, contacts);
   detect_lines(executor, particles, contacts);
 }
 
 void PointContacts::detect_lines(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts) {
-  const std::vector<int>& points = model_.points_at_lines;
+  const std::vector<int>& points = present(model_.points_at_lines, particles);
   const int lines = static_cast<int>(model_.lines.size()), count = static_cast<int>(points.size());
   if (lines == 0 || count == 0) return;
   const auto box_of = [&](int i) {
@@ -140,7 +149,7 @@ void PointContacts::detect_lines(Executor& executor, const PairParticles& partic
 }
 
 void PointContacts::detect_points(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts) {
-  const std::vector<int>& points = model_.free_points;
+  const std::vector<int>& points = present(model_.free_points, particles);
   if (points.empty()) return;
   boxes_.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)

@@ -36,9 +36,12 @@ class PointContacts {
   void detect_lines(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts);
   void detect_points(Executor& executor, const PairParticles& particles, std::vector<Contact>& contacts);
   PairMaterial material_of(int i, int j) const;
+  /// Those of `points` that are there.
+  const std::vector<int>& present(const std::vector<int>& points, const PairParticles& particles);
   bool meet(int i, int j) const;
 
   const PairModel& model_;
+  std::vector<int> present_;
   std::vector<BoxBounds> boxes_;
   Tree<BoxBounds> tree_;
   struct Task {

@@ -71,7 +71,7 @@ void CellOrder::find_cells(Executor& executor, std::span<const Record> points) {
       const Cell c = cell_of(p.x, p.y, p.z);
       least = {std::min(least.column, c.column), std::min(least.layer, c.layer), std::min(least.row, c.row)};
       most = {std::max(most.column, c.column), std::max(most.layer, c.layer), std::max(most.row, c.row)};
-      const auto up = [](std::int32_t place) { return static_cast<std::uint64_t>(place + farthest); };
+      const auto up = [](std::int32_t place) { return static_cast<std::uint64_t>(std::int64_t{place} + farthest); };
       keys_[at(i)] = (up(c.layer) << place_bits | up(c.row)) << place_bits | up(c.column);
     }
     boxes_[at(chunk)] = {least, most};

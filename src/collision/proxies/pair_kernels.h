@@ -15,6 +15,7 @@ struct PairParticles {
   Record* remainders = nullptr;
   Record* displacements = nullptr;
   float h = 0;
+  const double* births = nullptr;  ///< State::births; null if it is empty
 };
 
 /// The motion of a cluster in a substep: a rigid motion, and the residual motion of its vertices. Rigid rotation keeps

@@ -114,6 +114,7 @@ std::vector<int> SurfaceContact::too_far() const {
 void SurfaceContact::detect(Executor& executor, const PairParticles& particles) {
   contacts_.clear();
   static_contacts_ = 0;
+  births_ = particles.births;
   if (untangler_)
     untangler_->push(model_.untangling_speed * particles.h, particles.h, particles.displacements, particles.remainders);
   is_bounded_ = lists_.measure(executor, particles);
@@ -183,6 +184,7 @@ void SurfaceContact::limit_untangling(Record* velocities, FunctionRef<Vec3f(int 
 void SurfaceContact::filter(Executor& executor, const PairParticles& particles) {
   pushing_ = 0;
   has_impacts_ = false;
+  births_ = particles.births;
   for (const Contact& contact : contacts_) {
     pushing_ += contact.push > 0 ? 1 : 0;
     has_impacts_ = has_impacts_ || is_impact(contact);

@@ -97,7 +97,12 @@ class SurfaceContact {
  private:
   Vec3f missing_of(const Contact& contact, const Record* positions, FunctionRef<Vec3f(int body)> gravity) const;
   bool is_exempt(const PairStencil& pair) const {
-    return (untangler_ && untangler_->is_exempt(pair)) || intersections_.hold(pair);
+    return (untangler_ && untangler_->is_exempt(pair)) || intersections_.hold(pair) || has_gone(pair);
+  }
+  /// True if a particle of the pair is not there.
+  bool has_gone(const PairStencil& pair) const {
+    return births_ != nullptr && std::any_of(pair.vertex.begin(), pair.vertex.end(),
+                                             [&](std::int32_t vertex) { return births_[vertex] == not_there; });
   }
 
   const PairModel& model_;
@@ -111,6 +116,7 @@ class SurfaceContact {
   std::size_t static_contacts_ = 0;
   bool is_bounded_ = true, has_impacts_ = false;
   std::int64_t pushing_ = 0, rebuilds_before_ = 0;
+  const double* births_ = nullptr;  ///< PairParticles::births of this substep
   double deepest_ = 0;
 };
 

@@ -7,6 +7,7 @@
 
 #include "math/motion.h"
 #include "solver/bodies/body_math.h"
+#include "solver/bodies/depenetration.h"
 #include "solver/substep.h"
 #include "solver/sweeps/sweep.h"
 
@@ -77,10 +78,15 @@ void BodySolver::make_manifolds(const Substep& s) {
   const std::vector<std::pair<int, int>>& bodies_of = contacts_.bodies();
   colours_.colour(bodies_of, contacts_.is_fixed());
   const double left = time_left(s);
+  is_separating_.resize(bodies_of.size());
+  contacts_.count_overlaps(overlaps_);
   const auto prefetch = [&](int i) { fetch(contacts_.all()[at(i)]); };
   blocks_.fill(executor, colours_, contacts_.is_fixed(), prefetch, [&](int i) {
     const auto& [a, b] = bodies_of[at(i)];
     Manifold m = manifold_of(contacts_.all()[at(i)], a, b, bodies_.material(s.model, a, b), s.h);
+    const bool separates = limit_depths(motions_.all()[at(a)], motions_.all()[at(b)], contacts_.size(i),
+                                        std::max(overlaps_[at(a)], overlaps_[at(b)]), s.h, m);
+    is_separating_[at(i)] = separates ? 1 : 0;
     turn_arm(contacts_.states()[at(a)], m.normal, left, m.arm_a);
     turn_arm(contacts_.states()[at(b)], m.normal, left, m.arm_b);
     return m;
@@ -97,6 +103,7 @@ void BodySolver::begin_frame(Substep& s) {
   last_h_ = s.h;
   last_substep_ = -1;
   make_manifolds(s);
+  contacts_.warn_of_overlaps(s, is_separating_);
   points_.begin_frame(s);
   shares_.clear();
 }

@@ -105,16 +105,18 @@ class BodySolver {
   std::vector<std::pair<int, int>> pressing_;  ///< bodies of those that press, for find_islands
   ManifoldColours colours_;                    ///< of contacts_
   ManifoldBlocks blocks_;                      ///< the manifolds of contacts_ in a frame
-  bool pushes_are_known_ = false;              ///< false in the first substep of a frame
-  bool is_pressed_ = false;                    ///< true from press_joints to project, if any body is
-  float push_share_ = 0;                       ///< of the last substep's pushes, with which this one starts
-  int last_substep_ = -1;                      ///< the last substep of the frame that was started
-  Islands jointed_islands_;                    ///< of bodies that are jointed or have contacts
-  std::vector<char> is_tied_;                  ///< [body] to a particle of chains; empty if none is
-  std::vector<char> is_jointed_;               ///< [body] by a joint that is solved directly, or tied
-  std::vector<char> pressed_bodies_;           ///< [body] started by press_joints
-  std::vector<char> pressed_objects_;          ///< [object] with such bodies
-  float last_h_ = 0;                           ///< length of the last substep [s]
+  std::vector<int> overlaps_;                  ///< [place] FrameContacts::count_overlaps
+  std::vector<char> is_separating_;    ///< [contact] nonzero: its bodies overlap more than what presses them explains
+  bool pushes_are_known_ = false;      ///< false in the first substep of a frame
+  bool is_pressed_ = false;            ///< true from press_joints to project, if any body is
+  float push_share_ = 0;               ///< of the last substep's pushes, with which this one starts
+  int last_substep_ = -1;              ///< the last substep of the frame that was started
+  Islands jointed_islands_;            ///< of bodies that are jointed or have contacts
+  std::vector<char> is_tied_;          ///< [body] to a particle of chains; empty if none is
+  std::vector<char> is_jointed_;       ///< [body] by a joint that is solved directly, or tied
+  std::vector<char> pressed_bodies_;   ///< [body] started by press_joints
+  std::vector<char> pressed_objects_;  ///< [object] with such bodies
+  float last_h_ = 0;                   ///< length of the last substep [s]
 };
 
 }  // namespace pliant

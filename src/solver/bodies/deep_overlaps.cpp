@@ -3,6 +3,7 @@
 #include <string>
 
 #include "solver/bodies/contact_bodies.h"
+#include "solver/bodies/depenetration.h"
 #include "solver/substep.h"
 
 namespace pliant {
@@ -15,6 +16,16 @@ constexpr float deep_share = 0.2f;
 constexpr int frames_of_rest = 6;
 
 }  // namespace
+
+void StartOverlaps::warn(Substep& s, const ContactBodies& bodies) const {
+  if (count_ == 0) return;
+  s.report.warnings.push_back(
+      (count_ == 1 ? "1 pair of bodies overlaps" : std::to_string(count_) + " pairs of bodies overlap") +
+      " where contact begins, deepest " + bodies.name(s.model, deepest_.a) + " and " + bodies.name(s.model, deepest_.b) +
+      " by " + std::to_string(deepest_.depth) + " m: each pair is moved apart at " +
+      std::to_string(depenetration_speed(deepest_.depth / deepest_.share)) +
+      " m/s at most; place bodies apart to avoid it");
+}
 
 void DeepOverlaps::note(Substep& s, const ContactBodies& bodies, const BodyOverlap& deepest) {
   const bool goes_on = deepest.a == deepest_.a && deepest.b == deepest_.b;

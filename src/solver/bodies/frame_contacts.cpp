@@ -81,7 +81,38 @@ void FrameContacts::warn(Substep& s) {
     s.report.warnings.push_back(std::to_string(finder_.left_out()) +
                                 " pairs of bodies that overlap are left to later frames, because each body has " +
                                 std::to_string(BodyPairs::most_of_crowded) + " others in its place");
-  overlaps_.note(s, *bodies_, finder_.deepest());
+}
+
+void FrameContacts::count_overlaps(std::vector<int>& counts) const {
+  counts.assign(states_.size(), 0);
+  for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
+    const auto& [a, b] = finder_.bodies()[at(i)];
+    const BodyContact& contact = contacts_[at(i)];
+    const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
+    if (is_fixed_[at(a)] != 0 || is_fixed_[at(b)] != 0 || !(gap < -far_moved * size(i))) continue;
+    ++counts[at(a)];
+    ++counts[at(b)];
+  }
+}
+
+float FrameContacts::size(int contact) const {
+  const auto& [a, b] = finder_.bodies()[at(contact)];
+  return std::min(finder_.size_of_body(a), finder_.size_of_body(b));
+}
+
+void FrameContacts::warn_of_overlaps(Substep& s, const std::vector<char>& is_separating) {
+  StartOverlaps begun;
+  BodyOverlap deepest = finder_.deepest();
+  for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
+    if (is_separating[at(i)] == 0) continue;
+    const auto& [a, b] = finder_.bodies()[at(i)];
+    if (a == deepest.a && b == deepest.b) deepest.share = 0;
+    const BodyContact& contact = contacts_[at(i)];
+    const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
+    if (contact.substep == 0) begun.add({a, b, -gap, -gap / size(i)});
+  }
+  begun.warn(s, *bodies_);
+  overlaps_.note(s, *bodies_, deepest);
 }
 
 /// Calls visit(a, b) for the bodies of contacts that have moved far against each other, until it returns true. Returns true if it has. How

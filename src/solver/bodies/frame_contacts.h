@@ -28,6 +28,13 @@ class FrameContacts {
   /// Finds those of such bodies again within a frame. The others stay, with the gaps of now.
   void renew(Substep& s, const BodyMotions& motions, bool some_bounce);
 
+  /// The number of dynamic bodies that each dynamic one overlaps deeply, by places.
+  void count_overlaps(std::vector<int>& counts) const;
+  /// Half of the thickness of the smaller body of a contact [m].
+  float size(int contact) const;
+  /// Warns of bodies that overlap when the frame begins. `is_separating` is nonzero for contacts that limit_depths has limited.
+  void warn_of_overlaps(Substep& s, const std::vector<char>& is_separating);
+
   /// In ascending order of parts.
   std::vector<BodyContact>& all() { return contacts_; }
   const std::vector<BodyContact>& all() const { return contacts_; }

@@ -15,6 +15,8 @@ namespace {
 /// Contacts found during the solve are dropped if their overlap is below this share of the thickness; the next substep
 /// resolves them. If they were resolved at once, cloth at rest on a floor would move two to four times as much.
 constexpr float least_depth = 0.25f;
+/// How often the particles of a liquid are held at solids within a substep.
+constexpr int most_rounds_in_corners = 3;
 
 /// Extends a tile's bounds to the current positions of its particles.
 void grow_bounds(const AdvanceArguments& a, PointBounds& bounds) {
@@ -44,19 +46,23 @@ void find_more_in_tile(Substep& s, int task) {
   std::swap(scratch.contacts, scratch.all_contacts);
 }
 
-/// Projects particles that constraints moved below a plane collider and that had no predicted contact. They move to the
-/// surface, not to the thickness: otherwise cloth at rest on a floor would move two to four times as much.
+/// Projects particles that constraints moved below a plane collider and that had no predicted contact, and those of liquids that they moved
+/// into any solid. They move to the surface, not to the thickness: otherwise cloth at rest on a floor would move two to four times as much.
 void hold_tile_at_surfaces(Substep& s, int task) {
   TileScratch& scratch = s.work.tiles[task];
-  scratch.more_contacts.clear();
   const AdvanceArguments a = particles(s, task);
   const ContactSearch search{
       object_of(s, task), a, scratch.bounds, s.own->colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts};
-  find_breaches(search, scratch.contacts, scratch.near, scratch.more_contacts);
-  if (scratch.more_contacts.empty()) return;
-  project_contacts(scratch.more_contacts, arguments(s, s.model.tiles()[task].object, false));
-  merge_contacts(scratch.contacts, scratch.more_contacts, scratch.all_contacts);
-  std::swap(scratch.contacts, scratch.all_contacts);
+  // What leaves one solid may enter another, in a corner.
+  const int rounds = search.object.fluid ? most_rounds_in_corners : 1;
+  for (int round = 0; round < rounds; ++round) {
+    scratch.more_contacts.clear();
+    find_breaches(search, scratch.contacts, scratch.near, scratch.more_contacts);
+    if (scratch.more_contacts.empty()) return;
+    project_contacts(scratch.more_contacts, arguments(s, s.model.tiles()[task].object, false));
+    merge_contacts(scratch.contacts, scratch.more_contacts, scratch.all_contacts);
+    std::swap(scratch.contacts, scratch.all_contacts);
+  }
 }
 
 }  // namespace

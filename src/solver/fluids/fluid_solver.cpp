@@ -65,34 +65,46 @@ FluidSolver::FluidSolver(const Model& model, const std::vector<int>* objects) {
     p.objects.push_back(o);
     p.law = fluid_law(object.fluid->spacing);
     p.softness = fluid_compliance(object.fluid->speed_of_sound);
-    p.viscosity.add(object.fluid->viscosity, object.particles);
-    const float spacing = object.fluid->spacing;
-    p.tension.add(object.fluid->surface_tension, object.fluid->density * spacing * spacing * spacing, object.particles);
-    for (int i = model.first[at(o)]; i < model.end_of(o); ++i) p.points.push_back(i);
-  };
-  const auto densities = [&](FluidPool& p) {
-    float least = model.objects[at(p.objects.front())].fluid->density, most = least;
-    for (const int o : p.objects) {
-      const CompiledObject& object = model.objects[at(o)];
-      least = std::min(least, object.fluid->density);
-      most = std::max(most, object.fluid->density);
-      p.lightness_of_point.resize(p.lightness_of_point.size() + at(object.particles), object.fluid->density);
-    }
-    for (float& of : p.lightness_of_point) of = least / of;
-    if (least == most) p.lightness_of_point.clear();
   };
   const int count = static_cast<int>(objects != nullptr ? objects->size() : model.objects.size());
   for (int i = 0; i < count; ++i) add(objects != nullptr ? (*objects)[at(i)] : i);
-  for (auto& pool : pools_) densities(*pool);
+  for (auto& pool : pools_) list_points(model, {}, *pool);
 }
 
 FluidSolver::~FluidSolver() = default;
 
-void FluidSolver::begin_frame() {
+/// Lists the particles of a pool that are there, and how light each is.
+void FluidSolver::list_points(const Model& model, const State& state, FluidPool& p) {
+  float least = model.objects[at(p.objects.front())].fluid->density, most = least;
+  p.points.clear();
+  p.ends.clear();
+  p.lightness_of_point.clear();
+  p.viscosity.clear();
+  p.tension.clear();
+  for (const int o : p.objects) {
+    const CompiledObject& object = model.objects[at(o)];
+    least = std::min(least, object.fluid->density);
+    most = std::max(most, object.fluid->density);
+    for (int i = model.first[at(o)]; i < model.end_of(o); ++i)
+      if (is_there(state, at(i))) p.points.push_back(i);
+    const std::size_t before = p.lightness_of_point.size();
+    p.lightness_of_point.resize(p.points.size(), object.fluid->density);
+    const int added = static_cast<int>(p.points.size() - before);
+    const float spacing = object.fluid->spacing;
+    p.viscosity.add(object.fluid->viscosity, added);
+    p.tension.add(object.fluid->surface_tension, object.fluid->density * spacing * spacing * spacing, added);
+    p.ends.push_back(static_cast<std::int32_t>(p.points.size()));
+  }
+  for (float& of : p.lightness_of_point) of = least / of;
+  if (least == most) p.lightness_of_point.clear();
+}
+
+void FluidSolver::begin_frame(const Substep& s) {
   for (auto& pool : pools_) {
     pool->age = -1;
     pool->viscosity.begin_frame();
     pool->tension.begin_frame();
+    if (!s.state.births.empty()) list_points(s.model, s.state, *pool);
   }
 }
 

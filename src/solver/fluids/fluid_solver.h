@@ -23,7 +23,8 @@ struct FluidPool {
   std::vector<int> objects;  ///< ascending
   FluidLaw law;
   float softness = 0;                 ///< compliance [s^2/m^2]
-  std::vector<std::int32_t> points;   ///< all particles, as in the State
+  std::vector<std::int32_t> points;   ///< all particles that are there, as in the State
+  std::vector<std::int32_t> ends;     ///< of each object: where its particles end in `points`
   std::vector<std::int32_t> of_slot;  ///< the particle of each slot
   NeighbourLists neighbours;
   FluidWalls walls;
@@ -48,7 +49,7 @@ class FluidSolver {
   bool has_fluids() const { return !pools_.empty(); }
 
   /// Starts a frame: neighbours are found in its first substep, so that they follow from the State.
-  void begin_frame();
+  void begin_frame(const Substep& s);
   /// After the prediction: finds neighbours, if those known are too old, and adds surface tension.
   void collide(Substep& s);
   /// Projects all density constraints once.
@@ -61,6 +62,7 @@ class FluidSolver {
   const std::vector<std::unique_ptr<FluidPool>>& pools() const { return pools_; }
 
  private:
+  static void list_points(const Model& model, const State& state, FluidPool& pool);
   void find_neighbours(Substep& s, FluidPool& pool);
   void find_lightness(const State& state, FluidPool& pool) const;
   void project(Substep& s, FluidPool& pool, bool is_first);

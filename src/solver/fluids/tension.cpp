@@ -34,6 +34,12 @@ void FluidTension::add(float tension, float mass, int particles) {
   masses_.resize(masses_.size() + at(particles), mass);
 }
 
+void FluidTension::clear() {
+  has_any_ = false;
+  of_point_.clear();
+  masses_.clear();
+}
+
 void FluidTension::find_neighbours(Substep& s, const FluidPool& pool, const Records& by_point) {
   if (!has_any_) return;
   neighbours_.find(s.context.executor, s.kernels.neighbours, by_point, tension_law(pool.law.reach / 2).reach);

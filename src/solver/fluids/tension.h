@@ -18,6 +18,8 @@ class FluidTension {
  public:
   /// Adds particles with a surface tension [N/m] and a mass at rest [kg], in the order of FluidPool::points.
   void add(float tension, float mass, int particles);
+  /// Forgets all particles.
+  void clear();
   bool has_any() const { return has_any_; }
 
   void begin_frame() { acts_ = {}; }

@@ -37,7 +37,14 @@ void for_groups(Substep& s, const NeighbourLists& lists, const Body& body) {
 
 }  // namespace
 
+void FluidViscosity::clear() {
+  of_point_.clear();
+  has_any_ = false;
+  are_alike_ = true;
+}
+
 void FluidViscosity::add(float viscosity, int particles) {
+  if (particles == 0) return;
   are_alike_ = are_alike_ && (of_point_.empty() || of_point_.front() == viscosity);
   has_any_ = has_any_ || viscosity > 0;
   of_point_.resize(of_point_.size() + to_index(particles), viscosity);

@@ -23,6 +23,8 @@ class FluidViscosity {
  public:
   /// Adds particles with a viscosity [Pa s], in the order of FluidPool::points.
   void add(float viscosity, int particles);
+  /// Forgets all particles.
+  void clear();
   bool has_any() const { return has_any_; }
 
   void begin_frame() { solves_ = {}; }

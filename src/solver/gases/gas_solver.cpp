@@ -27,18 +27,15 @@ bool has_gas(const Model& model, const FluidPool& pool) {
   return std::any_of(pool.objects.begin(), pool.objects.end(), [&](int o) { return model.objects[at(o)].gas.has_value(); });
 }
 
-/// Calls body(object, particle, slot) for all slots of a pool. `begin` has the first place in FluidPool::points of each object.
+/// Calls body(object, particle, slot) for all slots of a pool.
 template <class Body>
 void for_slots(Substep& s, const char* name, const FluidPool& pool, const Body& body) {
-  std::vector<std::int32_t> ends;
-  std::int32_t end = 0;
-  for (const int o : pool.objects) ends.push_back(end += s.model.objects[at(o)].particles);
   const std::vector<std::int32_t>& order = pool.neighbours.order().points();
   s.context.executor.parallel_for(name, pool.neighbours.tasks(), [&](int task) {
     const int first = task * NeighbourLists::groups_in_a_task * lanes;
     const int last = std::min(first + NeighbourLists::groups_in_a_task * lanes, pool.neighbours.slots());
     for (int slot = first; slot < last; ++slot) {
-      const auto which = std::upper_bound(ends.begin(), ends.end(), order[at(slot)]) - ends.begin();
+      const auto which = std::upper_bound(pool.ends.begin(), pool.ends.end(), order[at(slot)]) - pool.ends.begin();
       body(pool.objects[at(which)], pool.of_slot[at(slot)], slot);
     }
   });

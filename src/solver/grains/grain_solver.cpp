@@ -56,21 +56,34 @@ GrainSolver::GrainSolver(const Model& model, const std::vector<int>* objects) {
   const int count = static_cast<int>(objects != nullptr ? objects->size() : model.objects.size());
   for (int i = 0; i < count; ++i) {
     const int o = objects != nullptr ? (*objects)[at(i)] : i;
+    if (model.objects[at(o)].grains) objects_.push_back(o);
+  }
+  list_points(model, {});
+}
+
+GrainSolver::~GrainSolver() = default;
+
+/// Lists the grains that are there.
+void GrainSolver::list_points(const Model& model, const State& state) {
+  points_.clear();
+  traits_.clear();
+  for (const int o : objects_) {
     const CompiledObject& object = model.objects[at(o)];
-    if (!object.grains) continue;
     const GrainTraits traits{
         object.grains->radius, contact_friction(object.grains->friction), 0, o, object.groups, object.mask};
     largest_radius_ = std::max(largest_radius_, traits.radius);
     for (int p = model.first[at(o)]; p < model.end_of(o); ++p) {
+      if (!is_there(state, at(p))) continue;
       points_.push_back(p);
       traits_.push_back(traits);
     }
   }
 }
 
-GrainSolver::~GrainSolver() = default;
-
-void GrainSolver::begin_frame() { is_new_frame_ = true; }
+void GrainSolver::begin_frame(const Substep& s) {
+  is_new_frame_ = true;
+  if (!s.state.births.empty()) list_points(s.model, s.state);
+}
 
 void GrainSolver::find_neighbours(Substep& s, const std::vector<GrainContact>& known) {
   Records by_point(points_.size());
@@ -118,6 +131,7 @@ void GrainSolver::list_neighbours(int slot, const std::vector<GrainContact>& kno
 
 /// False if a grain has moved so far that it may touch one that is not listed.
 bool GrainSolver::are_neighbours_known(Substep& s) {
+  if (points_.empty()) return true;
   task_moves_.assign(at(lists_.tasks()), 0);
   s.context.executor.parallel_for("neighbours: grains", lists_.tasks(), [&](int task) {
     float largest = 0;

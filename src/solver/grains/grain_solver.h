@@ -47,10 +47,10 @@ class GrainSolver {
   GrainSolver(const Model& model, const std::vector<int>* objects);
   ~GrainSolver();
 
-  bool has_grains() const { return !points_.empty(); }
+  bool has_grains() const { return !objects_.empty(); }
 
   /// Starts a frame: neighbours are found in its first substep, so that they follow from the State.
-  void begin_frame();
+  void begin_frame(const Substep& s);
   /// After the prediction: finds neighbours, if grains have moved too far since.
   void collide(Substep& s);
   /// Projects all contacts once.
@@ -59,6 +59,7 @@ class GrainSolver {
   void append_contacts(const State& state, std::vector<GrainContact>& to);
 
  private:
+  void list_points(const Model& model, const State& state);
   void find_neighbours(Substep& s, const std::vector<GrainContact>& known);
   void count_neighbours();
   void list_contacts(std::vector<GrainContact>& to) const;
@@ -67,7 +68,8 @@ class GrainSolver {
   void slide(const State& state, int slot);
   void project_grain(Substep& s, int slot, bool is_first);
 
-  std::vector<std::int32_t> points_;  ///< all particles, as in the State
+  std::vector<int> objects_;          ///< ascending
+  std::vector<std::int32_t> points_;  ///< all particles that are there, as in the State
   std::vector<GrainTraits> traits_;   ///< of each of `points_`
   float largest_radius_ = 0;          ///< [m]
 

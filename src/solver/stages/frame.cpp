@@ -48,8 +48,8 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   begin_quarter(s);
   if (s.has_pairs()) s.pairs->begin_frame(s.state.positions.data(), s.work.look_for_tangles);
   if (s.bodies != nullptr) s.bodies->begin_frame(s);
-  if (s.fluids != nullptr) s.fluids->begin_frame();
-  if (s.grains != nullptr) s.grains->begin_frame();
+  if (s.fluids != nullptr) s.fluids->begin_frame(s);
+  if (s.grains != nullptr) s.grains->begin_frame(s);
   if (s.gases != nullptr) s.gases->begin_frame();
   s.sweeps_on_entry = may_sweep_on_entry(s);
   return s;
