@@ -108,8 +108,8 @@ void fields(A& a, Is<WorldLayout> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Fluid> auto& of) {
-  auto& [spacing, density, speed_of_sound, viscosity] = of;
-  a(spacing, density, speed_of_sound, viscosity);
+  auto& [spacing, density, speed_of_sound, viscosity, surface_tension] = of;
+  a(spacing, density, speed_of_sound, viscosity, surface_tension);
 }
 template <class A>
 void fields(A& a, Is<Grains> auto& of) {

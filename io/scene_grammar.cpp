@@ -173,6 +173,9 @@ const Record& liquid_record() {
        field("viscosity", number("Pa s", 0, 1e6), "that of `kind`, else 0",
              "Dynamic viscosity: water 0.001, honey 10. 0: none. A liquid with viscosity does not slip along colliders and "
              "bodies."),
+       field("surface_tension", number("N/m", 0, 1e6), 0.f,
+             "Surface tension towards air: water 0.072, oil 0.03. 0: none. It needs substeps of at most about 0.05 "
+             "sqrt(density spacing^3 / surface_tension)."),
        field("capacity", integer(1, 1 << 26), "those at the start", "Most particles that are there at a time."),
        field("emitters", list(record(emitter_record())), "none", "What adds particles; needs a `capacity`."),
        field("drains", list(record(drain_record())), "none", "Solids that take particles away, as each frame begins."),

@@ -131,6 +131,7 @@ BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const s
   set(at, "density", options.fluid.density);
   set(at, "speed_of_sound", options.fluid.speed_of_sound);
   set(at, "viscosity", options.fluid.viscosity);
+  set(at, "surface_tension", options.fluid.surface_tension);
   set_flow(document, at, options);
   return {make_liquid(places_of({document, folder, name, repairs, options.fluid.spacing}, at), options)};
 }

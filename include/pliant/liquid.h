@@ -12,9 +12,10 @@ namespace pliant {
 /// What a real liquid is like at about 20 degrees Celsius.
 struct LiquidKind {
   std::string name;
-  float density = 1000;  ///< [kg/m^3]
-  float viscosity = 0;   ///< dynamic [Pa s]
-  std::string source;    ///< where the numbers come from
+  float density = 1000;       ///< [kg/m^3]
+  float viscosity = 0;        ///< dynamic [Pa s]
+  float surface_tension = 0;  ///< towards air [N/m]
+  std::string source;         ///< where the numbers come from
 };
 
 /// Returns a built-in liquid: "water", "oil", "glycerine" or "honey". For any other name throws an Error that lists the names.

@@ -46,10 +46,11 @@ float stiffness_from_compliance(float alpha, const ConversionContext& context);
 /// Makes the particles of an object a liquid: a constraint on the density at each of them (Macklin and Mueller 2013). Liquids with the same
 /// spacing, speed of sound, groups and mask mix; others do not meet.
 struct Fluid {
-  float spacing = 0.02f;     ///< distance of particles at rest [m]
-  float density = 1000;      ///< at rest [kg/m^3]
-  float speed_of_sound = 0;  ///< by which it yields to pressure p: by p / (density c^2); 0: it does not yield [m/s]
-  float viscosity = 0;       ///< dynamic: water 0.001, honey 10; 0: none; at most 1e6 [Pa s]
+  float spacing = 0.02f;      ///< distance of particles at rest [m]
+  float density = 1000;       ///< at rest [kg/m^3]
+  float speed_of_sound = 0;   ///< by which it yields to pressure p: by p / (density c^2); 0: it does not yield [m/s]
+  float viscosity = 0;        ///< dynamic: water 0.001, honey 10; 0: none; at most 1e6 [Pa s]
+  float surface_tension = 0;  ///< towards air: water 0.072; 0: none; at most 1e6 [N/m]
 };
 
 /// Makes the particles of an object grains: spheres that press on one another with friction, and do not turn. Grains whose objects meet by

@@ -171,6 +171,16 @@ struct ViscositySolves {
   }
 };
 
+/// How much of the surface tension of liquids acts, as the least of any liquid and substep of a frame (docs/guide/liquids.md).
+struct TensionActs {
+  float share = 1;  ///< of Fluid::surface_tension; below 1 where substeps are too long for it, and a warning says so [-]
+
+  TensionActs& operator+=(const TensionActs& other) {
+    share = other.share < share ? other.share : share;
+    return *this;
+  }
+};
+
 /// The result of a step. A step never throws, except for exceptions of the user's force fields.
 struct Report {
   std::int64_t frame = 0;
@@ -189,6 +199,7 @@ struct Report {
   std::vector<IterationResidual> convergence;  ///< last substep by iteration, if Settings::record_residuals is set
   Compression compression;                     ///< of liquids
   ViscositySolves viscosity;                   ///< of liquids
+  TensionActs tension;                         ///< of liquids
   FlowReport flow;                             ///< of liquids and grains whose particles come and go
   int sleeping_bodies = 0;                     ///< rigid bodies that sleep at the end of the step (SleepOptions)
   std::vector<JointBreak> broken_joints;       ///< joints that broke in this step, by object and index

@@ -236,6 +236,19 @@ void doubt_compression(const Doubts& d) {
                       "use " + std::to_string(needed) + ", or leave substeps out");
 }
 
+/// Says by how much too few substeps weaken surface tension.
+void doubt_tension(const Doubts& d) {
+  constexpr double tolerated = 1.2;  // the bound of solver/fluids/tension_law.cpp over the substeps by default
+  const Settings& settings = d.scene.settings;
+  if (!d.object.fluid || settings.substeps <= 0) return;
+  const int needed = substeps_of_tension(d.object, static_cast<double>(d.scene.frame_time));
+  const double longer = static_cast<double>(needed) / (settings.substeps * tolerated);
+  if (longer <= 1) return;
+  d.problems.doubtful("settings, substeps",
+                      "are so few that only about " + words(100 / (longer * longer)) + " % of the surface tension can act",
+                      "use " + std::to_string(needed) + ", or leave substeps out");
+}
+
 void doubt_air(const Doubts& d) {
   const Wind& wind = d.scene.wind;
   if (length_squared(wind.velocity) > 0 && wind.air_density > 0 && (d.object.fluid || d.object.grains) && !d.object.gas)
@@ -270,6 +283,7 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   doubt_overlaps(doubts);
   doubt_air(doubts);
   doubt_compression(doubts);
+  doubt_tension(doubts);
 }
 
 }  // namespace pliant

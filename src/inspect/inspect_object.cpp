@@ -267,6 +267,7 @@ void check_fluid(Problems& problems, const Object& object) {
   require_range(problems, "fluid, density", object.fluid->density, least, 1e12);
   require_range(problems, "fluid, speed_of_sound", object.fluid->speed_of_sound, 0, largest_place);
   require_range(problems, "fluid, viscosity", object.fluid->viscosity, 0, 1e6);
+  require_range(problems, "fluid, surface_tension", object.fluid->surface_tension, 0, 1e6);
 }
 
 void check_grains(Problems& problems, const Object& object) {

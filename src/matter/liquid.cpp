@@ -33,6 +33,9 @@ Object make_liquid(const std::vector<Vec3f>& positions, const LiquidOptions& opt
   if (!(fluid.viscosity >= 0) || !std::isfinite(fluid.viscosity))
     throw Error({.object = options.name, .element = "viscosity"}, "is " + std::to_string(fluid.viscosity),
                 "give a positive viscosity [Pa s], or 0 for none");
+  if (!(fluid.surface_tension >= 0) || !std::isfinite(fluid.surface_tension))
+    throw Error({.object = options.name, .element = "surface_tension"}, "is " + std::to_string(fluid.surface_tension),
+                "give a positive tension [N/m], or 0 for none");
   Object liquid;
   liquid.name = options.name;
   liquid.positions = positions;

@@ -281,9 +281,18 @@ int substeps_of_fluid(const Object& object, double frame_time) {
   return std::clamp(static_cast<int>(std::ceil(std::min(frame_time / h, 1e4))), 4, 1000);
 }
 
+int substeps_of_tension(const Object& object, double frame_time) {
+  constexpr double share = 0.05;
+  const double tension = static_cast<double>(object.fluid->surface_tension);
+  if (!(tension > 0)) return 1;
+  const double s = static_cast<double>(object.fluid->spacing), density = static_cast<double>(object.fluid->density);
+  const double h = share * std::sqrt(density * s * s * s / tension);
+  return std::clamp(static_cast<int>(std::ceil(std::min(frame_time / h, 1e4))), 1, 1000);
+}
+
 int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_time) {
   if (object.tracers) return 1;
-  if (object.fluid) return substeps_of_fluid(object, frame_time);
+  if (object.fluid) return std::max(substeps_of_fluid(object, frame_time), substeps_of_tension(object, frame_time));
   if (object.grains) return substeps_of_grains(heights_of_grains(object, frame_time), depth_of(object));
   const bool is_of_bodies = !object.bodies.empty() && object.bodies.size() == object.positions.size();
   if (is_of_bodies && !has_converted(object)) return substeps_of_bodies;

@@ -54,6 +54,8 @@ bool can_follow_volume(const Object& object, double substep = 1.0 / 60 / substep
 /// The substeps of a liquid, with which its density is 0.35 % too high on average when it rests. The error is the depth of what lies
 /// above a particle, times the square of the substep.
 int substeps_of_fluid(const Object& object, double frame_time);
+/// The substeps that the surface tension of a liquid needs: of 0.05 sqrt(density spacing^3 / tension), of a capillary wave of the spacing.
+int substeps_of_tension(const Object& object, double frame_time);
 
 /// The share of its overlap that a contact of two grains removes in an iteration (solver/grains/grain_formulas.h).
 inline constexpr float stiffness_of_grains = 0.2f;

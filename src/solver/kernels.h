@@ -24,6 +24,7 @@ struct ManifoldKernels;   // solver/bodies/manifold_kernels.h
 struct MotionKernels;     // solver/motion_kernels.h
 struct FluidKernels;      // solver/fluids/fluid_kernels.h
 struct NeighbourKernels;  // collision/neighbours/neighbour_kernels.h
+struct TensionKernels;    // solver/fluids/tension_kernels.h
 struct ViscosityKernels;  // solver/fluids/viscosity_kernels.h
 struct PairKernels;       // collision/proxies/pair_kernels.h
 
@@ -68,6 +69,7 @@ struct Kernels : StepKernels {
   const NeighbourKernels& neighbours;
   const FluidKernels& fluids;
   const ViscosityKernels& viscosity;
+  const TensionKernels& tension;
 };
 
 /// The readable reference in plain floats. Kernels without a scalar version (multigrid, pairs) use the generic level.

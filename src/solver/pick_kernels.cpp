@@ -7,6 +7,7 @@
 #include "solver/bodies/manifold_kernels.h"
 #include "solver/contact_kernels.h"
 #include "solver/fluids/fluid_kernels.h"
+#include "solver/fluids/tension_kernels.h"
 #include "solver/fluids/viscosity_kernels.h"
 #include "solver/kernels.h"
 #include "solver/length_kernels.h"
@@ -31,15 +32,16 @@ bool runs_v2() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_suppor
 #endif
 bool runs_generic() { return true; }
 
-#define PLIANT_LEVEL_TABLE(suffix, isa, ...)                                              \
-  const Kernels& kernels_##suffix() {                                                     \
-    static const Kernels table{step_kernels_##suffix(),    isa,                           \
-                               chain_kernels_##suffix(),   multigrid_kernels_##suffix(),  \
-                               contact_kernels_##suffix(), length_kernels_##suffix(),     \
-                               pair_kernels_##suffix(),    manifold_kernels_##suffix(),   \
-                               motion_kernels_##suffix(),  neighbour_kernels_##suffix(),  \
-                               fluid_kernels_##suffix(),   viscosity_kernels_##suffix()}; \
-    return table;                                                                         \
+#define PLIANT_LEVEL_TABLE(suffix, isa, ...)                                             \
+  const Kernels& kernels_##suffix() {                                                    \
+    static const Kernels table{step_kernels_##suffix(),    isa,                          \
+                               chain_kernels_##suffix(),   multigrid_kernels_##suffix(), \
+                               contact_kernels_##suffix(), length_kernels_##suffix(),    \
+                               pair_kernels_##suffix(),    manifold_kernels_##suffix(),  \
+                               motion_kernels_##suffix(),  neighbour_kernels_##suffix(), \
+                               fluid_kernels_##suffix(),   viscosity_kernels_##suffix(), \
+                               tension_kernels_##suffix()};                              \
+    return table;                                                                        \
   }
 PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_TABLE, )
 
@@ -64,7 +66,8 @@ const Kernels& kernels_sequential() {
                              contact_kernels_sequential(), length_kernels_sequential(),
                              pair_kernels_generic(),       manifold_kernels_sequential(),
                              motion_kernels_sequential(),  neighbour_kernels_sequential(),
-                             fluid_kernels_sequential(),   viscosity_kernels_sequential()};
+                             fluid_kernels_sequential(),   viscosity_kernels_sequential(),
+                             tension_kernels_sequential()};
   return table;
 }
 

@@ -22,9 +22,10 @@ TEST(KindsOfLiquid, AreThoseOfThePage) {
   std::ifstream file(PLIANT_SOURCE_DIR "/docs/guide/liquids.md");
   std::stringstream page;
   page << file.rdbuf();
-  std::string table = "| kind | density, kg/m^3 | viscosity, Pa s |\n|---|---|---|\n";
+  std::string table = "| kind | density, kg/m^3 | viscosity, Pa s | surface tension, N/m |\n|---|---|---|---|\n";
   for (const LiquidKind& of : liquids())
-    table += "| " + of.name + " | " + number(of.density) + " | " + number(of.viscosity) + " |\n";
+    table += "| " + of.name + " | " + number(of.density) + " | " + number(of.viscosity) + " | " +
+             number(of.surface_tension) + " |\n";
   EXPECT_NE(page.str().find(table), std::string::npos) << table;
   for (const LiquidKind& of : liquids()) {
     const std::string line = "- **" + of.name + "**: " + of.source + "\n";

@@ -80,6 +80,7 @@ void FluidSolver::list_points(const Model& model, const State& state, FluidPool&
   p.ends.clear();
   p.lightness_of_point.clear();
   p.viscosity.clear();
+  p.tension.clear();
   for (const int o : p.objects) {
     const CompiledObject& object = model.objects[at(o)];
     least = std::min(least, object.fluid->density);
@@ -88,7 +89,10 @@ void FluidSolver::list_points(const Model& model, const State& state, FluidPool&
       if (is_there(state, at(i))) p.points.push_back(i);
     const std::size_t before = p.lightness_of_point.size();
     p.lightness_of_point.resize(p.points.size(), object.fluid->density);
-    p.viscosity.add(object.fluid->viscosity, static_cast<int>(p.points.size() - before));
+    const int added = static_cast<int>(p.points.size() - before);
+    const float spacing = object.fluid->spacing;
+    p.viscosity.add(object.fluid->viscosity, added);
+    p.tension.add(object.fluid->surface_tension, object.fluid->density * spacing * spacing * spacing, added);
     p.ends.push_back(static_cast<std::int32_t>(p.points.size()));
   }
   for (float& of : p.lightness_of_point) of = least / of;
@@ -99,6 +103,7 @@ void FluidSolver::begin_frame(const Substep& s) {
   for (auto& pool : pools_) {
     pool->age = -1;
     pool->viscosity.begin_frame();
+    pool->tension.begin_frame();
     if (!s.state.births.empty()) list_points(s.model, s.state, *pool);
   }
 }
@@ -109,6 +114,7 @@ void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
   for_all(s, "neighbours: order", static_cast<int>(by_point.size()),
           [&](int i) { by_point[at(i)] = predicted(s, pool.points[at(i)]); });
   pool.neighbours.find(s.context.executor, s.kernels.neighbours, by_point, pool.law.reach);
+  pool.tension.find_neighbours(s, pool, by_point);
   const std::vector<std::int32_t>& order = pool.neighbours.order().points();
   const std::size_t padded = at(pool.neighbours.nobody()) + NeighbourLists::lanes;
   pool.of_slot.resize(order.size());
@@ -147,9 +153,11 @@ void FluidSolver::find_lightness(const State& state, FluidPool& pool) const {
 
 void FluidSolver::collide(Substep& s) {
   for (auto& pool : pools_) {
-    if (pool->age >= 0 && ++pool->age < oldest_neighbours) continue;
-    find_neighbours(s, *pool);
-    pool->age = 0;
+    if (pool->age < 0 || ++pool->age >= oldest_neighbours) {
+      find_neighbours(s, *pool);
+      pool->age = 0;
+    }
+    pool->tension.act(s, *pool);
   }
 }
 
@@ -195,6 +203,12 @@ void FluidSolver::project(Substep& s, bool is_first) {
 ViscositySolves FluidSolver::viscosity() const {
   ViscositySolves all;
   for (const auto& pool : pools_) all += pool->viscosity.solves();
+  return all;
+}
+
+TensionActs FluidSolver::tension() const {
+  TensionActs all;
+  for (const auto& pool : pools_) all += pool->tension.acts();
   return all;
 }
 

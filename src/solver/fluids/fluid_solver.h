@@ -11,6 +11,7 @@
 #include "pliant/report.h"
 #include "solver/fluids/fluid_bodies.h"
 #include "solver/fluids/fluid_walls.h"
+#include "solver/fluids/tension.h"
 #include "solver/fluids/viscosity.h"
 
 namespace pliant {
@@ -29,6 +30,7 @@ struct FluidPool {
   FluidWalls walls;
   FluidBodies bodies;
   FluidViscosity viscosity;
+  FluidTension tension;
   float mass = 0;                             ///< of a particle of the lightest liquid [kg]; 0 if all are fixed
   std::vector<float> squares;                 ///< by slot: what bodies add to the squared gradients [1/m^2]
   std::vector<float> lightness_of_point;      ///< the least density over that of each point; empty if all have one
@@ -48,7 +50,7 @@ class FluidSolver {
 
   /// Starts a frame: neighbours are found in its first substep, so that they follow from the State.
   void begin_frame(const Substep& s);
-  /// After the prediction: finds neighbours, if those known are too old.
+  /// After the prediction: finds neighbours, if those known are too old, and adds surface tension.
   void collide(Substep& s);
   /// Projects all density constraints once.
   void project(Substep& s, bool is_first);
@@ -56,6 +58,7 @@ class FluidSolver {
   Compression compression() const;
   /// Of all pools in this frame.
   ViscositySolves viscosity() const;
+  TensionActs tension() const;
   const std::vector<std::unique_ptr<FluidPool>>& pools() const { return pools_; }
 
  private:

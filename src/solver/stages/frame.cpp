@@ -1,5 +1,6 @@
 // Starts and ends a frame.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 
@@ -139,6 +140,14 @@ void add(const ViscositySolves& solves, Report& sum) {
                          " % of its residual; use more substeps, a larger spacing, or a lower viscosity");
 }
 
+void add(const TensionActs& acts, Report& sum) {
+  sum.tension += acts;
+  if (acts.share == 1) return;
+  sum.warnings.push_back("substeps are too long for the surface tension of a liquid, so " +
+                         std::to_string(100 * acts.share) + " % of it acts; use " +
+                         std::to_string(std::sqrt(1 / acts.share)) + " times as many substeps, or a larger spacing");
+}
+
 void add(Substep& s, Report& sum) {
   Report& own = s.report;
   sum.substeps = std::max(sum.substeps, s.made);
@@ -149,6 +158,7 @@ void add(Substep& s, Report& sum) {
   std::move(own.warnings.begin(), own.warnings.end(), std::back_inserter(sum.warnings));
   if (s.fluids != nullptr) add(s.fluids->compression(), sum.compression);
   if (s.fluids != nullptr) add(s.fluids->viscosity(), sum);
+  if (s.fluids != nullptr) add(s.fluids->tension(), sum);
   if (!s.has_pairs()) return;
   add(s.pairs->counts(), sum.pairs);
   warn_of_pairs(s.model, *s.pairs, sum.warnings);

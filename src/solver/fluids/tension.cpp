@@ -1,0 +1,92 @@
+#include "solver/fluids/tension.h"
+
+#include <algorithm>
+
+#include "solver/fluids/fluid_solver.h"
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr float nowhere = 1e18f;  ///< a place where nobody is near [m]
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// Calls body(group, first slot, last slot) for all groups on all threads.
+template <class Body>
+void for_groups(Substep& s, const NeighbourLists& lists, const Body& body) {
+  s.context.executor.parallel_for("surface tension", lists.tasks(), [&](int task) {
+    const int first = task * NeighbourLists::groups_in_a_task;
+    const int last = std::min(first + NeighbourLists::groups_in_a_task, lists.groups());
+    for (int group = first; group < last; ++group) {
+      const int slot = group * NeighbourLists::lanes;
+      body(group, slot, std::min(slot + NeighbourLists::lanes, lists.slots()));
+    }
+  });
+}
+
+}  // namespace
+
+void FluidTension::add(float tension, float mass, int particles) {
+  has_any_ = has_any_ || tension > 0;
+  of_point_.resize(of_point_.size() + at(particles), tension);
+  masses_.resize(masses_.size() + at(particles), mass);
+}
+
+void FluidTension::clear() {
+  has_any_ = false;
+  of_point_.clear();
+  masses_.clear();
+}
+
+void FluidTension::find_neighbours(Substep& s, const FluidPool& pool, const Records& by_point) {
+  if (!has_any_) return;
+  neighbours_.find(s.context.executor, s.kernels.neighbours, by_point, tension_law(pool.law.reach / 2).reach);
+  const std::size_t padded = at(neighbours_.nobody()) + NeighbourLists::lanes;
+  places_.assign(padded, {nowhere, nowhere, nowhere, 0});
+  lacking_.assign(padded, {nowhere, nowhere, nowhere, 0});
+  forces_.resize(padded);
+  tensions_.assign(padded, 0);
+}
+
+/// Predicted places, and the tension that acts on each: as much as is stable.
+void FluidTension::gather(Substep& s, const FluidPool& pool) {
+  const float stiffness = tension_law(pool.law.reach / 2).stiffness / (s.h * s.h);
+  const std::vector<std::int32_t>& order = neighbours_.order().points();
+  for_groups(s, neighbours_, [&](int, int first, int last) {
+    for (std::size_t slot = at(first); slot < at(last); ++slot) {
+      const std::size_t point = at(order[slot]);
+      const std::size_t particle = at(pool.points[point]);
+      const Record &x = s.state.positions[particle], &d = s.work.displacements[particle];
+      places_[slot] = {x.x + d.x, x.y + d.y, x.z + d.z, 0};
+      tensions_[slot] = std::min(of_point_[point], stiffness * masses_[point]);
+    }
+  });
+  for (std::size_t point = 0; point < of_point_.size(); ++point)
+    if (of_point_[point] > 0) acts_.share = std::min(acts_.share, stiffness * masses_[point] / of_point_[point]);
+}
+
+void FluidTension::act(Substep& s, const FluidPool& pool) {
+  if (!has_any_) return;
+  gather(s, pool);
+  TensionArrays a{tension_law(pool.law.reach / 2)};
+  a.places = places_.data();
+  a.tensions = tensions_.data();
+  a.lacking = lacking_.data();
+  a.forces = forces_.data();
+  for_groups(s, neighbours_, [&](int g, int, int) { s.kernels.tension.count(a, neighbours_.group(g), g); });
+  const std::vector<std::int32_t>& order = neighbours_.order().points();
+  for_groups(s, neighbours_, [&](int g, int first, int last) {
+    s.kernels.tension.pull(a, neighbours_.group(g), g);
+    for (std::size_t slot = at(first); slot < at(last); ++slot) {
+      const std::size_t particle = at(pool.points[at(order[slot])]);
+      const float by = s.h * s.h * s.state.positions[particle].w;
+      Record& d = s.work.displacements[particle];
+      const Record& f = forces_[slot];
+      d = {d.x + f.x * by, d.y + f.y * by, d.z + f.z * by, d.w};
+    }
+  });
+}
+
+}  // namespace pliant

@@ -1,0 +1,22 @@
+// The surface energy of a liquid, as a sum over its particles.
+#pragma once
+
+namespace pliant {
+
+/// A particle counts its neighbours within `reach` by (1 - r^2 / reach^2)^2. Where the sum c, over that inside a lattice, is below `full`,
+/// the particle has the energy sigma `energy` (full - c)^2 / 2. So only particles near a surface attract their neighbours, and inside a liquid
+/// there is no attraction that would make a solid of it. Forces are along pairs: linear and angular momentum are kept.
+struct TensionLaw {
+  float reach = 0;           ///< [m]
+  float own = 0;             ///< c of a particle alone [-]
+  float count_scale = 0;     ///< of a neighbour, so that c is 1 inside a lattice [-]
+  float full = 0;            ///< [-]
+  float energy = 0;          ///< [m^2]
+  float gradient_scale = 0;  ///< of a pair's force, from the gradient of the count [1/m^2]
+  float stiffness = 0;       ///< h^2 sigma / (mass of a particle) must stay below it for stability [-]
+};
+
+/// The law of a liquid whose particles are `spacing` [m] apart at rest.
+TensionLaw tension_law(float spacing);
+
+}  // namespace pliant
