@@ -58,6 +58,12 @@ BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, Body
   islands_ = BodyIslands(model, bodies_);
   sleep_ = BodySleep(model, bodies_, islands_);
   find_tied(model);
+  const auto has_particles = [&](int o) {
+    const CompiledObject& object = model.objects[at(o)];
+    return !object.is_collider && object.particles > static_cast<int>(object.bodies.bodies.size());
+  };
+  const std::vector<int>& own = objects == nullptr ? all : *objects;
+  if (std::any_of(own.begin(), own.end(), has_particles)) pressed_by_ = PressedBy::anything;
 }
 
 void BodySolver::find_tied(const Model& model) {
@@ -85,7 +91,7 @@ void BodySolver::make_manifolds(const Substep& s) {
     const auto& [a, b] = bodies_of[at(i)];
     Manifold m = manifold_of(contacts_.all()[at(i)], a, b, bodies_.material(s.model, a, b), s.h);
     const bool separates = limit_depths(motions_.all()[at(a)], motions_.all()[at(b)], contacts_.size(i),
-                                        std::max(overlaps_[at(a)], overlaps_[at(b)]), s.h, m);
+                                        std::max(overlaps_[at(a)], overlaps_[at(b)]), pressed_by_, s.h, m);
     is_separating_[at(i)] = separates ? 1 : 0;
     turn_arm(contacts_.states()[at(a)], m.normal, left, m.arm_a);
     turn_arm(contacts_.states()[at(b)], m.normal, left, m.arm_b);

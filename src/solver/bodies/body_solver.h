@@ -15,6 +15,7 @@
 #include "solver/bodies/body_points.h"
 #include "solver/bodies/body_sleep.h"
 #include "solver/bodies/contact_bodies.h"
+#include "solver/bodies/depenetration.h"
 #include "solver/bodies/frame_contacts.h"
 #include "solver/bodies/islands.h"
 #include "solver/bodies/manifold_blocks.h"
@@ -106,6 +107,7 @@ class BodySolver {
   ManifoldColours colours_;                    ///< of contacts_
   ManifoldBlocks blocks_;                      ///< the manifolds of contacts_ in a frame
   std::vector<int> overlaps_;                  ///< [place] FrameContacts::count_overlaps
+  PressedBy pressed_by_ = PressedBy::bodies;
   std::vector<char> is_separating_;    ///< [contact] nonzero: its bodies overlap more than what presses them explains
   bool pushes_are_known_ = false;      ///< false in the first substep of a frame
   bool is_pressed_ = false;            ///< true from press_joints to project, if any body is

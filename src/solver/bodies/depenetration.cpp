@@ -25,11 +25,12 @@ float inverse_mass_at(const Vec3f& arm, const Vec3f& normal, const BodyMotion& b
 
 float depenetration_speed(float size) { return std::min(fastest, sizes_a_second * size); }
 
-bool limit_depths(const BodyMotion& a, const BodyMotion& b, float size, int others, float h, Manifold& m) {
+bool limit_depths(const BodyMotion& a, const BodyMotion& b, float size, int others, PressedBy by, float h, Manifold& m) {
   constexpr ContactSoftness softness;
   const float share = std::min(few / static_cast<float>(std::max(others, 1)), 1.f);
   const float margin = share * depenetration_speed(size) * h / softness.beta;
-  const float depth_an_approach = softness.epsilon * h / ((1 - softness.epsilon) * softness.beta);
+  const float depth_an_approach =
+      by == PressedBy::bodies ? softness.epsilon * h / ((1 - softness.epsilon) * softness.beta) : h / softness.beta;
   bool is_limited = false;
   float deepest = 0;
   for (std::size_t i = 0; i < at(m.count); ++i) {
