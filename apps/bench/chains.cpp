@@ -110,7 +110,7 @@ std::vector<ChainRow> measure_chains(const ChainOptions& options) {
     if (links < 2) throw Error({}, "a chain has " + std::to_string(links) + " links", "give at least 2");
     std::vector<Chain> chains;
     chains.emplace_back(links, "sweeps", 40);
-    for (const int substeps : {8, 4}) chains.emplace_back(links, "direct", substeps);
+    for (const int substeps : {8, 4, 2}) chains.emplace_back(links, "direct", substeps);
     for (int frame = 0; frame < options.frames; ++frame)
       for (Chain& chain : chains) chain.step();
     double of_sweeps = 0;

@@ -71,7 +71,8 @@ Grid grid_around(const RenderSmoke& smoke) {
 
 /// Adds a puff: (1 - r^2 / R^2)^2 times `middle` [1/m].
 void add_puff(Grid& grid, const Vec3f& centre, float radius, float middle) {
-  const float reach = std::max(radius, grid.cell);
+  const float reach = std::max(radius, grid.cell), thinned = radius / reach;
+  middle *= thinned * thinned * thinned;  // a puff wider than it is has as much smoke
   std::array<int, 3> first{}, last{};
   const std::array<float, 3> at{centre.x - grid.low.x, centre.y - grid.low.y, centre.z - grid.low.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {

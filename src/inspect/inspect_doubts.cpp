@@ -259,6 +259,12 @@ void doubt_air(const Doubts& d) {
                         "set the wind's air_density, for example to 1.2 kg/m^3");
 }
 
+void doubt_tracers(const Doubts& d) {
+  if (!d.object.tracers || !(d.object.tracers->end > 0) || d.object.tracers->end > d.object.tracers->start) return;
+  d.problems.doubtful("tracers, end", "is not after their start, so that none are emitted",
+                      "give a later end, or 0 to emit for ever");
+}
+
 std::vector<bool> fixed_particles(const Object& object) {
   std::vector<bool> fixed(object.positions.size());
   for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i] = std::isinf(object.masses[i]);
@@ -284,6 +290,7 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   doubt_air(doubts);
   doubt_compression(doubts);
   doubt_tension(doubts);
+  doubt_tracers(doubts);
 }
 
 }  // namespace pliant

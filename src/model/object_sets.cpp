@@ -259,13 +259,13 @@ namespace {
 double acceleration_of_fluid(const Object& object) {
   constexpr double least = 0.2;  // of gravity: what moves presses too
   if (!object.gas) return least_acceleration;
-  double lightest = static_cast<double>(object.gas->temperature), share = least;
-  for (const GasHeater& heater : object.gas->heaters)
-    lightest = std::max(lightest, static_cast<double>(heater.temperature));
-  for (const double temperature : {lightest, static_cast<double>(object.gas->temperature)})
-    share = std::max(share, std::abs(static_cast<double>(object.gas->ambient_density / object.fluid->density) *
-                                         temperature / static_cast<double>(object.gas->ambient_temperature) -
-                                     1));
+  const double ambient = static_cast<double>(object.gas->ambient_temperature);
+  const double ratio = static_cast<double>(object.gas->ambient_density / object.fluid->density);
+  double share = least;
+  const auto take = [&](double temperature) { share = std::max(share, std::abs(ratio * temperature / ambient - 1)); };
+  take(static_cast<double>(object.gas->temperature));
+  if (object.gas->cooling_time > 0) take(ambient);
+  for (const GasHeater& heater : object.gas->heaters) take(static_cast<double>(heater.temperature));
   return least_acceleration * share;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pliant/body.h"
+#include "pliant/gas.h"
 #include "pliant/joint.h"
 #include "pliant/liquid.h"
 #include "pliant/mesh.h"
@@ -141,6 +142,22 @@ TEST(InspectScene, SaysThatWindDoesNotPushLiquids) {
   scene.wind.velocity = {5, 0, 0};
   scene.wind.air_density = 1.2f;
   EXPECT_NE(finding(scene, "object 'water'").find("is not pushed by the wind"), std::string::npos);
+}
+
+TEST(InspectScene, SaysThatTracersAreNeverEmitted) {
+  TracersOptions smoke;
+  smoke.tracers.start = 2;
+  smoke.capacity = 10;
+  const auto found = [&](float end) {
+    smoke.tracers.end = end;
+    Scene scene;
+    scene.add(make_tracers(smoke));
+    return finding(scene, "none are emitted");
+  };
+  EXPECT_NE(found(1), "");
+  EXPECT_NE(found(2), "");
+  EXPECT_EQ(found(3), "");
+  EXPECT_EQ(found(0), "");
 }
 
 TEST(InspectScene, SaysHowFarTooFewSubstepsCompressALiquid) {

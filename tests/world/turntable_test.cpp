@@ -1,7 +1,8 @@
-// Tests that a box rides on a turntable that turns by keyframes, where friction holds it.
+// Tests that boxes ride on turntables and rollers, where friction holds them.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "pliant/body.h"
 #include "pliant/world.h"
@@ -11,29 +12,57 @@ namespace {
 
 constexpr float pi = 3.14159265f;
 
-/// The distance from the axis after `seconds`, of a box let go at a metre with the speed of the table [m].
-double radius_after(float speed, int seconds) {
+Object box_at(const Vec3f& position, const Vec3f& velocity = {}, const Vec3f& angular_velocity = {}) {
+  BodyOptions options;
+  options.position = position;
+  options.velocity = velocity;
+  options.angular_velocity = angular_velocity;
+  Object box = make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, options);
+  box.static_friction = box.kinetic_friction = 1;
+  return box;
+}
+
+/// A box let go at a metre from the axis, with the speed of a table that turns by `speed` [rad/s].
+Object rider(float speed) { return box_at({1, 0.1f, 0}, {0, 0, -speed}, {0, speed, 0}); }
+
+/// Turns about an axis through a pivot.
+Motion turning(float speed, const Vec3f& axis, const Vec3f& pivot, int seconds) {
+  Motion motion;
+  motion.pivot = pivot;
+  for (int i = 0; i <= 8 * seconds; ++i) {
+    const float time = static_cast<float>(i) / 8, half = speed * time / 2;
+    const Vec3f part = axis * std::sin(half);
+    motion.keyframes.push_back({time, {}, Quatf{part.x, part.y, part.z, std::cos(half)}});
+  }
+  return motion;
+}
+
+Scene table(float speed, int seconds) {
   Scene scene;
   Collider table;
   table.shape = Box{{2, 0.1f, 2}};
   table.position = {0, -0.1f, 0};
   table.static_friction = table.kinetic_friction = 1;
-  for (int i = 0; i <= 8 * seconds; ++i) {
-    const float time = static_cast<float>(i) / 8, half = speed * time / 2;
-    table.motion.keyframes.push_back({time, {}, Quatf{0, std::sin(half), 0, std::cos(half)}});
-  }
+  table.motion = turning(speed, {0, 1, 0}, {}, seconds);
   scene.add(table);
-  BodyOptions options;
-  options.position = {1, 0.1f, 0};
-  options.velocity = {0, 0, -speed};
-  options.angular_velocity = {0, speed, 0};
-  Object box = make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, options);
-  box.static_friction = box.kinetic_friction = 1;
-  scene.add(box);
-  World world(scene);
+  return scene;
+}
+
+void run(World& world, int seconds) {
   for (int frame = 0; frame < 60 * seconds; ++frame) EXPECT_TRUE(world.step(1.f / 60).ok());
-  const Vec3f x = world.object(0).positions()[0];
+}
+
+double radius(const World& world, int object) {
+  const Vec3f x = world.object(object).positions()[0];
   return std::hypot(static_cast<double>(x.x), static_cast<double>(x.z));
+}
+
+double radius_after(float speed, int seconds) {
+  Scene scene = table(speed, seconds);
+  scene.add(rider(speed));
+  World world(scene);
+  run(world, seconds);
+  return radius(world, 0);
 }
 
 /// Friction of 1 holds it up to 3.1 rad/s.
@@ -43,6 +72,61 @@ TEST(Turntable, CarriesABoxRound) {
 }
 
 TEST(Turntable, ThrowsOutWhatFrictionCannotHold) { EXPECT_GT(radius_after(pi, 3), 2); }
+
+TEST(Turntable, CarriesABoxRoundBesideASleeper) {
+  Scene scene = table(pi / 4, 5);
+  Collider shelf;
+  shelf.shape = Box{{0.5f, 0.1f, 0.5f}};
+  shelf.position = {5, 0, 0};
+  scene.add(shelf);
+  scene.add(rider(pi / 4));
+  scene.add(box_at({5, 0.2f, 0}));
+  scene.settings.sleep.on = true;
+  World world(scene);
+  run(world, 5);
+  EXPECT_TRUE(world.object(1).body_is_asleep(0));
+  EXPECT_NEAR(radius(world, 0), 1, 1e-3);
+}
+
+TEST(Turntable, MayBeAFixedBody) {
+  constexpr float speed = pi / 4;
+  Scene scene;
+  BodyOptions options;
+  options.position = {0, -0.1f, 0};
+  options.angular_velocity = {0, speed, 0};
+  options.mass = std::numeric_limits<float>::infinity();
+  Object disc = make_body({{Cylinder{2, 0.1f}}}, options);
+  disc.static_friction = disc.kinetic_friction = 1;
+  scene.add(rider(speed));
+  scene.add(disc);
+  World world(scene);
+  run(world, 5);
+  EXPECT_NEAR(radius(world, 0), 1, 1e-3);
+}
+
+// A body lies on rollers that turn about their own axes, so their surfaces do not move: it goes on by radius times spin.
+TEST(Turntable, ARollerMovesABoxByItsSurface) {
+  constexpr float radius = 0.1f, spin = 5;
+  Scene scene;
+  for (int i = 0; i < 12; ++i) {
+    Collider roller;
+    roller.shape = Capsule{radius, 0.5f};
+    roller.position = {0, -radius, 0.21f * static_cast<float>(i)};
+    roller.rotation = {0, 0, std::sqrt(0.5f), std::sqrt(0.5f)};
+    roller.static_friction = roller.kinetic_friction = 1;
+    roller.motion = turning(spin, {1, 0, 0}, roller.position, 3);
+    scene.add(roller);
+  }
+  Object box = make_body({{Box{{0.2f, 0.05f, 0.3f}}}}, {.position = {0, 0.05f, 0.6f}});
+  box.static_friction = box.kinetic_friction = 1;
+  scene.add(box);
+  World world(scene);
+  run(world, 1);
+  const float before = world.object(0).positions()[0].z;
+  run(world, 1);
+  EXPECT_NEAR(world.object(0).positions()[0].z - before, radius * spin, 2e-3f);
+  EXPECT_NEAR(world.object(0).positions()[0].y, 0.05f, 1e-3f);
+}
 
 }  // namespace
 }  // namespace pliant

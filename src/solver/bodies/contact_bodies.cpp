@@ -243,9 +243,10 @@ BodyState ContactBodies::state_at_start(const Substep& s, int index) {
   const Quatf q = quaternion(s.state.frames.orientations[at(place.frame)]);
   const Vec3f inverse = xyz(s.state.frames.inverse_inertias[at(place.frame)]);
   const bool is_fixed = x.w == 0 && inverse.x == 0 && inverse.y == 0 && inverse.z == 0;
+  const Vec3f spin = xyz(s.state.frames.angular_velocities[at(place.frame)]);
   return {{convert<double>(xyz(x)), convert<double>(q)},
           xyz(s.state.velocities[at(place.particle)]),
-          rotate(q, without(round_[at(index)], xyz(s.state.frames.angular_velocities[at(place.frame)]))),
+          rotate(q, is_fixed ? spin : without(round_[at(index)], spin)),  // a fixed disc carries what lies on it round
           is_fixed};
 }
 

@@ -136,7 +136,7 @@ void add(const ViscositySolves& solves, Report& sum) {
   sum.viscosity += solves;
   if (solves.unfinished == 0) return;
   sum.warnings.push_back("the viscosity of liquids was not solved to the end in " + std::to_string(solves.unfinished) +
-                         " substeps, at worst to " + std::to_string(100 * solves.residual) +
+                         " solves, at worst to " + std::to_string(100 * solves.residual) +
                          " % of its residual; use more substeps, a larger spacing, or a lower viscosity");
 }
 
