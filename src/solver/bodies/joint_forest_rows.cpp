@@ -153,6 +153,25 @@ void fill_rows(JointWork& work, bool start_gradients) {
   }
 }
 
+bool is_open(JointWork& work, float share) {
+  constexpr float least = 1e-6f;
+  for (const JointForest::Joint& joint : work.forest.joints) {
+    if (!joint.in_tree) continue;
+    const ConstraintPlace at = place_of(work, joint.parts.front());
+    if (at.value(at.pool.fields) > 0) continue;
+    work.arrays.load_rest(at);
+    load(work, joint, false);
+    evaluate(work, constraint_type(at.pool.type));
+    const float* rest = work.arrays.rest;  // begins with the anchors in a and in b
+    const float size =
+        sqrt(length_squared(Vec3f{rest[0], rest[1], rest[2]})) + sqrt(length_squared(Vec3f{rest[3], rest[4], rest[5]}));
+    const float most = max(least, share * min(size, 1.f));
+    for (int r = 0; r < at.pool.components; ++r)
+      if (abs(work.arrays.c[r]) > most) return true;
+  }
+  return false;
+}
+
 void fill_masses(JointWork& work) {
   JointForest& forest = work.forest;
   forest.masses.resize(forest.bodies.size());

@@ -115,20 +115,6 @@ void apply(JointWork& work) {
   store_multipliers(work);
 }
 
-/// The largest C of a rigid joint [m or rad].
-float largest_gap(const JointWork& work) {
-  float largest = 0;
-  for (std::size_t j = 0; j < work.forest.joints.size(); ++j) {
-    const JointForest::Joint& joint = work.forest.joints[j];
-    if (!joint.in_tree) continue;
-    const JointRows& rows = work.forest.rows[j];
-    const int own = work.object.pools[static_cast<std::size_t>(joint.parts.front().pool)].components;
-    for (std::size_t r = 0; r < static_cast<std::size_t>(own); ++r)
-      if (rows.compliance[r] == 0) largest = max(largest, abs(rows.value[r]));
-  }
-  return largest;
-}
-
 /// Solves again with the present gradients, and with the stiffness of the pulls that were found last.
 void solve_stiffly(JointWork& work) {
   stiffen(work);
@@ -147,18 +133,15 @@ void keep_pulls(JointWork& work) {
 }
 
 /// Solves with the gradients of the substep's start, and again where that finds that the pulls need stiffness.
-/// Returns false, and changes nothing, if no joint is off by more than a tolerance [m or rad].
-bool solve_softly(JointWork& work, float tolerance) {
+void solve_softly(JointWork& work) {
   JointForest& forest = work.forest;
   fill_rows(work, true);
-  if (tolerance > 0 && !(largest_gap(work) > tolerance)) return false;
   solve_within_bounds(forest);
   find_pulls(forest, forest.pulls_of_pass);
   for (std::size_t j = 0; j < forest.pulls.size() && !work.points.first_pass; ++j)
     for (std::size_t side = 0; side < 2; ++side)
       forest.pulls_of_pass[j][side] = forest.pulls[j][side] + forest.pulls_of_pass[j][side];
   if (find_stiffness(work, forest.pulls_of_pass) > largest_advance) solve_stiffly(work);
-  return true;
 }
 
 /// Where the joints of the last substep pulled hard, they do so now, and one solve is enough. What is kept is of this frame
@@ -171,17 +154,16 @@ bool was_pulled_hard(JointWork& work, const Substep& s) {
   return find_stiffness(work, forest.pulls) > largest_advance;
 }
 
-/// Solves the trees of an object. Returns false, and changes nothing, if no joint is off by more than a tolerance [m or rad].
-bool solve_object(const Substep& s, JointWork& work, float tolerance) {
+/// Solves the trees of an object.
+void solve_object(const Substep& s, JointWork& work) {
   fill_masses(work);
   if (was_pulled_hard(work, s))
     solve_stiffly(work);
-  else if (!solve_softly(work, tolerance))
-    return false;
+  else
+    solve_softly(work);
   keep_pulls(work);
   work.forest.inverse_h2_of_pulls = work.points.inverse_h2;
   apply(work);
-  return true;
 }
 
 /// Calls a function for the trees of each object that takes part.
@@ -199,21 +181,21 @@ void for_trees(Substep& s, bool first_pass, FunctionRef<void(JointWork&)> body) 
   });
 }
 
-/// Contact moves one body of a tree at a time, so a joint is open by what an impact gives it in a substep; gaps above this are closed.
-constexpr float closed = 1e-6f;
+/// Contact moves one body of a tree at a time, so a joint is open by what an impact gives it in a substep, and a solve is linear. Gaps above
+/// this share of a joint's arms are closed.
+constexpr float closed = 2e-5f;
 /// Each round leaves a gap of the order of the square of the last one over the length of a body.
 constexpr int most_closing_rounds = 3;
 
 }  // namespace
 
 void solve_joint_trees(Substep& s, bool first_pass) {
-  for_trees(s, first_pass, [&](JointWork& work) { (void)solve_object(s, work, 0); });
+  for_trees(s, first_pass, [&](JointWork& work) { solve_object(s, work); });
 }
 
 void close_joint_trees(Substep& s) {
   for_trees(s, false, [&](JointWork& work) {
-    for (int round = 0; round < most_closing_rounds; ++round)
-      if (!solve_object(s, work, closed)) return;
+    for (int round = 0; round < most_closing_rounds && is_open(work, closed); ++round) solve_object(s, work);
   });
 }
 
