@@ -8,6 +8,7 @@
 
 #include "apps/bench/bench.h"
 #include "apps/bench/chains.h"
+#include "apps/bench/columns.h"
 #include "apps/bench/contact.h"
 #include "apps/bench/covered.h"
 #include "apps/bench/draped_meshes.h"
@@ -167,6 +168,23 @@ std::string bench_liquids(const BenchOptions& options) {
   return to_json(pliant::bench::measure_liquids(wanted));
 }
 
+std::string bench_columns(const BenchOptions& options) {
+  pliant::bench::ColumnOptions wanted;
+  if (!options.sizes.empty()) wanted.depths = options.sizes;
+  wanted.frames = options.frames.value_or(wanted.frames);
+  print(
+      "depth, m  spacing, m  particles  substeps x iter.  denser: mean  largest  speed, mm/s: mean  largest  height  ns  "
+      "ms/1000 particles\n");
+  wanted.on_row = [](const pliant::bench::ColumnRow& row) {
+    throw_if_interrupted();
+    print(fmt::format(
+        "{:8}  {:10}  {:9}  {:8} x {:<5}{:<1}  {:10.3f}%  {:6.2f}%  {:16.2f}  {:7.1f}  {:6.4f}  {:2.0f}  {:.3f}\n",
+        row.depth, row.spacing, row.particles, row.substeps, row.iterations, row.is_default ? "d" : "", 100 * row.mean,
+        100 * row.largest, 1000 * row.speed, 1000 * row.fastest, row.height, row.ns, row.ms_per_1000));
+  };
+  return to_json(pliant::bench::measure_columns(wanted));
+}
+
 std::string bench_default(const BenchOptions& options) {
   if (options.scenes.empty() && options.meshes.empty())
     throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json, or --meshes FOLDER");
@@ -207,8 +225,8 @@ std::string bench_default(const BenchOptions& options) {
 void refuse_unknown(const std::string& workload) {
   std::vector<std::string> names;
   for (const pliant::bench::Workload& frames : pliant::bench::workloads()) names.push_back(frames.name);
-  for (const char* other : {"bodies", "bodies-pyramid", "bodies-tower", "bodies-pour", "contact", "covered", "default",
-                            "joints", "memory", "W3", "W3-ball", "W3-cloth", "W5"})
+  for (const char* other : {"bodies", "bodies-pyramid", "bodies-tower", "bodies-pour", "columns", "contact", "covered",
+                            "default", "joints", "memory", "W3", "W3-ball", "W3-cloth", "W5"})
     names.emplace_back(other);
   if (workload.empty() || std::find(names.begin(), names.end(), workload) != names.end()) return;
   const std::string near = scene_file::nearest_name(workload, names);
@@ -221,6 +239,7 @@ void refuse_unknown(const std::string& workload) {
 /// Measures a workload that has rows of its own, and returns them as JSON; nullopt for other workloads.
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload.rfind("bodies", 0) == 0) return bench_bodies(options);
+  if (options.workload == "columns") return bench_columns(options);
   if (options.workload == "contact") return bench_contact(options);
   if (options.workload == "covered") return bench_covered(options);
   if (options.workload == "default") return bench_default(options);
