@@ -328,7 +328,25 @@ namespace {
 
 bool is_direction(const Vec3f& v) { return is_place(v) && length_squared(v) > 1e-12f; }
 
-void check_emitter(Problems& problems, const std::string& name, const Emitter& emitter) {
+/// The places of a layer and the speed of layers, about: an opening may be far too large to list its places.
+void check_layer(Problems& problems, const std::string& name, const Emitter& emitter, const Object& object) {
+  constexpr double pi = 3.14159265, fastest = 1e4;
+  const double apart = static_cast<double>(object.grains ? 2.2f * object.grains->radius : object.fluid->spacing);
+  const double radius = static_cast<double>(emitter.radius),
+               area = radius > 0 ? pi * radius * radius
+                                 : static_cast<double>(emitter.width) * static_cast<double>(emitter.height);
+  const double places = std::max(area / (apart * apart), 1.0), most = static_cast<double>(object.positions.size());
+  if (!(places <= 2 * most + 16))
+    problems.grave(name + ", opening",
+                   "has room for about " + words(places) + " particles beside one another, more than the " +
+                       of(object.positions.size()) + " of the object",
+                   "make it smaller, the particles larger, or the capacity larger");
+  else if (!(static_cast<double>(emitter.flow) / (places * apart * apart) <= fastest))
+    problems.grave(name + ", flow", "needs more than 10000 m/s through this opening",
+                   "make the opening larger or the flow smaller");
+}
+
+void check_emitter(Problems& problems, const std::string& name, const Emitter& emitter, const Object& object) {
   require_place(problems, name + ", position", emitter.position);
   require_place(problems, name + ", across", emitter.across);
   if (!is_direction(emitter.direction))
@@ -344,6 +362,7 @@ void check_emitter(Problems& problems, const std::string& name, const Emitter& e
   if (!(emitter.end >= emitter.start) || !(std::abs(emitter.start) <= 3e38f))
     problems.grave(name, "ends before it starts", "give a start, and an end that is later");
   check_motion(problems, name, emitter.motion);
+  check_layer(problems, name, emitter, object);
 }
 
 }  // namespace
@@ -361,8 +380,11 @@ void check_flow(Problems& problems, const Object& object) {
     problems.grave("flow",
                    "is of an object with pins, attachments, constraints or clusters, whose particles cannot come and go",
                    "leave these out");
+  if (std::any_of(object.masses.begin(), object.masses.end(), [](float m) { return std::isinf(m); }))
+    problems.grave("flow", "is of an object with infinite masses, whose particles cannot come and go", "leave these out");
   require_range(problems, "flow, lifetime", flow.lifetime, 0, largest_place);
-  for (std::size_t i = 0; i < flow.emitters.size(); ++i) check_emitter(problems, "emitter " + of(i), flow.emitters[i]);
+  for (std::size_t i = 0; i < flow.emitters.size(); ++i)
+    check_emitter(problems, "emitter " + of(i), flow.emitters[i], object);
   for (std::size_t i = 0; i < flow.drains.size(); ++i) {
     require_place(problems, "drain " + of(i) + ", position", flow.drains[i].position);
     const Quatf& q = flow.drains[i].rotation;

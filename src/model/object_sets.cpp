@@ -228,7 +228,8 @@ Heights heights_of(const Object& object) {
   }
   if (start == object.positions.size()) return of;
   const float size = object.fluid ? object.fluid->spacing : 2 * object.grains->radius;
-  of.high = std::max(of.high, of.low + size * static_cast<float>(std::cbrt(static_cast<double>(object.positions.size()))));
+  of.high = std::max(of.high,
+                     of.low + size * static_cast<float>(pliant::pow(static_cast<double>(object.positions.size()), 1. / 3)));
   return of;
 }
 

@@ -133,7 +133,8 @@ class EmitterRun {
     if (begin_ == end_) return;
     find_near();
     std::int64_t layer = begin_;
-    for (; layer < end_ && find_spare(); ++layer) emit_layer(layer, report);
+    const std::int64_t last = std::min(end_, begin_ + object_.user_particles);  // no more can find room
+    for (; layer < last && find_spare(); ++layer) emit_layer(layer, report);
     report.refused += (end_ - layer) * static_cast<std::int64_t>(layer_.places.size());
   }
 
@@ -237,10 +238,14 @@ void let_flow(WorldData& world, double dt, FlowReport& report) {
     release(world, number);
     expire(world, number, report);
     drain(world, number, report);
+  }
+  if (report.expired + report.drained > 0) forget_contacts_of_gone(world.state);
+  for (int number = 0; number < static_cast<int>(world.model.objects.size()); ++number) {
+    const Flow& flow = world.model.objects[at(number)].flow;
+    if (!flow.is_used()) continue;
     for (int emitter = 0; emitter < static_cast<int>(flow.emitters.size()); ++emitter)
       EmitterRun(world, number, emitter, dt).emit(report);
   }
-  if (report.expired + report.drained > 0) forget_contacts_of_gone(world.state);
   if (report.emitted > 0) world.workspace.look_for_tangles = true;  // lists of surfaces hold while nothing jumps
 }
 

@@ -113,6 +113,12 @@ std::vector<int> frame_origins(const CompiledObject& old, const CompiledObject& 
   return from;
 }
 
+void clear_births_if_nothing_flows(WorldData& world) {
+  if (std::none_of(world.model.objects.begin(), world.model.objects.end(),
+                   [](const CompiledObject& object) { return object.flow.is_used(); }))
+    world.state.births.clear();
+}
+
 /// Gives each particle and frame of an object the kept state of its origin.
 void give_back_state(WorldData& world, int number, const ObjectState& kept, const Origins& origins) {
   for (std::size_t i = 0; i < origins.particles.size(); ++i) {
@@ -229,9 +235,7 @@ void remove_object(WorldData& world, int number) {
   std::erase_if(world.model.fields, [&](const FieldCollider& field) { return field.object == number; });
   world.state.blocks[number] = {0, 0, world.model.generation[number]};
   if (!world.state.substeps.empty()) world.state.substeps[number] = 0;
-  if (std::none_of(world.model.objects.begin(), world.model.objects.end(),
-                   [](const CompiledObject& object) { return object.flow.is_used(); }))
-    world.state.births.clear();
+  clear_births_if_nothing_flows(world);
   const auto is_zero = [](float substeps) { return substeps == 0; };
   if (std::all_of(world.state.substeps.begin(), world.state.substeps.end(), is_zero)) world.state.substeps.clear();
   fit_state(world);
@@ -258,6 +262,7 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   place_object(world, number);
   drop_unused_sweeps(world.model, world.workspace);
   give_back_state(world, number, kept, origins);
+  clear_births_if_nothing_flows(world);
   const auto emitters = static_cast<std::int32_t>(world.model.objects[number].flow.emitters.size());
   for (const EmittedLayers& emitted : kept.emitted)
     if (emitted.emitter < emitters) world.state.emitted.push_back(emitted);

@@ -252,10 +252,11 @@ void BodyPairs::take_found(int tasks) {
     found_.insert(found_.end(), of_task_[at(task)].begin(), of_task_[at(task)].end());
 }
 
-/// Finds the pairs of renewed_ by the tree of larger boxes, in which the others still are. Returns false if near_ costs less.
+/// Finds the pairs of renewed_ by the tree of larger boxes, and with all boxes that are no longer in theirs, as those of earlier renewals in
+/// the frame. Returns false if near_ costs less.
 bool BodyPairs::find_by_tree(Executor& executor, const Frame& frame) {
   std::vector<int> escaped;
-  for (const int i : renewed_)
+  for (int i = 0; i < static_cast<int>(boxes_.size()); ++i)
     if (!is_inside(boxes_[at(i)], larger_[at(i)])) escaped.push_back(i);
   if (4 * renewed_.size() > boxes_.size() || escaped.size() * renewed_.size() > 16 * boxes_.size()) return false;
   const auto add = [&](int i, int j, std::vector<Pair>& found) {

@@ -53,6 +53,7 @@ void hold_tile_at_surfaces(Substep& s, int task) {
   const AdvanceArguments a = particles(s, task);
   const ContactSearch search{
       object_of(s, task), a, scratch.bounds, s.own->colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts};
+  if (search.object.fluid) grow_bounds(a, scratch.bounds);  // the density moves particles far
   // What leaves one solid may enter another, in a corner.
   const int rounds = search.object.fluid ? most_rounds_in_corners : 1;
   for (int round = 0; round < rounds; ++round) {

@@ -42,7 +42,8 @@ void FluidTension::clear() {
 
 void FluidTension::find_neighbours(Substep& s, const FluidPool& pool, const Records& by_point) {
   if (!has_any_) return;
-  neighbours_.find(s.context.executor, s.kernels.neighbours, by_point, tension_law(pool.law.reach / 2).reach);
+  if (law_.reach == 0) law_ = tension_law(pool.law.reach / 2);
+  neighbours_.find(s.context.executor, s.kernels.neighbours, by_point, law_.reach);
   const std::size_t padded = at(neighbours_.nobody()) + NeighbourLists::lanes;
   places_.assign(padded, {nowhere, nowhere, nowhere, 0});
   lacking_.assign(padded, {nowhere, nowhere, nowhere, 0});
@@ -52,7 +53,7 @@ void FluidTension::find_neighbours(Substep& s, const FluidPool& pool, const Reco
 
 /// Predicted places, and the tension that acts on each: as much as is stable.
 void FluidTension::gather(Substep& s, const FluidPool& pool) {
-  const float stiffness = tension_law(pool.law.reach / 2).stiffness / (s.h * s.h);
+  const float stiffness = law_.stiffness / (s.h * s.h);
   const std::vector<std::int32_t>& order = neighbours_.order().points();
   for_groups(s, neighbours_, [&](int, int first, int last) {
     for (std::size_t slot = at(first); slot < at(last); ++slot) {
@@ -70,7 +71,7 @@ void FluidTension::gather(Substep& s, const FluidPool& pool) {
 void FluidTension::act(Substep& s, const FluidPool& pool) {
   if (!has_any_) return;
   gather(s, pool);
-  TensionArrays a{tension_law(pool.law.reach / 2)};
+  TensionArrays a{law_};
   a.places = places_.data();
   a.tensions = tensions_.data();
   a.lacking = lacking_.data();

@@ -32,6 +32,7 @@ class FluidTension {
  private:
   void gather(Substep& s, const FluidPool& pool);
 
+  TensionLaw law_{};
   std::vector<float> of_point_, masses_;  ///< [N/m], [kg]
   bool has_any_ = false;
   TensionActs acts_;

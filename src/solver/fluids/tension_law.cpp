@@ -1,7 +1,6 @@
 #include "solver/fluids/tension_law.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pliant {
 
@@ -34,7 +33,10 @@ double count_of_lattice() {
 /// The share of the integral of (1 - r^2)^2 over the unit ball beyond a plane at distance t from its centre.
 double beyond_plane(double t) {
   // The slab at z has pi (1 - z^2)^3 / 3; the whole is 32 pi / 105.
-  const auto primitive = [](double z) { return z - z * z * z + 3 * std::pow(z, 5) / 5 - std::pow(z, 7) / 7; };
+  const auto primitive = [](double z) {
+    const double z2 = z * z, z3 = z2 * z;
+    return z - z3 + 3 * z3 * z2 / 5 - z3 * z2 * z2 / 7;
+  };
   return 35. / 32 * (primitive(1) - primitive(t));
 }
 
