@@ -380,8 +380,6 @@ void check_flow(Problems& problems, const Object& object) {
     problems.grave("flow",
                    "is of an object with pins, attachments, constraints or clusters, whose particles cannot come and go",
                    "leave these out");
-  if (std::any_of(object.masses.begin(), object.masses.end(), [](float m) { return std::isinf(m); }))
-    problems.grave("flow", "is of an object with infinite masses, whose particles cannot come and go", "leave these out");
   require_range(problems, "flow, lifetime", flow.lifetime, 0, largest_place);
   for (std::size_t i = 0; i < flow.emitters.size(); ++i)
     check_emitter(problems, "emitter " + of(i), flow.emitters[i], object);
