@@ -1,19 +1,7 @@
 // The passes of a liquid in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
 #include "math/lane_bits.h"
-#include "math/wide.h"
-
-namespace pliant {
-inline namespace PLIANT_ISA {
-/// inverse_root of math/inverse_root.h in each lane.
-PLIANT_HD Wide inverse_root(const Wide& x) {
-  Wide y;
-  PLIANT_EACH_PART(y.part[i] = (Part)(0x5f375a86 - ((PartMask)x.part[i] >> 1)))
-  const Wide half = Wide(0.5f) * x, three_halves(1.5f);
-  y = y * (three_halves - half * y * y);
-  return y * (three_halves - half * y * y);
-}
-}  // namespace PLIANT_ISA
-}  // namespace pliant
+#include "math/wide_inverse_root.h"
+#include "solver/fluids/wide_slots.h"
 
 #include "solver/fluids/fluid_loops.h"  // after what it uses for lanes
 
@@ -24,23 +12,7 @@ namespace {
 
 struct ThisUnit {};
 
-struct WideLanes {
-  using Value = Wide;
-  static constexpr int count = wide_width;
-
-  PLIANT_HD static WideRecords load(const Record* base, const std::int32_t* slots) {
-    return from_registers(load_indexed(base, slots));
-  }
-  PLIANT_HD static WideRecords load_own(const Record* from) {
-    constexpr std::int32_t lanes[wide_width] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    return load(from, lanes);
-  }
-  PLIANT_HD static Wide load(const float* from) { return load_wide(from); }
-  PLIANT_HD static void store(float* to, const Wide& a) { store_wide(to, a); }
-  PLIANT_HD static void store_own(Record* to, const Vec3<Wide>& position, const Wide& w) {
-    constexpr std::int32_t lanes[wide_width] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    store_indexed(to, lanes, to_registers({position, w}));
-  }
+struct WideLanes : WideSlots {
   PLIANT_HD static int number_of(const WideMask& mask) { return __builtin_popcount(lane_bits(mask)); }
   PLIANT_HD static void store_vectors(Vec3f* to, const Vec3<Wide>& a) {
     Record records[wide_width];

@@ -7,6 +7,7 @@
 #include "parallel/launch.h"
 #include "solver/fluids/fluid_kernels.h"
 #include "solver/fluids/fluid_log.h"
+#include "solver/fluids/for_groups.h"
 #include "solver/substep.h"
 
 namespace pliant {
@@ -38,16 +39,6 @@ void for_all(Substep& s, const char* name, int count, const Body& body) {
   s.context.executor.parallel_for(name, launch_blocks(count), [&](int block) {
     const int first = block * launch_block, last = std::min(first + launch_block, count);
     for (int i = first; i < last; ++i) body(i);
-  });
-}
-
-/// Calls body(group) for all groups on all threads.
-template <class Body>
-void for_groups(Substep& s, const char* name, const NeighbourLists& lists, const Body& body) {
-  s.context.executor.parallel_for(name, lists.tasks(), [&](int task) {
-    const int first = task * NeighbourLists::groups_in_a_task;
-    const int last = std::min(first + NeighbourLists::groups_in_a_task, lists.groups());
-    for (int group = first; group < last; ++group) body(group);
   });
 }
 
@@ -165,8 +156,7 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
   if (is_first) std::fill(pool.multipliers.begin(), pool.multipliers.end(), 0.f);
   const NeighbourLists& lists = pool.neighbours;
   const FluidBounds bounds = FluidBodies::bounds(s, pool.objects.front());
-  for_groups(s, "solve: places of liquids", lists, [&](int group) {
-    const int first = group * NeighbourLists::lanes, last = std::min(first + NeighbourLists::lanes, lists.slots());
+  for_groups(s.context.executor, "solve: places of liquids", lists, [&](int group, int first, int last) {
     for (int slot = first; slot < last; ++slot) pool.places[at(slot)] = predicted(s, pool.of_slot[at(slot)]);
     pool.walls.measure(s.kernels.fluids, pool.law, bounds, pool.places, group);
   });
@@ -184,11 +174,11 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
   a.squares = pool.squares.empty() ? nullptr : pool.squares.data();
   a.slots = lists.slots();
   const FluidKernels& kernels = s.kernels.fluids;
-  for_groups(s, "solve: density", lists, [&](int g) {
+  for_groups(s.context.executor, "solve: density", lists, [&](int g, int, int) {
     if (a.squares != nullptr) pool.bodies.add_squares(s, pool.walls, pool.places, pool.mass, g, pool.squares);
     kernels.find_multipliers(a, lists.group(g), g);
   });
-  for_groups(s, "solve: density", lists, [&](int g) { kernels.move(a, lists.group(g), g); });
+  for_groups(s.context.executor, "solve: density", lists, [&](int g, int, int) { kernels.move(a, lists.group(g), g); });
   if (s.work.contact_log != nullptr) log_pressure(s, pool, bounds, *s.work.contact_log);
   if (a.squares != nullptr) pool.bodies.push(s, pool.walls, pool.weighted, pool.lightness, pool.mass);
 }

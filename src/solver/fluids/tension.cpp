@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/fluids/fluid_solver.h"
+#include "solver/fluids/for_groups.h"
 #include "solver/substep.h"
 
 namespace pliant {
@@ -12,19 +13,6 @@ namespace {
 constexpr float nowhere = 1e18f;  ///< a place where nobody is near [m]
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-/// Calls body(group, first slot, last slot) for all groups on all threads.
-template <class Body>
-void for_groups(Substep& s, const NeighbourLists& lists, const Body& body) {
-  s.context.executor.parallel_for("surface tension", lists.tasks(), [&](int task) {
-    const int first = task * NeighbourLists::groups_in_a_task;
-    const int last = std::min(first + NeighbourLists::groups_in_a_task, lists.groups());
-    for (int group = first; group < last; ++group) {
-      const int slot = group * NeighbourLists::lanes;
-      body(group, slot, std::min(slot + NeighbourLists::lanes, lists.slots()));
-    }
-  });
-}
 
 }  // namespace
 
@@ -55,7 +43,7 @@ void FluidTension::find_neighbours(Substep& s, const FluidPool& pool, const Reco
 void FluidTension::gather(Substep& s, const FluidPool& pool) {
   const float stiffness = law_.stiffness / (s.h * s.h);
   const std::vector<std::int32_t>& order = neighbours_.order().points();
-  for_groups(s, neighbours_, [&](int, int first, int last) {
+  for_groups(s.context.executor, "surface tension", neighbours_, [&](int, int first, int last) {
     for (std::size_t slot = at(first); slot < at(last); ++slot) {
       const std::size_t point = at(order[slot]);
       const std::size_t particle = at(pool.points[point]);
@@ -76,9 +64,10 @@ void FluidTension::act(Substep& s, const FluidPool& pool) {
   a.tensions = tensions_.data();
   a.lacking = lacking_.data();
   a.forces = forces_.data();
-  for_groups(s, neighbours_, [&](int g, int, int) { s.kernels.tension.count(a, neighbours_.group(g), g); });
+  for_groups(s.context.executor, "surface tension", neighbours_,
+             [&](int g, int, int) { s.kernels.tension.count(a, neighbours_.group(g), g); });
   const std::vector<std::int32_t>& order = neighbours_.order().points();
-  for_groups(s, neighbours_, [&](int g, int first, int last) {
+  for_groups(s.context.executor, "surface tension", neighbours_, [&](int g, int first, int last) {
     s.kernels.tension.pull(a, neighbours_.group(g), g);
     for (std::size_t slot = at(first); slot < at(last); ++slot) {
       const std::size_t particle = at(pool.points[at(order[slot])]);

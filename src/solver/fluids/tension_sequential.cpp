@@ -1,4 +1,5 @@
 // The passes of surface tension for one slot at a time: the readable reference.
+#include "solver/fluids/one_slot.h"
 #include "solver/fluids/tension_loops.h"
 
 namespace pliant {
@@ -7,22 +8,8 @@ namespace {
 
 struct ThisUnit {};
 
-struct OneLane {
-  using Value = float;
-  static constexpr int count = 1;
-  struct Loaded {
-    Vec3f position;
-    float w;
-  };
-
-  static Loaded load_own(const Record* from) { return {{from->x, from->y, from->z}, from->w}; }
-  static Loaded load(const Record* base, const std::int32_t* slot) { return load_own(base + *slot); }
-  static float load(const float* from) { return *from; }
-  static void store_own(Record* to, const Vec3f& position, float w) { *to = {position.x, position.y, position.z, w}; }
-};
-
 }  // namespace
 
-const TensionKernels& tension_kernels_sequential() { return tension_formulas::Loops<OneLane, ThisUnit>::table; }
+const TensionKernels& tension_kernels_sequential() { return tension_formulas::Loops<OneSlot, ThisUnit>::table; }
 
 }  // namespace pliant

@@ -6,6 +6,7 @@
 #include "solver/bodies/body_math.h"
 #include "solver/bodies/body_solver.h"
 #include "solver/fluids/fluid_solver.h"
+#include "solver/fluids/for_groups.h"
 #include "solver/substep.h"
 
 namespace pliant {
@@ -21,19 +22,6 @@ constexpr double tolerance = 1e-4, least_residual = 1e-7;
 std::size_t to_index(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 Vec3d wide(const Vec3f& a) { return convert<double>(a); }
-
-/// Calls body(group, first slot, last slot) for all groups on all threads.
-template <class Body>
-void for_groups(Substep& s, const NeighbourLists& lists, const Body& body) {
-  s.context.executor.parallel_for("solve: viscosity", lists.tasks(), [&](int task) {
-    const int first = task * NeighbourLists::groups_in_a_task;
-    const int last = std::min(first + NeighbourLists::groups_in_a_task, lists.groups());
-    for (int group = first; group < last; ++group) {
-      const int slot = group * NeighbourLists::lanes;
-      body(group, slot, std::min(slot + NeighbourLists::lanes, lists.slots()));
-    }
-  });
-}
 
 }  // namespace
 
@@ -69,7 +57,7 @@ void FluidViscosity::gather(Substep& s, const FluidPool& pool, bool is_first) {
   if (is_first) impulses_.assign(padded, {});
   parts_.resize(to_index(pool.neighbours.groups()));
   const std::vector<std::int32_t>& points = pool.neighbours.order().points();
-  for_groups(s, pool.neighbours, [&](int, int first, int last) {
+  for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int, int first, int last) {
     for (std::size_t slot = to_index(first); slot < to_index(last); ++slot) {
       const std::size_t particle = to_index(pool.of_slot[slot]);
       const float inverse = s.state.positions[particle].w;
@@ -112,7 +100,7 @@ Vec3f FluidViscosity::slip(const WallGrip& grip, const Record& motion, bool with
 void FluidViscosity::resist(Substep& s, const FluidPool& pool, const Records& motions, bool with_walls) {
   ViscosityArrays a = arrays(s, pool);
   a.motions = motions.data();
-  for_groups(s, pool.neighbours, [&](int group, int, int) {
+  for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int group, int, int) {
     s.kernels.viscosity.resist(a, pool.neighbours.group(group), group);
     for (const WallGrip& grip : walls_.of_group(group)) {
       Record& force = forces_[at(grip.slot)];
@@ -137,7 +125,7 @@ void FluidViscosity::resist_bodies(const Records& motions, bool with_walls) {
 /// The residual of u + M^-1 h L u = u0, where u0 is what the displacements would be without viscosity.
 void FluidViscosity::start(Substep& s, const FluidPool& pool) {
   resist(s, pool, motions_, true);
-  for_groups(s, pool.neighbours, [&](int, int first, int last) {
+  for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int, int first, int last) {
     for (std::size_t slot = to_index(first); slot < to_index(last); ++slot) {
       const Vec3f lack = xyz(impulses_[slot]) + xyz(forces_[slot]) * inverse_masses_[slot];
       residuals_[slot] = inverse_masses_[slot] > 0 ? plus(Record{}, -lack) : Record{};
@@ -156,7 +144,7 @@ double FluidViscosity::sum(double of_bodies) const {
 }
 
 double FluidViscosity::squared_residual(Substep& s, const FluidPool& pool) {
-  for_groups(s, pool.neighbours, [&](int group, int first, int last) {
+  for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int group, int first, int last) {
     double part = 0;
     for (std::size_t slot = to_index(first); slot < to_index(last); ++slot)
       part += static_cast<double>(masses_[slot]) * dot(wide(xyz(residuals_[slot])), wide(xyz(residuals_[slot])));
@@ -175,7 +163,7 @@ double FluidViscosity::squared_residual(Substep& s, const FluidPool& pool) {
 
 /// direction = residual + share times direction.
 void FluidViscosity::turn_direction(Substep& s, const FluidPool& pool, float share) {
-  for_groups(s, pool.neighbours, [&](int, int first, int last) {
+  for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int, int first, int last) {
     for (std::size_t slot = to_index(first); slot < to_index(last); ++slot)
       directions_[slot] = plus(residuals_[slot], xyz(directions_[slot]) * share);
   });
@@ -194,7 +182,7 @@ void FluidViscosity::turn_direction(Substep& s, const FluidPool& pool, float sha
 /// The product of the direction with what the operator makes of it.
 double FluidViscosity::work_along(Substep& s, const FluidPool& pool) {
   resist(s, pool, directions_, false);
-  for_groups(s, pool.neighbours, [&](int group, int first, int last) {
+  for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int group, int first, int last) {
     double part = 0;
     for (std::size_t slot = to_index(first); slot < to_index(last); ++slot) {
       const Vec3d way = wide(xyz(directions_[slot]));
@@ -211,7 +199,7 @@ double FluidViscosity::work_along(Substep& s, const FluidPool& pool) {
 
 /// Goes a step along the direction. Returns the squared residual.
 double FluidViscosity::update(Substep& s, const FluidPool& pool, float step) {
-  for_groups(s, pool.neighbours, [&](int, int first, int last) {
+  for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int, int first, int last) {
     for (std::size_t slot = to_index(first); slot < to_index(last); ++slot) {
       if (!(inverse_masses_[slot] > 0)) continue;
       const Vec3f way = xyz(directions_[slot]);
@@ -231,7 +219,7 @@ double FluidViscosity::update(Substep& s, const FluidPool& pool, float step) {
 }
 
 void FluidViscosity::scatter(Substep& s, const FluidPool& pool) {
-  for_groups(s, pool.neighbours, [&](int, int first, int last) {
+  for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int, int first, int last) {
     for (std::size_t slot = to_index(first); slot < to_index(last); ++slot) {
       const Vec3f change = xyz(motions_[slot]) - xyz(before_[slot]);
       impulses_[slot] = plus(impulses_[slot], change);
@@ -264,7 +252,7 @@ void FluidViscosity::solve(Substep& s, FluidPool& pool, bool is_first) {
   walls_.find(s, a.law, pool.walls, bounds, pool.places, viscosities_, pool.neighbours.slots());
   for (const WallGrip& grip : walls_.all())
     if (grip.body >= 0) bodies_[at(grip.body)].is_held = true;
-  for_groups(s, pool.neighbours,
+  for_groups(s.context.executor, "solve: viscosity", pool.neighbours,
              [&](int group, int, int) { s.kernels.viscosity.find_factors(a, pool.neighbours.group(group), group); });
   start(s, pool);
   double mass = 0;
