@@ -1,6 +1,6 @@
 // The passes of a liquid in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
 #include "math/lane_bits.h"
-#include "math/wide_inverse_root.h"
+#include "solver/fluids/wide_inverse_root.h"
 #include "solver/fluids/wide_slots.h"
 
 #include "solver/fluids/fluid_loops.h"  // after what it uses for lanes
