@@ -108,7 +108,7 @@ class Packing {
   }
 
  private:
-  std::uint32_t bits_;
+  [[maybe_unused]] std::uint32_t bits_;  // vectors of 4 and 8 lanes move by a table instead
 #if PLIANT_X86_BITS == 256
   __m256i lanes_;
 #elif PLIANT_X86_BITS == 128
