@@ -1,7 +1,7 @@
 // The list of instruction set levels of the SIMD units, widest first: X(suffix of function names, name of the level, ...).
 //
 // cmake/PliantLanes.cmake lists the same levels with compiler flags. A new level needs a line in each, and a CPU test in
-// solver/pick_kernels.cpp. `generic` names no instruction set, so it compiles on any CPU. All levels give the same bits.
+// math/runs_level.h. `generic` names no instruction set, so it compiles on any CPU. All levels give the same bits.
 #pragma once
 
 // clang-format off: one level per line.

@@ -3,6 +3,7 @@
 
 #include "collision/neighbours/neighbour_kernels.h"
 #include "collision/proxies/pair_kernels.h"
+#include "math/runs_level.h"
 #include "pliant/error.h"
 #include "solver/bodies/manifold_kernels.h"
 #include "solver/contact_kernels.h"
@@ -18,19 +19,6 @@
 namespace pliant {
 
 namespace {
-
-#if defined(__x86_64__)
-bool runs_v4() {
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
-         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-}
-bool runs_v3() {
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&
-         __builtin_cpu_supports("bmi2");
-}
-bool runs_v2() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
-#endif
-bool runs_generic() { return true; }
 
 #define PLIANT_LEVEL_TABLE(suffix, isa, ...)                                             \
   const Kernels& kernels_##suffix() {                                                    \

@@ -33,16 +33,17 @@ bool share_a_face(int a, int b) {
 
 /// The edge that follows each crossed edge along its loop: on each face, a run of inside corners is entered at one edge and left at
 /// another.
-std::array<int, 12> successors(int inside) {
+std::array<std::uint8_t, 12> successors(int inside) {
   const auto is_inside = [&](int corner) { return (inside >> corner & 1) != 0; };
-  std::array<int, 12> next{};
+  std::array<std::uint8_t, 12> next{};
   for (const auto& face : faces)
     for (std::size_t i = 0; i < 4; ++i) {
       if (is_inside(face[i]) || !is_inside(face[(i + 1) % 4])) continue;
       std::size_t last = i + 1;
       while (is_inside(face[(last + 1) % 4])) ++last;
       const int entered = edge_between(face[i], face[(i + 1) % 4]);
-      next[static_cast<std::size_t>(entered)] = edge_between(face[last % 4], face[(last + 1) % 4]);
+      next[static_cast<std::size_t>(entered)] =
+          static_cast<std::uint8_t>(edge_between(face[last % 4], face[(last + 1) % 4]));
     }
   return next;
 }
@@ -55,7 +56,7 @@ bool triangulate(const Polygon& loop, std::size_t first, std::size_t last, CubeC
   const auto is_allowed = [&](std::size_t a, std::size_t b) { return b - a < 2 || !share_a_face(loop[a], loop[b]); };
   for (std::size_t apex = first + 1; apex < last; ++apex) {
     if (!is_allowed(first, apex) || !is_allowed(apex, last)) continue;
-    const int before = result.count;
+    const std::uint8_t before = result.count;
     if (triangulate(loop, first, apex, result) && triangulate(loop, apex, last, result)) {
       const auto edge = [&](std::size_t i) { return static_cast<std::uint8_t>(loop[i]); };
       result.triangles.at(static_cast<std::size_t>(result.count++)) = {edge(first), edge(apex), edge(last)};
@@ -67,15 +68,16 @@ bool triangulate(const Polygon& loop, std::size_t first, std::size_t last, CubeC
 }
 
 CubeCase make_case(int inside) {
-  const std::array<int, 12> next = successors(inside);
   CubeCase result;
+  result.next = successors(inside);
   std::array<bool, 12> is_done{};
   for (int start = 0; start < 12; ++start) {
     const int from = edge_start(start), to = from | 1 << (start >> 2);
     const bool is_crossed = (inside >> from & 1) != (inside >> to & 1);
+    if (is_crossed) result.crossed.at(result.crossed_count++) = static_cast<std::uint8_t>(start);
     if (!is_crossed || is_done[static_cast<std::size_t>(start)]) continue;
     Polygon loop;
-    for (int edge = start; !is_done[static_cast<std::size_t>(edge)]; edge = next[static_cast<std::size_t>(edge)]) {
+    for (int edge = start; !is_done[static_cast<std::size_t>(edge)]; edge = result.next[static_cast<std::size_t>(edge)]) {
       is_done[static_cast<std::size_t>(edge)] = true;
       loop.push_back(edge);
     }

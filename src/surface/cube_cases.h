@@ -15,9 +15,12 @@ inline constexpr int most_triangles = 5;  ///< of one case
 
 /// Corner c of a cell is at (c & 1, c >> 1 & 1, c >> 2 & 1). Edge 4 a + n is along axis a, from corner edge_start(edge).
 struct CubeCase {
-  int count = 0;  ///< of triangles
-  std::array<std::array<std::uint8_t, 3>, most_triangles>
-      triangles{};  ///< edges of the cell, counter-clockwise from outside
+  std::uint8_t count = 0;  ///< of triangles
+  std::uint8_t crossed_count = 0;
+  std::array<std::array<std::uint8_t, 3>, most_triangles> triangles{};  ///< edges, counter-clockwise from outside
+  std::array<std::uint8_t, 12> crossed{};                               ///< the edges that the surface crosses
+  std::array<std::uint8_t, 12>
+      next{};  ///< by edge: the one that follows it, where the surface leaves the cell through a face
 };
 
 /// The corner at which an edge starts; it ends at the corner with the bit of its axis set.

@@ -1,174 +1,196 @@
-// Finds the blocks that kernels reach, and adds the kernels at their nodes.
+// Adds the kernels at the nodes of the blocks that they reach.
 #include "surface/field.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
+
+#include "parallel/ranges.h"
+#include "surface/reached_blocks.h"
 
 namespace pliant::surface {
 
 namespace {
 
-/// Calls visit for all cells of a box of cells.
-template <class Visit>
-void for_cells(const Cell& low, const Cell& high, const Visit& visit) {
-  for (int z = low.z; z <= high.z; ++z)
-    for (int y = low.y; y <= high.y; ++y)
-      for (int x = low.x; x <= high.x; ++x) visit(Cell{x, y, z});
+constexpr int blocks_at_a_time = 16;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+using BrickValues = std::array<float, brick_nodes>;
+
+const float* full_brick() {
+  static const BrickValues ones = [] {
+    BrickValues values;
+    values.fill(1);
+    return values;
+  }();
+  return ones.data();
 }
 
-/// The blocks that the kernels of any cell reach, with one grid cell more for rounding and for the cells below a node.
-std::vector<std::uint64_t> reached_blocks(const Splats& splats, float cell) {
-  const float per_block = 1 / (static_cast<float>(block_side) * cell);
-  const Vec3f margin{cell, cell, cell};
-  KeyTable table(splats.bounds.size());
-  std::vector<std::uint64_t> keys;
-  for (const Box& box : splats.bounds)
-    for_cells(cell_at(box.low - margin * 2.f, per_block), cell_at(box.high + margin, per_block), [&](const Cell& block) {
-      const std::uint64_t key = key_of(block);
-      if (table.insert(key)) keys.push_back(key);
-    });
-  std::sort(keys.begin(), keys.end());
-  return keys;
+/// The first node of a brick, in cells from that of its block.
+Vec3f corner_of(int brick) {
+  constexpr auto side = static_cast<float>(brick_side);
+  return {(brick & 1) != 0 ? side : 0, (brick & 2) != 0 ? side : 0, (brick & 4) != 0 ? side : 0};
 }
 
-/// The box of a block's nodes.
-Box box_of(const Cell& block, float cell) {
-  const float side = static_cast<float>(block_side) * cell;
-  const Vec3f low{static_cast<float>(block.x) * side, static_cast<float>(block.y) * side,
-                  static_cast<float>(block.z) * side};
-  const float extent = static_cast<float>(block_side - 1) * cell;
+/// What all blocks are made of.
+struct Sources {
+  const ParticleCells& cells;
+  const Splats& splats;
+  const ReachedBlocks& reached;
+  const SurfaceKernels& kernels;
+  float cell;
+};
+
+/// Kernels that reach a block, and memory for a brick's.
+class KernelList {
+ public:
+  void clear() { count_ = 0; }
+  /// Appends those that reach the box.
+  void add(const Sources& from, const ParticleRange& range, const Box& box) {
+    make_room(index(count_ + range.last - range.first + 16));
+    count_ = from.kernels.gather(rows_of(from.cells, from.splats), range, box, count_, rows<float>(), numbers_.data());
+  }
+  /// Those of the list that reach a smaller box.
+  std::span<const int> choose(const SurfaceKernels& kernels, const Box& box) {
+    const int chosen = kernels.choose(rows<const float>(), numbers_.data(), count_, box, chosen_.data());
+    return {chosen_.data(), index(chosen)};
+  }
+
+ private:
+  template <class Float>
+  SplatRows<Float> rows() {
+    const auto row = [&](std::size_t i) { return rows_[i].data(); };
+    return {{row(0), row(1), row(2)}, {row(3), row(4), row(5), row(6)}};
+  }
+  void make_room(std::size_t size) {
+    if (size <= numbers_.size()) return;
+    for (std::vector<float>& row : rows_) row.resize(2 * size);
+    numbers_.resize(2 * size);
+    chosen_.resize(2 * size);
+  }
+
+  int count_ = 0;
+  std::array<std::vector<float>, 7> rows_;
+  std::vector<int> numbers_, chosen_;
+};
+
+std::span<const Keyed> cells_of(const ReachedBlocks& reached, int block) {
+  return {reached.cells.data() + reached.first[index(block)], reached.cells.data() + reached.first[index(block) + 1]};
+}
+
+Vec3f origin_of(const Sources& from, int block) {
+  const Cell at = cell_of(from.reached.keys[index(block)]);
+  const float side = static_cast<float>(block_side) * from.cell;
+  return {static_cast<float>(at.x) * side, static_cast<float>(at.y) * side, static_cast<float>(at.z) * side};
+}
+
+/// The box of `side` nodes along each axis.
+Box box_of(const Vec3f& low, int side, float cell) {
+  const float extent = static_cast<float>(side - 1) * cell;
   return {low, low + Vec3f{extent, extent, extent}};
 }
 
-/// A bit for each row of a block's nodes, by z and y.
-using RowSet = std::uint64_t;
+/// True if all nodes in a box are in enclosed cells of particles: the surface is far.
+bool is_deep(const ParticleCells& cells, const Box& box) {
+  const float per_side = 1 / cells.side, margin = 1e-3f * cells.side;  // a node between two cells may count as in either
+  const Vec3f more{margin, margin, margin};
+  const Cell low = cell_at(box.low + more, per_side), high = cell_at(box.high + more, per_side);
+  for (int z = low.z; z <= high.z; ++z)
+    for (int y = low.y; y <= high.y; ++y)
+      for (int x = low.x; x <= high.x; ++x) {
+        const int at = cells.find({x, y, z});
+        if (at < 0 || cells.fills[index(at)] != Fill::enclosed) return false;
+      }
+  return true;
+}
 
-/// The rows of a block with a node that is in no enclosed cell of particles. The surface is far from all other rows.
-RowSet live_rows(const ParticleCells& cells, const Box& box, float cell) {
-  const float per_side = 1 / cells.side;
-  const Cell low = cell_at(box.low, per_side), high = cell_at(box.high, per_side);
-  const auto is_enclosed = [&](int y, int z) {
-    for (int x = low.x; x <= high.x; ++x) {
-      const int at = cells.find({x, y, z});
-      if (at < 0 || cells.fills[static_cast<std::size_t>(at)] != Fill::enclosed) return false;
-    }
-    return true;
+/// A bit for each brick of a block that is deep in the liquid.
+unsigned deep_bricks(const Sources& from, int block, const Vec3f& origin) {
+  const auto fill = from.cells.fills.begin();
+  const auto has_enclosed = [&](const Keyed& range) {
+    return std::find(fill + range.first, fill + range.last, Fill::enclosed) != fill + range.last;
   };
-  RowSet live = 0;
-  for (int k = 0; k < block_side; ++k) {
-    const int z = floor_of((box.low.z + static_cast<float>(k) * cell) * per_side);
-    int y = low.y;
-    bool is_live = !is_enclosed(y, z);
-    for (int j = 0; j < block_side; ++j) {
-      const int own = floor_of((box.low.y + static_cast<float>(j) * cell) * per_side);
-      if (own != y) is_live = !is_enclosed(own, z);
-      y = own;
-      if (is_live) live |= RowSet{1} << (k * block_side + j);
-    }
-  }
-  return live;
+  const std::span<const Keyed> cells = cells_of(from.reached, block);
+  if (std::none_of(cells.begin(), cells.end(), has_enclosed)) return 0;
+  unsigned deep = 0;
+  for (int brick = 0; brick < block_bricks; ++brick)
+    if (is_deep(from.cells, box_of(origin + corner_of(brick) * from.cell, brick_side, from.cell))) deep |= 1U << brick;
+  return deep;
 }
 
-/// Nodes of a row of eight, from the first that is not below `low` to the last that is not above `high`.
-struct NodeRange {
-  int first, last;
-};
-
-NodeRange nodes_within(float low, float high, float per_cell) {
-  const float most = static_cast<float>(block_side);
-  const float from = std::clamp(low * per_cell, 0.f, most), to = std::clamp(high * per_cell, -1.f, most - 1);
-  return {-floor_of(-from), floor_of(to)};
+/// Lists the kernels that reach a block, in the order of particles.
+void list_kernels(const Sources& from, int block, const Vec3f& origin, KernelList& list) {
+  const Box box = box_of(origin, block_side, from.cell);
+  list.clear();
+  for (const Keyed& range : cells_of(from.reached, block))
+    list.add(from, {from.cells.first[index(range.first)], from.cells.first[index(range.last)]}, box);
 }
 
-/// The rows in these ranges.
-RowSet rows_within(const NodeRange& in_y, const NodeRange& in_z) {
-  if (in_y.last < in_y.first || in_z.last < in_z.first) return 0;
-  const auto up_to = [](int n) { return n >= block_rows ? ~RowSet{0} : (RowSet{1} << n) - 1; };
-  const RowSet of_y = (up_to(in_y.last + 1) & ~up_to(in_y.first)) * 0x0101010101010101U;
-  return of_y & up_to((in_z.last + 1) * block_side) & ~up_to(in_z.first * block_side);
-}
-
-/// Adds a kernel to some rows of a block. Along a row the kernel's q is a quadratic polynomial of x.
-void add_splat(const Splat splat, const Vec3f& low, float cell, RowSet live, BlockValues& values) {
-  const Vec3f centre = splat.centre - low;
-  const float per_cell = 1 / cell, per_xx = 1 / splat.xx;
-  const NodeRange in_y = nodes_within(centre.y - splat.reach.y, centre.y + splat.reach.y, per_cell);
-  const NodeRange in_z = nodes_within(centre.z - splat.reach.z, centre.z + splat.reach.z, per_cell);
-  std::array<float, block_side> xs, squares;
-  for (int i = 0; i < block_side; ++i) {
-    const float x = static_cast<float>(i) * cell - centre.x;
-    xs[static_cast<std::size_t>(i)] = 2 * x;
-    squares[static_cast<std::size_t>(i)] = splat.xx * x * x;
-  }
-  for (RowSet rows = rows_within(in_y, in_z) & live; rows != 0; rows &= rows - 1) {
-    const int at = std::countr_zero(rows), j = at % block_side, k = at / block_side;
-    const float z = static_cast<float>(k) * cell - centre.z;
-    const float y = static_cast<float>(j) * cell - centre.y;
-    const float slope = splat.xy * y + splat.xz * z;
-    const float rest = 1 - (splat.yy * y * y + 2 * splat.yz * y * z + splat.zz * z * z);
-    if (rest + slope * slope * per_xx <= 0) continue;  // the largest 1 - q of the row
-    float* const row = &values[static_cast<std::size_t>(at) * block_side];
-    for (std::size_t i = 0; i < block_side; ++i) {
-      const float inside = (rest - squares[i]) - slope * xs[i];
-      const float t = inside > 0 ? inside : 0.f;
-      row[i] += splat.weight * (t * t * t);
-    }
+/// Keeps the bricks in `values` that have some, of which `places` says which; -1 if one has none.
+void store(const std::array<BrickValues, block_bricks>& values, int count, const std::array<int, block_bricks>& places,
+           FieldBlock& block) {
+  block.storage = std::unique_ptr<float[]>(new float[index(count * brick_nodes)]);
+  for (int brick = 0; brick < block_bricks; ++brick) {
+    const int place = places[index(brick)];
+    if (place < 0) continue;
+    float* const to = block.storage.get() + place * brick_nodes;
+    std::copy_n(values[index(place)].data(), brick_nodes, to);
+    block.values[index(brick)] = to;
   }
 }
 
-bool overlap(const Box& a, const Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y && a.low.z <= b.high.z &&
-         b.low.z <= a.high.z;
-}
-
-/// The sum of all kernels at the nodes of a block's live rows, in the order of the particles' cells; 1 at the others.
-void evaluate(const ParticleCells& cells, const Splats& splats, const Box& box, float cell, RowSet live,
-              BlockValues& values) {
-  for (int i = 0; i < block_side * block_rows; ++i)
-    values[static_cast<std::size_t>(i)] = (live >> (i / block_side) & 1U) != 0 ? 0.f : 1.f;
-  const Vec3f margin{splats.reach, splats.reach, splats.reach};
-  const float per_side = 1 / cells.side;
-  for_cells(cell_at(box.low - margin, per_side), cell_at(box.high + margin, per_side), [&](const Cell& at) {
-    const int c = cells.find(at);
-    if (c < 0 || !overlap(splats.bounds[static_cast<std::size_t>(c)], box)) return;
-    for (int i = cells.first[static_cast<std::size_t>(c)]; i < cells.first[static_cast<std::size_t>(c) + 1]; ++i) {
-      const Splat& splat = splats.all[static_cast<std::size_t>(i)];
-      if (overlap({splat.centre - splat.reach, splat.centre + splat.reach}, box))
-        add_splat(splat, box.low, cell, live, values);
-    }
-  });
-}
-
-/// Gives storage to the blocks that have live rows, and returns the live rows of all.
-std::vector<RowSet> store_blocks(Field& field, const ParticleCells& cells, Executor& executor) {
-  std::vector<RowSet> live(field.keys.size());
-  executor.parallel_for("surface: blocks", field.size(), [&](int block) {
-    const std::size_t b = static_cast<std::size_t>(block);
-    live[b] = live_rows(cells, box_of(cell_of(field.keys[b]), field.cell), field.cell);
-  });
+void evaluate(const Sources& from, int number, KernelList& list, FieldBlock& block) {
+  const Vec3f origin = origin_of(from, number);
+  const unsigned deep = deep_bricks(from, number, origin);
+  if (deep != 0xff) list_kernels(from, number, origin, list);
+  std::array<BrickValues, block_bricks> values;
+  std::array<int, block_bricks> places;
   int count = 0;
-  for (const RowSet rows : live) field.stored.push_back(rows != 0 ? count++ : -1);
-  field.values.resize(static_cast<std::size_t>(count));
-  return live;
+  for (int brick = 0; brick < block_bricks; ++brick) {
+    const std::size_t b = index(brick);
+    const bool is_full = (deep >> brick & 1U) != 0;
+    places[b] = -1;
+    block.values[b] = is_full ? full_brick() : empty_brick();
+    block.inside[b] = is_full ? ~NodeSet{0} : 0;
+    if (is_full) continue;
+    const Vec3f corner = corner_of(brick);
+    const std::span<const int> chosen =
+        list.choose(from.kernels, box_of(origin + corner * from.cell, brick_side, from.cell));
+    if (chosen.empty()) continue;
+    places[b] = count++;
+    block.inside[b] = from.kernels.sum(from.splats.all.data(), chosen.data(), static_cast<int>(chosen.size()),
+                                       {origin, corner, from.cell, surface_level}, values[index(places[b])].data());
+  }
+  if (count > 0) store(values, count, places, block);
 }
 
 }  // namespace
 
-Field make_field(const ParticleCells& cells, const Splats& splats, float cell, Executor& executor) {
+const float* empty_brick() {
+  static constexpr BrickValues zeros{};
+  return zeros.data();
+}
+
+float Field::at(int block, int node) const {
+  const int x = node % block_side, y = node / block_side % block_side, z = node / (block_side * block_side);
+  const int brick = x / brick_side | y / brick_side << 1 | z / brick_side << 2;
+  const int place = x % brick_side + brick_side * (y % brick_side + brick_side * (z % brick_side));
+  return blocks[index(block)].values[index(brick)][place];
+}
+
+Field make_field(const ParticleCells& cells, const Splats& splats, float cell, Executor& executor,
+                 const SurfaceKernels& kernels) {
+  ReachedBlocks reached = find_blocks(splats, static_cast<float>(block_side) * cell, cell, executor);
   Field field;
   field.cell = cell;
-  field.keys = reached_blocks(splats, cell);
-  field.table = KeyTable(field.keys.size());
-  for (const std::uint64_t key : field.keys) field.table.insert(key);
-  const std::vector<RowSet> live = store_blocks(field, cells, executor);
-  executor.parallel_for("surface: field", field.size(), [&](int block) {
-    const std::size_t b = static_cast<std::size_t>(block);
-    const int place = field.stored[b];
-    if (place < 0) return;
-    const Box box = box_of(cell_of(field.keys[b]), cell);
-    evaluate(cells, splats, box, cell, live[b], field.values[static_cast<std::size_t>(place)]);
+  field.table = KeyTable(reached.keys.size());
+  for (const std::uint64_t key : reached.keys) field.table.insert(key);
+  field.blocks.resize(reached.keys.size());
+  const Sources from{cells, splats, reached, kernels, cell};
+  for_ranges(executor, "surface: field", static_cast<int>(reached.keys.size()), blocks_at_a_time, [&](int first, int last) {
+    KernelList list;
+    for (int block = first; block < last; ++block) evaluate(from, block, list, field.blocks[index(block)]);
   });
+  field.keys = std::move(reached.keys);
   return field;
 }
 

@@ -1,8 +1,10 @@
 // Cells of an unbounded grid: integer coordinates, the keys that stand for them, and a table from keys to indices.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "math/vector.h"
@@ -38,6 +40,30 @@ inline Cell cell_of(std::uint64_t key) {
   const auto part = [key](int shift) { return static_cast<int>(key >> shift & (2 * key_range - 1)) - key_range; };
   return {part(0), part(21), part(42)};
 }
+
+/// What to add to the key of a cell for that of another one, so far along each axis.
+inline std::uint64_t key_step(int x, int y, int z) {
+  const auto part = [](int i) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(i)); };
+  return (part(z) << 42) + (part(y) << 21) + part(x);
+}
+
+/// Finds keys in an ascending list, by going on from where the last one was.
+class KeyFollower {
+ public:
+  KeyFollower() = default;
+  /// Starts at the first key that is not below `from`.
+  KeyFollower(std::span<const std::uint64_t> keys, std::uint64_t from)
+      : keys_(keys), next_(static_cast<std::size_t>(std::lower_bound(keys.begin(), keys.end(), from) - keys.begin())) {}
+  /// The index of the first key that is not below `key`, which is not below that of the last call.
+  int first_from(std::uint64_t key) {
+    while (next_ < keys_.size() && keys_[next_] < key) ++next_;
+    return static_cast<int>(next_);
+  }
+
+ private:
+  std::span<const std::uint64_t> keys_;
+  std::size_t next_ = 0;
+};
 
 /// Finds the index that belongs to a key. Open addressing with linear probing; nothing iterates over it.
 class KeyTable {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "pliant/error.h"
 #include "surface/marching_cubes.h"
@@ -39,6 +40,13 @@ void require_positions(std::span<const Vec3f> positions, float spacing) {
   }
 }
 
+/// What is needed only to make the field is freed before there is a mesh.
+surface::Field field_of(std::span<const Vec3f> positions, const SurfaceOptions& options, Executor& executor) {
+  const surface::ParticleCells cells = surface::sort_into_cells(positions, options.spacing, executor);
+  const surface::Splats splats = surface::make_splats(cells, options.spacing, options.anisotropic, executor);
+  return surface::make_field(cells, splats, options.cell > 0 ? options.cell : options.spacing / 2, executor);
+}
+
 }  // namespace
 
 TriangleMesh liquid_surface(std::span<const Vec3f> positions, const SurfaceOptions& options) {
@@ -48,11 +56,9 @@ TriangleMesh liquid_surface(std::span<const Vec3f> positions, const SurfaceOptio
   Executor executor(options.threads);
   TriangleMesh mesh;
   executor.enter([&] {
-    const surface::ParticleCells cells = surface::sort_into_cells(positions, options.spacing, executor);
-    const surface::Splats splats = surface::make_splats(cells, options.spacing, options.anisotropic, executor);
-    const float cell = options.cell > 0 ? options.cell : options.spacing / 2;
-    mesh = surface::marching_cubes(surface::make_field(cells, splats, cell, executor), executor);
-    surface::smooth(mesh, options.smoothing);
+    surface::LinkedMesh linked = surface::marching_cubes(field_of(positions, options, executor), executor);
+    surface::smooth(linked, options.smoothing, executor);
+    mesh = surface::unlinked(std::move(linked), executor);
   });
   return mesh;
 }

@@ -1,212 +1,220 @@
-// Marching cubes by rows of eight nodes, of which a byte says which are inside.
+// Marching cubes by bricks of 4 x 4 x 4 nodes, of which a word of 64 bits says which are inside.
 //
-// Each crossed edge of the grid belongs to the block of its first node, and is a vertex of the mesh. Vertices of a block are numbered by
-// axis, row and place in the row, so a count of bits finds the vertex of an edge, and blocks are independent of each other.
+// Each crossed edge of the grid belongs to the brick of its first node, and is a vertex of the mesh. Vertices of a brick are numbered by
+// axis and node, so a count of bits finds the vertex of an edge, and blocks are independent of each other.
 #include "surface/marching_cubes.h"
 
 #include <algorithm>
 #include <bit>
-#include <cstdint>
 
+#include "parallel/ranges.h"
+#include "surface/brick_grid.h"
 #include "surface/cube_cases.h"
 
 namespace pliant::surface {
 
 namespace {
 
+constexpr int blocks_at_a_time = 32;
 constexpr float least_share = 0.02f;  ///< of an edge between a vertex and a node, so that no triangle has two equal corners
 
-/// The block itself and its seven neighbours above; bit a of the index means one block up along axis a. -1 where there is none.
-using Neighbours = std::array<int, 8>;
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// One bit for each node of a row: bit x for node x.
-using RowBits = std::uint8_t;
+/// The crossed edges of a brick, by axis, and the number of the first vertex of each axis.
+struct BrickEdges {
+  std::array<NodeSet, 3> crossed;
+  std::array<int, 3> first;
+};
 
-/// The crossed edges of a block.
-struct BlockEdges {
-  std::array<std::array<RowBits, block_rows>, 3> crossed{};       ///< by axis and row: edges that start at these nodes
-  std::array<std::array<std::uint16_t, block_rows>, 3> before{};  ///< vertices of the block before those of the row
-  int first_vertex = 0, vertices = 0;
-  int first_triangle = 0, triangles = 0;
+/// The vertices and triangles of a block, and those of the blocks before.
+struct BlockCounts {
+  int vertices = 0, triangles = 0;
+  int first_vertex = 0, first_triangle = 0;
 };
 
 struct Workspace {
   const Field& field;
-  std::vector<std::array<RowBits, block_rows>> inside;
   std::vector<Neighbours> neighbours;
-  std::vector<BlockEdges> edges;
+  std::vector<BlockCounts> counts;
+  std::unique_ptr<BrickEdges[]> edges;  ///< of blocks that have some
+  LinkedMesh mesh;
 };
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+NodeSet inside_of(const Field& field, int brick) {
+  return brick < 0 ? 0 : field.blocks[index(brick / block_bricks)].inside[index(brick % block_bricks)];
+}
 
-std::array<RowBits, block_rows> inside_of(const Field& field, int block) {
-  std::array<RowBits, block_rows> rows{};
-  const int place = field.stored[index(block)];
-  if (place < 0) rows.fill(0xff);
-  if (place < 0) return rows;
-  const BlockValues& values = field.values[index(place)];
-  for (int row = 0; row < block_rows; ++row) {
-    unsigned bits = 0;
-    for (int x = 0; x < block_side; ++x) bits |= (values[index(row * block_side + x)] > surface_level ? 1U : 0U) << x;
-    rows[index(row)] = static_cast<RowBits>(bits);
+const float* values_of(const Field& field, int brick) {
+  return brick < 0 ? empty_brick() : field.blocks[index(brick / block_bricks)].values[index(brick % block_bricks)];
+}
+
+/// True if all nodes of a block, and those above it, are on one side.
+bool is_uniform(const Workspace& w, int block) {
+  NodeSet any = 0, all = ~NodeSet{0};
+  for (const int neighbour : w.neighbours[index(block)]) {
+    if (neighbour < 0) all = 0;
+    if (neighbour < 0) continue;
+    for (const NodeSet inside : w.field.blocks[index(neighbour)].inside) any |= inside, all &= inside;
   }
-  return rows;
+  return any == 0 || all == ~NodeSet{0};
 }
 
-Neighbours neighbours_of(const Field& field, int block) {
-  const Cell c = cell_of(field.keys[index(block)]);
-  Neighbours found{};
-  for (int n = 0; n < 8; ++n)
-    found[index(n)] = field.table.find(key_of({c.x + (n & 1), c.y + (n >> 1 & 1), c.z + (n >> 2 & 1)}));
-  return found;
-}
-
-/// A row of nodes by the block that has it, as an index into Neighbours without x, and its number there.
-struct RowPlace {
-  int neighbour, row;
-};
-
-/// The row at (y, z), where 8 means the first of the block above.
-RowPlace row_at(int y, int z) {
-  return {(y / block_side) << 1 | (z / block_side) << 2, (z % block_side) * block_side + y % block_side};
-}
-
-/// Nine bits: a row of nodes, and the next node along x.
-unsigned row_bits(const Workspace& w, int block, int y, int z) {
-  const RowPlace at = row_at(y, z);
-  const Neighbours& neighbours = w.neighbours[index(block)];
-  const int own = neighbours[index(at.neighbour)], beyond = neighbours[index(at.neighbour | 1)];
-  const unsigned bits = own < 0 ? 0U : w.inside[index(own)][index(at.row)];
-  const unsigned next = beyond < 0 ? 0U : w.inside[index(beyond)][index(at.row)] & 1U;
-  return bits | next << block_side;
-}
-
-/// The bits of the four rows around the cells (x, y, z), at y, y + 1 of z, then of z + 1.
-using CellRows = std::array<unsigned, 4>;
-
-CellRows rows_at(const Workspace& w, int block, int y, int z) {
-  return {row_bits(w, block, y, z), row_bits(w, block, y + 1, z), row_bits(w, block, y, z + 1),
-          row_bits(w, block, y + 1, z + 1)};
-}
-
-/// The case of the cell at x.
-unsigned case_at(const CellRows& rows, int x) {
-  unsigned inside = 0;
-  for (unsigned r = 0; r < 4; ++r) inside |= (rows[r] >> x & 3U) << (2 * r);
-  return inside;
-}
-
-/// The cells of a row whose corners are not all on one side.
-unsigned mixed_cells(const CellRows& rows) {
-  const unsigned any = rows[0] | rows[1] | rows[2] | rows[3], all = rows[0] & rows[1] & rows[2] & rows[3];
-  return ((any | any >> 1) & ~(all & all >> 1)) & 0xffU;
+CornerSets corners_of(const Workspace& w, const AroundBrick<int>& around) {
+  AroundBrick<NodeSet> inside;
+  for (std::size_t n = 0; n < 8; ++n) inside[n] = inside_of(w.field, around[n]);
+  return corner_sets(inside);
 }
 
 /// Finds and counts the vertices and triangles of a block.
 void count(Workspace& w, int block) {
-  BlockEdges& edges = w.edges[index(block)];
+  if (is_uniform(w, block)) return;
   const std::array<CubeCase, 256>& cases = cube_cases();
-  for (int row = 0; row < block_rows; ++row) {
-    const CellRows rows = rows_at(w, block, row % block_side, row / block_side);
-    const std::array<unsigned, 3> ends{rows[0] >> 1, rows[1], rows[2]};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      edges.crossed[axis][index(row)] = static_cast<RowBits>((rows[0] ^ ends[axis]) & 0xffU);
-    for (unsigned mixed = mixed_cells(rows); mixed != 0; mixed &= mixed - 1)
-      edges.triangles += cases[case_at(rows, std::countr_zero(mixed))].count;
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t row = 0; row < block_rows; ++row) {
-      edges.before[axis][row] = static_cast<std::uint16_t>(edges.vertices);
-      edges.vertices += std::popcount(edges.crossed[axis][row]);
+  const BrickGrid grid = bricks_above(w.neighbours[index(block)]);
+  BlockCounts counts;
+  for (int brick = 0; brick < block_bricks; ++brick) {
+    const CornerSets c = corners_of(w, around_brick(grid, brick));
+    BrickEdges& edges = w.edges[index(block_bricks * block + brick)];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      edges.crossed[axis] = c[0] ^ c[std::size_t{1} << axis];
+      edges.first[axis] = counts.vertices;
+      counts.vertices += size_of(edges.crossed[axis]);
     }
-}
-
-/// The vertex on the edge along `axis` that starts at a node, which may lie in a block above.
-int vertex_at(const Workspace& w, int block, int axis, const Cell& node) {
-  const RowPlace at = row_at(node.y, node.z);
-  const int owner = w.neighbours[index(block)][index(at.neighbour | node.x / block_side)];
-  const BlockEdges& edges = w.edges[index(owner)];
-  const unsigned below = edges.crossed[index(axis)][index(at.row)] & ((1U << (node.x % block_side)) - 1);
-  return edges.first_vertex + edges.before[index(axis)][index(at.row)] + std::popcount(below);
-}
-
-void add_triangles(const Workspace& w, int block, TriangleMesh& mesh) {
-  const std::array<CubeCase, 256>& cases = cube_cases();
-  auto next = mesh.triangles.begin() + w.edges[index(block)].first_triangle;
-  for (int row = 0; row < block_rows; ++row) {
-    const int y = row % block_side, z = row / block_side;
-    const CellRows rows = rows_at(w, block, y, z);
-    for (unsigned mixed = mixed_cells(rows); mixed != 0; mixed &= mixed - 1) {
-      const int x = std::countr_zero(mixed);
-      const auto vertex = [&](int edge) {
-        const int start = edge_start(edge);
-        return vertex_at(w, block, edge >> 2, {x + (start & 1), y + (start >> 1 & 1), z + (start >> 2)});
-      };
-      const CubeCase& of = cases[case_at(rows, x)];
-      for (int t = 0; t < of.count; ++t) {
-        const auto& edges = of.triangles[index(t)];
-        *next++ = {vertex(edges[0]), vertex(edges[1]), vertex(edges[2])};
-      }
-    }
+    for (NodeSet mixed = mixed_cells(c); mixed != 0; mixed &= mixed - 1)
+      counts.triangles += cases[case_of(c, std::countr_zero(mixed))].count;
   }
+  w.counts[index(block)] = counts;
 }
 
-/// The value at a node of the block or of one above; 0 where there is no block.
-float value_at(const Workspace& w, int block, const Cell& node) {
-  const RowPlace at = row_at(node.y, node.z);
-  const int owner = w.neighbours[index(block)][index(at.neighbour | node.x / block_side)];
-  return owner < 0 ? 0 : w.field.at(owner, at.row * block_side + node.x % block_side);
-}
-
-void add_vertices(const Workspace& w, int block, TriangleMesh& mesh) {
-  const Cell corner = cell_of(w.field.keys[index(block)]);
+/// Places the vertices of a brick's edges along an axis.
+void add_vertices(const Workspace& w, const AroundBrick<int>& around, int axis, const Cell& corner,
+                  const BrickEdges& edges) {
   const double cell = static_cast<double>(w.field.cell);
-  const auto place = [&](int at, int node, float share) {
-    return static_cast<float>((static_cast<double>(at * block_side + node) + static_cast<double>(share)) * cell);
-  };
-  auto next = mesh.positions.begin() + w.edges[index(block)].first_vertex;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int row = 0; row < block_rows; ++row)
-      for (unsigned bits = w.edges[index(block)].crossed[index(axis)][index(row)]; bits != 0; bits &= bits - 1) {
-        const Cell node{std::countr_zero(bits), row % block_side, row / block_side};
-        const std::array<int, 3> step{axis == 0, axis == 1, axis == 2};
-        const float from = value_at(w, block, node);
-        const float to = value_at(w, block, {node.x + step[0], node.y + step[1], node.z + step[2]});
-        const float share = std::clamp((surface_level - from) / (to - from), least_share, 1 - least_share);
-        const auto shift = [&](std::size_t a) { return step[a] != 0 ? share : 0.f; };
-        *next++ = {place(corner.x, node.x, shift(0)), place(corner.y, node.y, shift(1)), place(corner.z, node.z, shift(2))};
-      }
+  const float *const own = values_of(w.field, around[0]), *const above = values_of(w.field, around[std::size_t{1} << axis]);
+  const int stride = 1 << (2 * axis), last = 3 * stride;  // of nodes along the axis
+  Vertex* to = &w.mesh.vertices[index(edges.first[index(axis)])];
+  for (NodeSet bits = edges.crossed[index(axis)]; bits != 0; bits &= bits - 1) {
+    const int node = std::countr_zero(bits);
+    const float from = own[node];
+    const float next = (node & last) == last ? above[node - last] : own[node + stride];
+    const float share = std::clamp((surface_level - from) / (next - from), least_share, 1 - least_share);
+    std::array<double, 3> place{static_cast<double>(corner.x + (node & 3)), static_cast<double>(corner.y + (node >> 2 & 3)),
+                                static_cast<double>(corner.z + (node >> 4))};
+    place[index(axis)] += static_cast<double>(share);
+    *to++ = {static_cast<float>(place[0] * cell), static_cast<float>(place[1] * cell), static_cast<float>(place[2] * cell),
+             0};
+  }
+}
+
+/// Numbers the vertices of a block in the whole mesh, and places them.
+void add_vertices(Workspace& w, int block) {
+  const Cell at = cell_of(w.field.keys[index(block)]);
+  const BrickGrid grid = bricks_above(w.neighbours[index(block)]);
+  for (int brick = 0; brick < block_bricks; ++brick) {
+    BrickEdges& edges = w.edges[index(block_bricks * block + brick)];
+    const AroundBrick<int> around = around_brick(grid, brick);
+    const Cell corner{block_side * at.x + brick_side * (brick & 1), block_side * at.y + brick_side * (brick >> 1 & 1),
+                      block_side * at.z + brick_side * (brick >> 2)};
+    for (int axis = 0; axis < 3; ++axis) {
+      edges.first[index(axis)] += w.counts[index(block)].first_vertex;
+      if (edges.crossed[index(axis)] != 0) add_vertices(w, around, axis, corner, edges);
+    }
+  }
+}
+
+/// Where a corner of a cell is: the brick, as an index into AroundBrick, and the nodes below it there.
+struct CornerPlace {
+  NodeSet below;
+  int brick;
+};
+
+using CornerPlaces = std::array<std::array<CornerPlace, 8>, brick_nodes>;
+
+/// By cell and corner.
+constexpr CornerPlaces make_corner_places() {
+  CornerPlaces places{};
+  for (int cell = 0; cell < brick_nodes; ++cell)
+    for (int corner = 0; corner < 8; ++corner) {
+      const int x = (cell & 3) + (corner & 1), y = (cell >> 2 & 3) + (corner >> 1 & 1), z = (cell >> 4) + (corner >> 2);
+      const int node = (x & 3) | (y & 3) << 2 | (z & 3) << 4;
+      places[static_cast<std::size_t>(cell)][static_cast<std::size_t>(corner)] = {(NodeSet{1} << node) - 1,
+                                                                                  x >> 2 | (y >> 2) << 1 | (z >> 2) << 2};
+    }
+  return places;
+}
+
+/// The triangles of a brick's cells, written one behind another, and the links along their faces.
+void add_triangles(const Workspace& w, const AroundBrick<int>& around, const CornerSets& corners, NodeSet mixed,
+                   std::array<int, 3>*& to) {
+  static constexpr CornerPlaces corner_places = make_corner_places();
+  const std::array<CubeCase, 256>& cases = cube_cases();
+  AroundBrick<const BrickEdges*> edges;
+  for (std::size_t n = 0; n < 8; ++n) edges[n] = around[n] < 0 ? nullptr : &w.edges[index(around[n])];
+  for (; mixed != 0; mixed &= mixed - 1) {
+    const int cell = std::countr_zero(mixed);
+    const CubeCase& of = cases[case_of(corners, cell)];
+    std::array<int, 12> vertex;
+    for (std::size_t i = 0; i < of.crossed_count; ++i) {
+      const int edge = of.crossed[i];
+      const std::size_t axis = index(edge >> 2);
+      const CornerPlace& start = corner_places[index(cell)][index(edge_start(edge))];
+      const BrickEdges& owner = *edges[index(start.brick)];
+      vertex[index(edge)] = owner.first[axis] + size_of(owner.crossed[axis] & start.below);
+    }
+    for (std::size_t i = 0; i < of.crossed_count; ++i) {
+      const std::size_t edge = of.crossed[i];
+      w.mesh.links[index(vertex[edge])][edge & 3] = vertex[of.next[edge]];
+    }
+    for (std::size_t t = 0; t < of.count; ++t) {
+      const auto& triangle = of.triangles[t];
+      *to++ = {vertex[triangle[0]], vertex[triangle[1]], vertex[triangle[2]]};
+    }
+  }
+}
+
+void add_triangles(Workspace& w, int block) {
+  const BrickGrid grid = bricks_above(w.neighbours[index(block)]);
+  std::array<int, 3>* next = w.mesh.triangles.data() + w.counts[index(block)].first_triangle;
+  for (int brick = 0; brick < block_bricks; ++brick) {
+    const AroundBrick<int> around = around_brick(grid, brick);
+    const CornerSets corners = corners_of(w, around);
+    const NodeSet mixed = mixed_cells(corners);
+    if (mixed != 0) add_triangles(w, around, corners, mixed, next);
+  }
 }
 
 /// Sums the counts of the blocks, and makes room for all vertices and triangles.
-TriangleMesh make_room(Workspace& w) {
+void make_room(Workspace& w) {
   int vertices = 0, triangles = 0;
-  for (BlockEdges& edges : w.edges) {
-    edges.first_vertex = vertices;
-    edges.first_triangle = triangles;
-    vertices += edges.vertices;
-    triangles += edges.triangles;
+  for (BlockCounts& counts : w.counts) {
+    counts.first_vertex = vertices;
+    counts.first_triangle = triangles;
+    vertices += counts.vertices;
+    triangles += counts.triangles;
   }
-  return {std::vector<Vec3f>(index(vertices)), std::vector<std::array<int, 3>>(index(triangles))};
+  w.mesh.size = vertices;
+  w.mesh.vertices = std::unique_ptr<Vertex[]>(new Vertex[index(vertices)]);
+  w.mesh.links = std::unique_ptr<Links[]>(new Links[index(vertices)]);
+  w.mesh.triangles.resize(index(triangles));
 }
 
 }  // namespace
 
-TriangleMesh marching_cubes(const Field& field, Executor& executor) {
-  const std::size_t blocks = field.keys.size();
-  Workspace w{field, std::vector<std::array<RowBits, block_rows>>(blocks), std::vector<Neighbours>(blocks),
-              std::vector<BlockEdges>(blocks)};
-  executor.parallel_for("surface: inside", field.size(), [&](int block) {
-    w.inside[index(block)] = inside_of(field, block);
-    w.neighbours[index(block)] = neighbours_of(field, block);
+LinkedMesh marching_cubes(const Field& field, Executor& executor) {
+  const int blocks = field.size();
+  Workspace w{field,
+              find_neighbours(field, executor),
+              std::vector<BlockCounts>(index(blocks)),
+              std::unique_ptr<BrickEdges[]>(new BrickEdges[index(block_bricks * blocks)]),
+              {}};
+  for_items(executor, "surface: count", blocks, blocks_at_a_time, [&](int block) { count(w, block); });
+  make_room(w);
+  for_items(executor, "surface: vertices", blocks, blocks_at_a_time, [&](int block) {
+    if (w.counts[index(block)].vertices > 0) add_vertices(w, block);
   });
-  executor.parallel_for("surface: count", field.size(), [&](int block) { count(w, block); });
-  TriangleMesh mesh = make_room(w);
-  executor.parallel_for("surface: triangles", field.size(), [&](int block) {
-    if (w.edges[index(block)].vertices > 0) add_vertices(w, block, mesh);
-    if (w.edges[index(block)].triangles > 0) add_triangles(w, block, mesh);
+  for_items(executor, "surface: triangles", blocks, blocks_at_a_time, [&](int block) {
+    if (w.counts[index(block)].triangles > 0) add_triangles(w, block);
   });
-  return mesh;
+  return std::move(w.mesh);
 }
 
 }  // namespace pliant::surface

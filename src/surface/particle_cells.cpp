@@ -1,86 +1,89 @@
-// Sorts particles into cells by a radix sort, which is stable.
+// Sorts particles into cells, and finds which of these are deep in the liquid.
 #include "surface/particle_cells.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "parallel/ranges.h"
+#include "surface/sort_keys.h"
 
 namespace pliant::surface {
 
 namespace {
 
-constexpr int digit_bits = 11;
-constexpr std::size_t digits = std::size_t{1} << digit_bits;
+constexpr int particles_at_a_time = 1 << 13, cells_at_a_time = 256;
 
-/// A particle and the key of its cell, in which the bits that all keys share are left out.
-struct Item {
-  std::uint64_t key;
-  int particle;
-};
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-int bits_of(int extent) {
-  int bits = 0;
-  while (bits < 31 && extent >> bits != 0) ++bits;
-  return bits;
+KeyBox box_of(std::span<const Vec3f> positions, float per_side, Executor& executor) {
+  const int count = static_cast<int>(positions.size());
+  std::vector<KeyBox> boxes(index(ranges_of(count, particles_at_a_time)));
+  for_ranges(executor, "surface: box", count, particles_at_a_time, [&](int first, int last) {
+    KeyBox box;
+    for (int i = first; i < last; ++i) box.include(cell_at(positions[index(i)], per_side));
+    boxes[index(first / particles_at_a_time)] = box;
+  });
+  KeyBox all;
+  for (const KeyBox& box : boxes) all.include(box);
+  all.count_bits();
+  return all;
 }
 
-/// The smallest box of cells with all particles, and the bits of a coordinate in it.
-struct KeyBox {
-  Cell low{key_range, key_range, key_range}, high{-key_range, -key_range, -key_range};
-  int x_bits = 0, y_bits = 0, z_bits = 0;
-
-  void include(const Cell& c) {
-    low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
-    high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
-  }
-  void count_bits() {
-    x_bits = bits_of(high.x - low.x);
-    y_bits = bits_of(high.y - low.y);
-    z_bits = bits_of(high.z - low.z);
-  }
-  int bits() const { return x_bits + y_bits + z_bits; }
-  std::uint64_t key(const Cell& c) const {
-    const auto part = [](int i) { return static_cast<std::uint64_t>(i); };
-    return (part(c.z - low.z) << y_bits | part(c.y - low.y)) << x_bits | part(c.x - low.x);
-  }
-};
-
-/// Sorts by keys of so many bits, least significant digits first.
-void sort_by_key(std::vector<Item>& items, int bits) {
-  std::vector<Item> sorted(items.size());
-  for (int shift = 0; shift < bits; shift += digit_bits) {
-    std::vector<std::size_t> place(digits + 1, 0);
-    for (const Item& item : items) ++place[(item.key >> shift & (digits - 1)) + 1];
-    for (std::size_t d = 0; d < digits; ++d) place[d + 1] += place[d];
-    for (const Item& item : items) sorted[place[item.key >> shift & (digits - 1)]++] = item;
-    items.swap(sorted);
-  }
-}
-
-std::vector<Item> sorted_items(std::span<const Vec3f> positions, float per_side) {
-  KeyBox box;
-  for (const Vec3f& p : positions) box.include(cell_at(p, per_side));
-  box.count_bits();
-  std::vector<Item> items(positions.size());
-  for (std::size_t i = 0; i < items.size(); ++i) items[i] = {box.key(cell_at(positions[i], per_side)), static_cast<int>(i)};
-  sort_by_key(items, box.bits());
+/// The particles by cells.
+std::vector<Keyed> sorted_particles(std::span<const Vec3f> positions, const KeyBox& box, float per_side,
+                                    Executor& executor) {
+  std::vector<Keyed> items(positions.size());
+  for_items(executor, "surface: keys", static_cast<int>(items.size()), particles_at_a_time, [&](int i) {
+    items[index(i)] = {box.key(cell_at(positions[index(i)], per_side)), i, i + 1};
+  });
+  sort_by_key(executor, items, box.bits());
   return items;
+}
+
+void take_positions(ParticleCells& cells, std::span<const Vec3f> positions, const std::vector<Keyed>& order,
+                    Executor& executor) {
+  cells.positions.resize(order.size());
+  for (std::vector<float>* const along : {&cells.x, &cells.y, &cells.z}) along->resize(order.size() + 16);
+  for_items(executor, "surface: places", static_cast<int>(order.size()), particles_at_a_time, [&](int place) {
+    const std::size_t i = index(place);
+    const Vec3f p = positions[index(order[i].first)];
+    cells.positions[i] = p;
+    cells.x[i] = p.x, cells.y[i] = p.y, cells.z[i] = p.z;
+  });
+}
+
+void list_cells(ParticleCells& cells, const std::vector<Keyed>& order, const KeyBox& box) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && order[i].key == order[i - 1].key) continue;
+    cells.keys.push_back(key_of(box.cell(order[i].key)));
+    cells.first.push_back(static_cast<int>(i));
+  }
+  cells.first.push_back(static_cast<int>(order.size()));
+  cells.table = KeyTable(cells.keys.size());
+  for (const std::uint64_t key : cells.keys) cells.table.insert(key);
 }
 
 /// At rest a cell has eight particles. With five it is not split by a surface, or has at most the outermost layer of one.
 constexpr int full_count = 5;
 
 void find_fills(ParticleCells& cells, Executor& executor) {
-  const auto is_full = [&](int cell) { return cell >= 0 && cells.particles(cell).size() >= full_count; };
+  const auto is_full = [&](int cell) { return cells.first[index(cell) + 1] - cells.first[index(cell)] >= full_count; };
+  const auto is_full_row = [&](const CellRow& row) {
+    return row.last - row.first == 3 && is_full(row.first) && is_full(row.first + 1) && is_full(row.first + 2);
+  };
   cells.fills.assign(cells.keys.size(), Fill::sparse);
-  for_items(executor, "surface: fills", cells.size(), 512, [&](int cell) {
-    if (!is_full(cell)) return;
-    const std::array<int, 27> around = cells_around(cells, cell);
-    const bool is_enclosed = std::all_of(around.begin(), around.end(), is_full);
-    cells.fills[static_cast<std::size_t>(cell)] = is_enclosed ? Fill::enclosed : Fill::full;
+  for_ranges(executor, "surface: fills", cells.size(), cells_at_a_time, [&](int first, int last) {
+    CellsAround around(cells, first);
+    for (int cell = first; cell < last; ++cell) {
+      if (!is_full(cell)) continue;
+      const std::array<CellRow, 9> rows = around.of(cell);
+      const bool is_enclosed = std::all_of(rows.begin(), rows.end(), is_full_row);
+      cells.fills[index(cell)] = is_enclosed ? Fill::enclosed : Fill::full;
+    }
   });
 }
+
+/// The keys of the rows around a cell, as steps from its own to the first of each.
+std::uint64_t step_to_row(int row) { return key_step(-1, row % 3 - 1, row / 3 - 1); }
 
 }  // namespace
 
@@ -88,31 +91,28 @@ ParticleCells sort_into_cells(std::span<const Vec3f> positions, float spacing, E
   ParticleCells cells;
   cells.side = 2 * spacing;
   const float per_side = 1 / cells.side;
-  const std::vector<Item> items = sorted_items(positions, per_side);
-  cells.positions.reserve(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    const Vec3f& p = positions[static_cast<std::size_t>(items[i].particle)];
-    if (i == 0 || items[i].key != items[i - 1].key) {
-      cells.keys.push_back(key_of(cell_at(p, per_side)));
-      cells.first.push_back(static_cast<int>(i));
-    }
-    cells.positions.push_back(p);
-  }
-  cells.first.push_back(static_cast<int>(items.size()));
-  cells.table = KeyTable(cells.keys.size());
-  for (const std::uint64_t key : cells.keys) cells.table.insert(key);
+  const KeyBox box = box_of(positions, per_side, executor);
+  const std::vector<Keyed> order = sorted_particles(positions, box, per_side, executor);
+  take_positions(cells, positions, order, executor);
+  list_cells(cells, order, box);
   find_fills(cells, executor);
   return cells;
 }
 
-std::array<int, 27> cells_around(const ParticleCells& cells, int cell) {
-  const Cell c = cell_of(cells.keys[static_cast<std::size_t>(cell)]);
-  std::array<int, 27> around{};
-  std::size_t n = 0;
-  for (int z = c.z - 1; z <= c.z + 1; ++z)
-    for (int y = c.y - 1; y <= c.y + 1; ++y)
-      for (int x = c.x - 1; x <= c.x + 1; ++x) around[n++] = cells.find({x, y, z});
-  return around;
+CellsAround::CellsAround(const ParticleCells& cells, int cell) : cells_(cells) {
+  for (int row = 0; row < 9; ++row) rows_[index(row)] = KeyFollower(cells.keys, cells.keys[index(cell)] + step_to_row(row));
+}
+
+std::array<CellRow, 9> CellsAround::of(int cell) {
+  std::array<CellRow, 9> found{};
+  for (int row = 0; row < 9; ++row) {
+    const std::uint64_t low = cells_.keys[index(cell)] + step_to_row(row);
+    const int first = rows_[index(row)].first_from(low);
+    int last = first;
+    while (last < cells_.size() && cells_.keys[index(last)] <= low + 2) ++last;
+    found[index(row)] = {first, last};
+  }
+  return found;
 }
 
 }  // namespace pliant::surface

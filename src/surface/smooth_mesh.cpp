@@ -1,40 +1,54 @@
-// Taubin's filter with equal weights.
+// Taubin's filter with equal weights of the four neighbours on the faces of the grid's cells.
 #include "surface/smooth_mesh.h"
+
+#include <utility>
+
+#include "parallel/ranges.h"
 
 namespace pliant::surface {
 
 namespace {
 
-/// The sum of a vertex's neighbours, each counted twice, and their number.
-struct Sum {
-  Vec3f positions;
-  float count = 0;
-};
+constexpr int vertices_at_a_time = 4096;
 
-/// Moves each vertex by a share of the way to the mean of its neighbours. An edge has two triangles, so both count each neighbour.
-void move_to_mean(TriangleMesh& mesh, float share, std::vector<Sum>& sums) {
-  sums.assign(mesh.positions.size(), {});
-  for (const auto& triangle : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i) {
-      Sum& sum = sums[static_cast<std::size_t>(triangle[i])];
-      sum.positions += mesh.positions[static_cast<std::size_t>(triangle[(i + 1) % 3])];
-      sum.positions += mesh.positions[static_cast<std::size_t>(triangle[(i + 2) % 3])];
-      sum.count += 2;
-    }
-  for (std::size_t v = 0; v < sums.size(); ++v)
-    mesh.positions[v] += (sums[v].positions * (1 / sums[v].count) - mesh.positions[v]) * share;
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+Vertex operator+(const Vertex& a, const Vertex& b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.unused + b.unused}; }
+Vertex operator-(const Vertex& a, const Vertex& b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.unused - b.unused}; }
+Vertex operator*(const Vertex& a, float s) { return {a.x * s, a.y * s, a.z * s, a.unused * s}; }
+
+/// Moves each vertex by a share of the way to the mean of its neighbours.
+void move_to_mean(const LinkedMesh& mesh, float share, Vertex* to, Executor& executor) {
+  for_items(executor, "surface: smoothing", mesh.size, vertices_at_a_time, [&](int v) {
+    const Links& links = mesh.links[index(v)];
+    const auto neighbour = [&](std::size_t n) { return mesh.vertices[index(links[n])]; };
+    const Vertex sum = (neighbour(0) + neighbour(1)) + (neighbour(2) + neighbour(3));
+    const Vertex own = mesh.vertices[index(v)];
+    to[v] = own + (sum * 0.25f - own) * share;
+  });
 }
 
 }  // namespace
 
-void smooth(TriangleMesh& mesh, int passes) {
+void smooth(LinkedMesh& mesh, int passes, Executor& executor) {
   // The filter's response to the frequency k (0 to 2) is (1 - k share)(1 - k back); it is 1 again at k = 1/share + 1/back = 0.1.
-  constexpr float share = 0.5f, back = -0.5263158f;
-  std::vector<Sum> sums;
-  for (int pass = 0; pass < passes; ++pass) {
-    move_to_mean(mesh, share, sums);
-    move_to_mean(mesh, back, sums);
-  }
+  constexpr float share = 0.6f, back = -0.628272251f;
+  if (passes == 0) return;
+  std::unique_ptr<Vertex[]> moved(new Vertex[index(mesh.size)]);
+  for (int pass = 0; pass < passes; ++pass)
+    for (const float by : {share, back}) {
+      move_to_mean(mesh, by, moved.get(), executor);
+      std::swap(mesh.vertices, moved);
+    }
+}
+
+TriangleMesh unlinked(LinkedMesh mesh, Executor& executor) {
+  TriangleMesh result{std::vector<Vec3f>(index(mesh.size)), std::move(mesh.triangles)};
+  for_items(executor, "surface: mesh", mesh.size, vertices_at_a_time, [&](int v) {
+    const Vertex& from = mesh.vertices[index(v)];
+    result.positions[index(v)] = {from.x, from.y, from.z};
+  });
+  return result;
 }
 
 }  // namespace pliant::surface

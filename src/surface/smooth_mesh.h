@@ -1,12 +1,14 @@
-// Smoothing of a closed mesh that keeps its volume.
+// Removes bumps shorter than a few edges from a mesh, and keeps its volume.
 #pragma once
 
-#include "pliant/mesh.h"
+#include "surface/linked_mesh.h"
 
 namespace pliant::surface {
 
-/// Smooths by Taubin's filter (1995): each pass moves vertices towards the mean of their neighbours, then away from it by slightly more,
-/// which removes bumps of a few edges and leaves longer ones.
-void smooth(TriangleMesh& mesh, int passes);
+/// Makes so many passes of Taubin's filter (1995).
+void smooth(LinkedMesh& mesh, int passes, Executor& executor);
+
+/// The mesh without links.
+TriangleMesh unlinked(LinkedMesh mesh, Executor& executor);
 
 }  // namespace pliant::surface

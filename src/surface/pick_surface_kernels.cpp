@@ -1,0 +1,21 @@
+// Selects a table of kernels by what this machine runs.
+#include "math/runs_level.h"
+#include "surface/surface_kernels.h"
+
+namespace pliant::surface {
+
+std::vector<const SurfaceKernels*> all_kernels() {
+  std::vector<const SurfaceKernels*> tables;
+#define PLIANT_ADD_LEVEL(suffix, isa, ...) \
+  if (runs_##suffix()) tables.push_back(&surface_kernels_##suffix());
+  PLIANT_FOR_EACH_LEVEL(PLIANT_ADD_LEVEL, )
+#undef PLIANT_ADD_LEVEL
+  return tables;
+}
+
+const SurfaceKernels& best_kernels() {
+  static const SurfaceKernels& best = *all_kernels().front();
+  return best;
+}
+
+}  // namespace pliant::surface
