@@ -27,7 +27,8 @@ std::vector<Neighbours> find_neighbours(const Field& field, Executor& executor) 
         int at = rows[static_cast<std::size_t>(row)].first_from(key);
         for (int x = 0; x < 2; ++x) {
           const bool is_there = at < field.size() && key_at(at) == key + static_cast<std::uint64_t>(x);
-          found[static_cast<std::size_t>(block)][static_cast<std::size_t>(2 * row + x)] = is_there ? at++ : -1;
+          const int slot = 2 * row + x;
+          found[static_cast<std::size_t>(block)][static_cast<std::size_t>(slot)] = is_there ? at++ : -1;
         }
       }
   });

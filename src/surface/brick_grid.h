@@ -24,8 +24,10 @@ using AroundBrick = std::array<Value, 8>;
 inline AroundBrick<int> around_brick(const BrickGrid& grid, int brick) {
   const int own = (brick & 1) + 3 * (brick >> 1 & 1) + 9 * (brick >> 2);
   AroundBrick<int> around{};
-  for (int n = 0; n < 8; ++n)
-    around[static_cast<std::size_t>(n)] = grid[static_cast<std::size_t>(own + (n & 1) + 3 * (n >> 1 & 1) + 9 * (n >> 2))];
+  for (int n = 0; n < 8; ++n) {
+    const int at = own + (n & 1) + 3 * (n >> 1 & 1) + 9 * (n >> 2);
+    around[static_cast<std::size_t>(n)] = grid[static_cast<std::size_t>(at)];
+  }
   return around;
 }
 
