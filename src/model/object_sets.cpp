@@ -221,7 +221,8 @@ struct Heights {
 
 Heights heights_of(const Object& object) {
   Heights of;
-  const std::size_t start = object.positions.size() - static_cast<std::size_t>(std::max(object.flow.spare, 0));
+  const auto count = static_cast<int>(object.positions.size());
+  const auto start = static_cast<std::size_t>(count - std::clamp(object.flow.spare, 0, count));
   for (std::size_t i = 0; i < start; ++i) {
     of.low = i == 0 ? object.positions[i].y : std::min(of.low, object.positions[i].y);
     of.high = i == 0 ? object.positions[i].y : std::max(of.high, object.positions[i].y);

@@ -37,10 +37,18 @@ void for_present(const WorldData& world, int number, const Body& body) {
     if (world.state.births[at(i)] != not_there) body(at(i));
 }
 
+/// Calls body(particle) for those of them that can move: what a user has fixed stays.
+template <class Body>
+void for_free(const WorldData& world, int number, const Body& body) {
+  for_present(world, number, [&](std::size_t i) {
+    if (world.model.objects[at(number)].positions[i - at(world.model.first[number])].w > 0) body(i);
+  });
+}
+
 void expire(WorldData& world, int number, FlowReport& report) {
   const auto lifetime = static_cast<double>(world.model.objects[at(number)].flow.lifetime);
   if (!(lifetime > 0)) return;
-  for_present(world, number, [&](std::size_t i) {
+  for_free(world, number, [&](std::size_t i) {
     if (world.state.time - world.state.births[i] < lifetime) return;
     remove(world.state, i);
     ++report.expired;
@@ -51,7 +59,7 @@ void drain(WorldData& world, int number, FlowReport& report) {
   for (const Drain& drain : world.model.objects[at(number)].flow.drains) {
     const LocalShape shape = local_shape(drain.shape);
     const Posed pose{convert<double>(drain.position), normalise(convert<double>(drain.rotation))};
-    for_present(world, number, [&](std::size_t i) {
+    for_free(world, number, [&](std::size_t i) {
       const Vec3f local = convert<float>(to_local(pose, convert<double>(vector_of(world.state.positions[i]))));
       if (!(signed_distance(shape, local).distance < 0)) return;
       remove(world.state, i);
@@ -63,9 +71,9 @@ void drain(WorldData& world, int number, FlowReport& report) {
 /// Frees what has passed its opening, where it was from then on in free fall.
 void release(WorldData& world, int number) {
   State& state = world.state;
-  for_present(world, number, [&](std::size_t i) {
+  for_free(world, number, [&](std::size_t i) {
     const float inverse_mass = world.model.objects[at(number)].positions[i - at(world.model.first[number])].w;
-    if (state.positions[i].w > 0 || inverse_mass == 0 || state.births[i] > state.time) return;
+    if (state.positions[i].w > 0 || state.births[i] > state.time) return;
     const auto since = static_cast<float>(state.time - state.births[i]);
     const Vec3f gravity = world.model.gravity, moved = gravity * (since * since / 2), gained = gravity * since;
     Record &x = state.positions[i], &v = state.velocities[i];

@@ -246,6 +246,19 @@ TEST(Flow, LeavesFixedParticlesWhereTheyAre) {
   EXPECT_EQ(world.object(0).positions().front(), (Vec3f{0.5f, 0.5f, 0.5f}));
 }
 
+TEST(Flow, NeitherALifetimeNorADrainTakesFixedParticles) {
+  Drain everywhere;
+  everywhere.shape = Box{{9, 9, 9}};
+  Scene scene = jet(nozzle(2), 20000, {everywhere}, 0.1f);
+  scene.objects[0].positions.insert(scene.objects[0].positions.begin(), {0.5f, 0.5f, 0.5f});
+  scene.objects[0].masses.insert(scene.objects[0].masses.begin(), std::numeric_limits<float>::infinity());
+  World world(scene);
+  EXPECT_GT(run(world, 30).drained, 0);
+  const std::vector<int> present = world.object(0).present();
+  ASSERT_FALSE(present.empty());
+  EXPECT_EQ(present.front(), 0);
+}
+
 TEST(Flow, AMovingOpeningGivesItsVelocity) {
   Emitter emitter = nozzle(1);
   emitter.motion.keyframes = {{0, {0, 0, 0}, {}}, {1, {2, 0, 0}, {}}};
@@ -258,6 +271,18 @@ TEST(Flow, AMovingOpeningGivesItsVelocity) {
     EXPECT_NEAR(v.x, 2, 0.02);
     EXPECT_NEAR(v.y, -1, 0.02);
   }
+}
+
+TEST(Flow, CountsWhatIsInItsWay) {
+  Scene scene = jet(nozzle(0.5f), 5000);
+  Object& liquid = scene.objects[0];
+  const std::vector<Vec3f> plug = fill_box({-0.06f, 0.9f, -0.06f}, {0.06f, 1.2f, 0.06f}, spacing / 2);
+  liquid.positions.insert(liquid.positions.begin(), plug.begin(), plug.end());
+  liquid.masses.insert(liquid.masses.begin(), plug.size(), std::numeric_limits<float>::infinity());
+  World world(scene);
+  const FlowReport sum = run(world, 60);
+  EXPECT_EQ(sum.emitted, 0);
+  EXPECT_NEAR(static_cast<double>(sum.blocked), 25 * (0.5 / 0.02 + 2), 25);
 }
 
 TEST(Flow, DoesNotEmitIntoWhatIsThere) {
@@ -484,6 +509,8 @@ TEST(FlowRefusal, SaysWhatIsWrong) {
   refused([](Object& o) { o.flow.emitters[0].speed = NAN; }, "speed");
   refused([](Object& o) { o.flow.emitters[0].end = -1; }, "ends before it starts");
   refused([](Object& o) { o.flow.spare = 101; }, "spare particles");
+  refused([](Object& o) { o.flow.emitters[0].width = 1000; }, "has room for about");
+  refused([](Object& o) { o.flow.emitters[0] = {.radius = 1000, .speed = 1}; }, "has room for about");
   refused([](Object& o) { o.flow.lifetime = -1; }, "lifetime");
   refused([](Object& o) { o.pins.push_back({0, {}}); }, "pins");
   refused([](Object& o) { o.clusters.push_back({.particles = {0, 1}, .rest = {{0, 0, 0}, {1, 0, 0}}}); }, "clusters");
