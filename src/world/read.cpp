@@ -11,12 +11,18 @@ namespace pliant {
 
 namespace {
 
+/// Where a State keeps a particle of an object that a user has given this number.
+std::size_t particle_of(const WorldData& world, int number, int user) {
+  const std::int64_t particle = world.model.first[number] + world.model.objects[number].place[user];
+  return static_cast<std::size_t>(particle);
+}
+
 /// Converts an array from storage order to the user's order, for an object or a mesh collider.
 std::vector<Vec3f> in_given_order(const WorldData& world, int number, const Records& records) {
   const CompiledObject& from = world.model.objects[number];
   std::vector<Vec3f> out(from.user_particles);
   for (int user = 0; user < from.user_particles; ++user) {
-    const Record& r = records[static_cast<std::size_t>(world.model.first[number]) + from.place[user]];
+    const Record& r = records[particle_of(world, number, user)];
     out[user] = {r.x, r.y, r.z};
   }
   return out;
@@ -68,9 +74,8 @@ std::vector<float> ObjectView::channel(const std::string& name) const {
   const CompiledObject& object = read_->model.objects[number];
   for (const Channel& channel : read_->state.channels) {
     if (channel.name != name || channel.components != 1) continue;
-    std::vector<float> out;
-    for (int user = 0; user < object.user_particles; ++user)
-      out.push_back(channel.values[static_cast<std::size_t>(read_->model.first[number] + object.place[user])]);
+    std::vector<float> out(static_cast<std::size_t>(object.user_particles));
+    for (int user = 0; user < object.user_particles; ++user) out[user] = channel.values[particle_of(*read_, number, user)];
     return out;
   }
   return {};
@@ -81,8 +86,7 @@ std::vector<int> ObjectView::present() const {
   const CompiledObject& from = read_->model.objects[number];
   std::vector<int> out;
   for (int user = 0; user < from.user_particles; ++user)
-    if (is_there(read_->state, static_cast<std::size_t>(read_->model.first[number] + from.place[user])))
-      out.push_back(user);
+    if (is_there(read_->state, particle_of(*read_, number, user))) out.push_back(user);
   return out;
 }
 
@@ -101,7 +105,7 @@ std::vector<double> ObjectView::ages() const {
   const CompiledObject& from = read_->model.objects[number];
   std::vector<double> out(static_cast<std::size_t>(from.user_particles), read_->state.time);
   for (int user = 0; user < from.user_particles; ++user) {
-    const auto particle = static_cast<std::size_t>(read_->model.first[number] + from.place[user]);
+    const std::size_t particle = particle_of(*read_, number, user);
     if (!read_->state.births.empty())
       out[user] = is_there(read_->state, particle) ? read_->state.time - read_->state.births[particle] : -1;
   }
