@@ -1,5 +1,7 @@
-// Moves the lanes of a vector whose bits are set to its front, in order: by one instruction (AVX-512), by a permutation from a table
-// (AVX2, SSSE3), or lane by lane.
+// What searches in lanes share: they compare a vector of items at a time, and keep those that are near.
+//
+// Packing moves the lanes whose bits are set to the front, in order: by one instruction (AVX-512), by a permutation from a table (AVX2,
+// SSSE3), or lane by lane.
 #pragma once
 
 #include <array>
@@ -10,6 +12,33 @@
 
 namespace pliant {
 inline namespace PLIANT_ISA {
+
+PLIANT_HD Part load_part(const float* from) {
+  Part a;
+  std::memcpy(&a, from, sizeof a);
+  return a;
+}
+PLIANT_HD PartMask load_part(const std::int32_t* from) {
+  PartMask a;
+  std::memcpy(&a, from, sizeof a);
+  return a;
+}
+PLIANT_HD Part all_lanes(float a) { return a - Part{}; }
+
+PLIANT_HD PartMask lane_numbers() {
+  constexpr std::int32_t numbers[wide_width] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  return load_part(numbers);
+}
+
+/// How far places are from an interval, along one axis.
+PLIANT_HD Part beyond(const Part& x, const Part& low, const Part& high) {
+  return max_part(max_part(low - x, x - high), Part{});
+}
+
+/// The bits of the first lanes, if there are `left` (>= 1) items left.
+PLIANT_HD std::uint32_t first_bits(int left) {
+  return left < part_width ? (1u << left) - 1 : static_cast<std::uint32_t>((std::uint64_t{1} << part_width) - 1);
+}
 
 /// Bit i is set where lane i of a is at most that of b.
 PLIANT_HD std::uint32_t bits_at_most(const Part& a, const Part& b) {

@@ -12,29 +12,8 @@ namespace {
 
 using namespace surface;
 
-PLIANT_HD Part load_part(const float* from) {
-  Part a;
-  std::memcpy(&a, from, sizeof a);
-  return a;
-}
-PLIANT_HD PartMask load_numbers(const std::int32_t* from) {
-  PartMask a;
-  std::memcpy(&a, from, sizeof a);
-  return a;
-}
 PLIANT_HD void store_part(float* to, const Part& a) { std::memcpy(to, &a, sizeof a); }
-PLIANT_HD Part all_lanes(float a) { return a - Part{}; }
 PLIANT_HD Part abs_part(const Part& a) { return (Part)((PartMask)a & 0x7fffffff); }
-
-PLIANT_HD PartMask lane_numbers() {
-  constexpr std::int32_t numbers[wide_width] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  return load_numbers(numbers);
-}
-
-/// The bits of the first lanes, if there are `left` (>= 1) items left.
-PLIANT_HD std::uint32_t first_bits(int left) {
-  return left < part_width ? (1u << left) - 1 : static_cast<std::uint32_t>((std::uint64_t{1} << part_width) - 1);
-}
 
 // ---------------------------------------------------------------- moments
 
@@ -101,11 +80,6 @@ PLIANT_HD void add_rest(const MomentQuery& q, int candidates, MomentScratch& s, 
   for (int i = 0; i < wide_width; i += part_width)
     for (float* const row : {s.x, s.y, s.z}) store_part(row + candidates + i, nowhere);
   add_candidates(q, candidates, s, to);
-}
-
-/// How far places are from an interval, along one axis.
-PLIANT_HD Part beyond(const Part& x, const Part& low, const Part& high) {
-  return max_part(max_part(low - x, x - high), Part{});
 }
 
 PLIANT_HD Box box_of(const MomentQuery& q) {
@@ -247,7 +221,7 @@ int choose(const SplatRows<const float>& from, const int* numbers, int count, co
   int chosen = 0;
   for (int i = 0; i < count; i += part_width) {
     const std::uint32_t bits = bits_that_reach(from, i, wide) & first_bits(count - i);
-    Packing(bits).store(to + chosen, load_numbers(numbers + i));
+    Packing(bits).store(to + chosen, load_part(numbers + i));
     chosen += count_bits(bits);
   }
   return chosen;

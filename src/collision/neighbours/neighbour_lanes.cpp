@@ -11,28 +11,6 @@ namespace pliant {
 inline namespace PLIANT_ISA {
 namespace {
 
-PLIANT_HD Part load_part(const float* from) {
-  Part a;
-  std::memcpy(&a, from, sizeof a);
-  return a;
-}
-PLIANT_HD PartMask load_part(const std::int32_t* from) {
-  PartMask a;
-  std::memcpy(&a, from, sizeof a);
-  return a;
-}
-PLIANT_HD Part all_lanes(float a) { return a - Part{}; }
-
-PLIANT_HD PartMask lane_numbers() {
-  constexpr std::int32_t numbers[wide_width] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  return load_part(numbers);
-}
-
-/// How far places are from an interval, along one axis.
-PLIANT_HD Part beyond(const Part& x, const Part& low, const Part& high) {
-  return max_part(max_part(low - x, x - high), Part{});
-}
-
 /// Appends the candidates that are near to the lists of the query's slots.
 PLIANT_HD void compare(const NeighbourQuery& q, int candidates, int lane, NeighbourScratch& s) {
   const Part nowhere = all_lanes(__builtin_nanf(""));
@@ -66,8 +44,7 @@ void find(const NeighbourQuery& q, int lane, NeighbourScratch& s) {
     for (std::int32_t i = q.ranges[r].first; i < last; i += part_width) {
       const Part x = load_part(q.x + i), y = load_part(q.y + i), z = load_part(q.z + i);
       const Part dx = beyond(x, low_x, high_x), dy = beyond(y, low_y, high_y), dz = beyond(z, low_z, high_z);
-      std::uint32_t bits = bits_at_most(dx * dx + dy * dy + dz * dz, reach2);
-      if (last - i < part_width) bits &= (1u << (last - i)) - 1;
+      const std::uint32_t bits = bits_at_most(dx * dx + dy * dy + dz * dz, reach2) & first_bits(last - i);
       const Packing packing(bits);
       packing.store(s.x + count, (PartMask)x);
       packing.store(s.y + count, (PartMask)y);
