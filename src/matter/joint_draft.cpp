@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "constraints/joint_rows.h"
+#include "model/body_names.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -65,6 +66,14 @@ std::string in_words(float value, bool is_angle) {
   return text;
 }
 
+/// "body 3 ('wheel')", or "body 3" of one without its own name.
+std::string called(const Object& object, int body) {
+  const auto index = static_cast<std::size_t>(body);
+  const std::string name = index < object.bodies.size() ? object.bodies[index].name : world_name;
+  const bool is_named = has_own_name(name) || name == world_name;
+  return "body " + std::to_string(body) + (is_named ? " ('" + name + "')" : "");
+}
+
 /// The group to which a constraint can be added; a new one if there is none.
 std::size_t group_for(Object& object, const std::string& type, const Stiffness& stiffness) {
   for (std::size_t i = 0; i < object.constraints.size(); ++i)
@@ -90,7 +99,7 @@ JointDraft::JointDraft(Object& object, std::string kind, int a, int b, const Joi
   if (is_taken && !options.name.empty()) refuse("has a name that is taken", "joints of an object have different names");
   a_ = find(a);
   b_ = find(b);
-  if (a_.body == b_.body) refuse("joins body " + std::to_string(a) + " with itself", "give two bodies");
+  if (a_.body == b_.body) refuse("joins " + called(object, a_.body) + " with itself", "give two bodies");
   if (is_fixed(object, a_) && is_fixed(object, b_)) refuse("joins two fixed bodies", "make at least one of them dynamic");
   require(options.compliance, "compliance", 0);
   require(options.damping, "damping", 0);

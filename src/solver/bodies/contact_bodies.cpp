@@ -113,7 +113,9 @@ std::string ContactBodies::name(const Model& model, int index) const {
   const BodyPlace& place = places_[at(index)];
   if (place.collider >= 0) return "'" + model.colliders[at(place.collider)].name + "'";
   const std::string object = "'" + model.objects[at(place.object)].name + "'";
-  return place.is_body() ? "body " + std::to_string(place.body) + " of " + object : object;
+  return place.is_body()
+             ? words_of_body(model.objects[at(place.object)].bodies, place.body, model.objects[at(place.object)].name)
+             : object;
 }
 
 bool ContactBodies::meet(const Substep& s, int a, int b) const {
