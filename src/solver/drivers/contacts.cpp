@@ -128,11 +128,11 @@ void sweep_pairs(Substep& s) {
 
 namespace {
 
-/// True if one side takes nearly all of a contact's corrections, because the other is at least twenty-five times as heavy but can move: a stone
+/// True if one side takes nearly all of a contact's corrections, because the other is at least twenty times as heavy but can move: a stone
 /// on cloth. If such a contact yielded, the light side would be pulled into the heavy one in every substep, farther than the little that a
 /// correction moves the heavy side. Stones 70 times as heavy as the particles of a bag of cloth lay 1 mm from it instead of 11.
 bool is_lopsided(const Contact& c) {
-  constexpr float least_share = 0.04f;
+  constexpr float least_share = 0.05f;
   float first = 0, second = 0;
   for (std::size_t i = 0; i < c.point.size(); ++i) (c.weight[i] > 0 ? first : second) += c.weight[i] * c.share[i];
   const float lesser = std::min(first, second);
