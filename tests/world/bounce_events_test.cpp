@@ -53,11 +53,14 @@ Sum events_of(World& world, int frames, const Thing& first, const Thing& second)
   return sum;
 }
 
-/// Expects one contact, with an impulse that is known within a share.
-void expect_bounce(const Sum& sum, double impulse, double share, const std::string& where) {
+/// Expects one contact, with an impulse that is known within a share. What does not bounce stays where it is, and touches on without a
+/// weight, so that rounding begins and ends contacts.
+void expect_bounce(const Sum& sum, double impulse, double share, float restitution, const std::string& where) {
   EXPECT_NEAR(sum.impulse, impulse, share * impulse) << where;
   EXPECT_NEAR(std::sqrt(length_squared(sum.push)), impulse, share * impulse) << where;
-  EXPECT_EQ(sum.begins(), 1) << where;
+  if (restitution > 0) {
+    EXPECT_EQ(sum.begins(), 1) << where;
+  }
   EXPECT_FALSE(sum.changes.empty()) << where;
   if (!sum.changes.empty()) {
     EXPECT_EQ(sum.changes.front(), Change::begin) << where;
@@ -77,7 +80,7 @@ TEST(BounceEvents, OfABallOnAPlaneHaveTheChangeOfMomentum) {
       World world(scene);
       const Sum sum = events_of(world, 60, ObjectId(0), ColliderId(0));
       const double change = double(world.object(0).velocities()[0].y) + 3;
-      expect_bounce(sum, change, 0.01, words(e, substeps));
+      expect_bounce(sum, change, 0.01, e, words(e, substeps));
       EXPECT_NEAR(change, 3 * (1 + double(e)), 0.03);
       EXPECT_GT(sum.push.y, 0);
       if (e > 0) {
@@ -94,7 +97,7 @@ TEST(BounceEvents, OfTwoBallsHaveTheChangeOfMomentum) {
     World world(scene);
     const Sum sum = events_of(world, 60, ObjectId(0), ObjectId(1));
     const double change = double(world.object(0).velocities()[0].y) + 3;
-    expect_bounce(sum, change, 0.01, words(e, 8));
+    expect_bounce(sum, change, 0.01, e, words(e, 8));
     EXPECT_NEAR(change, 1.5 * (1 + double(e)), 0.03);
   }
 }
@@ -125,7 +128,7 @@ TEST(BounceEvents, OfABoxThatFallsFlatHaveTheChangeOfMomentum) {
   World world(scene);
   const Sum sum = events_of(world, 60, ObjectId(0), ColliderId(0));
   const double change = 2 * (double(world.object(0).velocities()[0].y) + 3);
-  expect_bounce(sum, change, 0.01, "flat box");
+  expect_bounce(sum, change, 0.01, 0.5f, "flat box");
   EXPECT_NEAR(change, 9, 0.3);
 }
 
@@ -197,7 +200,7 @@ TEST(BounceEvents, OfAParticleAndABodyHaveTheChangeOfMomentum) {
       const Sum sum = events_of(world, 60, ObjectId(0), ObjectId(1));
       const double change = momentum(world, ObjectId(1)).y;
       EXPECT_NEAR(change, -2 * (1 + double(e)), 0.05) << words(e, substeps);
-      expect_bounce(sum, -change, 0.01, words(e, substeps));
+      expect_bounce(sum, -change, 0.01, e, words(e, substeps));
     }
 }
 
@@ -220,7 +223,7 @@ TEST(BounceEvents, OfClothAndABodyHaveTheChangeOfMomentum) {
       const Sum sum = events_of(world, 20, ObjectId(0), ObjectId(1));
       const Vec3d change = momentum(world, ObjectId(0)) - before;
       EXPECT_GT(change.y, 0);
-      expect_bounce(sum, change.y, 0.01, words(e, 8) + ", box of " + std::to_string(mass));
+      expect_bounce(sum, change.y, 0.01, e, words(e, 8) + ", box of " + std::to_string(mass));
     }
 }
 
