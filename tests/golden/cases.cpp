@@ -71,8 +71,8 @@ namespace {
 const char* const contact_scenes[] = {
     "bodies/bowl",    "bodies/hammock", "bodies/pyramid",   "bodies/ragdoll",    "contact/corners",  "contact/heightfield",
     "contact/sleeve", "contact/solids", "contact/untangle", "liquids/dam_break", "liquids/floating", "liquids/drops",
-    "liquids/funnel", "liquids/honey",  "liquids/ducks",    "liquids/flood",     "liquids/bag",      "grains/heap",
-    "grains/hammock", "grains/bag",     "grains/sand_clock"};
+    "liquids/funnel", "liquids/honey",  "liquids/ducks",    "liquids/flood",     "bags/water",       "grains/heap",
+    "grains/hammock", "bags/gravel",    "grains/sand_clock"};
 constexpr int contact_frames = 16;
 
 /// Upper limit of grid nodes along a side: grids as fine as those of the scenes would take seconds to make.

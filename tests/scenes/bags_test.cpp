@@ -13,7 +13,7 @@ namespace pliant {
 namespace {
 
 class Bag : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, Bag, testing::Values("liquids/bag", "grains/bag"), [](const auto& scene) {
+INSTANTIATE_TEST_SUITE_P(Scenes, Bag, testing::Values("bags/water", "bags/gravel"), [](const auto& scene) {
   std::string name = scene.param;
   std::replace(name.begin(), name.end(), '/', '_');
   return name;
@@ -92,7 +92,7 @@ double height_above(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f&
 TEST(GrainBag, KeepsGrainsARadiusFromTheCloth) {
   constexpr double radius = 0.01;
   constexpr int frames = 60, settled = 20;
-  const Scene scene = read_scene(PLIANT_SOURCE_DIR "/scenes/grains/bag.json");
+  const Scene scene = read_scene(PLIANT_SOURCE_DIR "/scenes/bags/gravel.json");
   World world(scene);
   double least = INFINITY;
   for (int frame = 0; frame < frames; ++frame) {
