@@ -328,7 +328,7 @@ TEST_F(Urdf, RefusesWhatIsNoTreeOrNoRobot) {
 )";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"<link name=\"a\">",
-       "a.urdf:2: is not valid XML: this element is closed by a tag of another name: '<link name=\"a\">'"},
+       "a.urdf:2: is not valid XML: this element is closed by a tag of another name: '<link name=\"a\"></robot>'"},
       {"<link name=a/>", "a.urdf:2: is not valid XML: an attribute of this element is not of the form name=\"value\""},
       {"<link/>", "a.urdf:2: link has no attribute 'name'"},
       {link + "<link name=\"a\"/>", "a.urdf:3: "},
