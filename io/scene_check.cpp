@@ -131,7 +131,7 @@ class Checker {
       case Kind::string:
         return string(at, type);
       case Kind::choice:
-        return choice(at, type);
+        return choice(at, type, type);
       case Kind::vector:
         return vector(at, type);
       case Kind::list:
@@ -142,7 +142,7 @@ class Checker {
         break;
     }
     for (const Type& part : type.parts)
-      if (fits(part, at.kind)) return value(at, part);
+      if (fits(part, at.kind)) return part.kind == Kind::choice ? choice(at, part, type) : value(at, part);
   }
 
   void record(const JsonValue& at, const Record& record) const {
@@ -179,12 +179,12 @@ class Checker {
       document_.fail(at, "this string contains control characters", "write it on one line");
   }
 
-  void choice(const JsonValue& at, const Type& type) const {
+  void choice(const JsonValue& at, const Type& type, const Type& all) const {
     const std::vector<std::string> choices = choices_of(type);
     if (std::find(choices.begin(), choices.end(), at.text) != choices.end()) return;
     const std::string near = nearest_name(at.text, choices);
     document_.fail(at, "there is no '" + printable(at.text) + "' here",
-                   (near.empty() ? "" : "did you mean '" + near + "'? ") + ("expected " + expected(type)));
+                   (near.empty() ? "" : "did you mean '" + near + "'? ") + ("expected " + expected(all)));
   }
 
   void vector(const JsonValue& at, const Type& type) const {

@@ -33,7 +33,7 @@ bool leaves_folder(const fs::path& path) {
 
 bool lies_below(const std::string& path, const std::string& folder) {
   std::error_code no_path, no_folder;
-  const fs::path inner = fs::canonical(path, no_path);
+  const fs::path inner = fs::weakly_canonical(path, no_path);  // the file may be missing
   const fs::path outer = fs::canonical(folder, no_folder);
   if (no_path || no_folder) return false;
   return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();

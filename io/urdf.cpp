@@ -9,6 +9,7 @@
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/joint.h"
+#include "scene_hints.h"
 #include "scene_mesh.h"
 #include "urdf_model.h"
 #include "write_bodies.h"
@@ -45,6 +46,16 @@ void turn_inertia(const Quatf& turn, Vec3f& moments, Vec3f& products) {
   products = turned_products;
 }
 
+/// "'a', 'b' and 'c'", or of many the first ones and a number.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 8;
+  const std::size_t shown = names.size() > most ? most : names.size();
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + ("'" + names[i] + "'");
+  return text + (shown < names.size() ? " and " + std::to_string(names.size() - shown) + " more" : "");
+}
+
 /// Makes the object. Bodies are links; links without mass that a fixed joint holds belong to their parent's body.
 class RobotBuilder {
  public:
@@ -53,6 +64,7 @@ class RobotBuilder {
 
   Object build() {
     object_.name = robot_.name;
+    require_targets();
     index_links();
     const std::size_t root = root_link();
     const Quatf upright = options_.z_up ? rotation({1, 0, 0}, -90) : Quatf{};
@@ -70,6 +82,24 @@ class RobotBuilder {
   }
   void warn(int line, const std::string& text) { warnings_.push_back(path_ + ":" + std::to_string(line) + ": " + text); }
 
+  /// Refuses a target of a joint that is not there, or that no motor moves.
+  void require_targets() const {
+    for (const auto& [name, target] : options_.targets) {
+      const auto is_it = [&, &wanted = name](const urdf::Joint& joint) { return joint.name == wanted; };
+      const auto joint = std::find_if(robot_.joints.begin(), robot_.joints.end(), is_it);
+      if (joint == robot_.joints.end()) {
+        std::vector<std::string> names;
+        for (const urdf::Joint& one : robot_.joints) names.push_back(one.name);
+        const std::string near = scene_file::nearest_name(name, names);
+        fail(0, "has no joint '" + name + "', for which there is a target",
+             near.empty() ? "name a joint of the file" : "did you mean '" + near + "'?");
+      }
+      if (!has_target(*joint))
+        fail(joint->line, "joint '" + name + "' is " + joint->type + ", so no motor moves it to a target",
+             "remove the target; revolute, continuous and prismatic joints have motors");
+    }
+  }
+
   // ---------------------------------------------------------------- the tree
 
   void index_links() {
@@ -78,13 +108,34 @@ class RobotBuilder {
         fail(robot_.links[l].line, "a second link '" + robot_.links[l].name + "'", "names of links differ");
     for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
       const urdf::Joint& joint = robot_.joints[j];
+      if (joint.parent == joint.child)
+        fail(joint.line, "joint '" + joint.name + "' joins link '" + joint.child + "' to itself", "name two links");
       for (const std::string& link : {joint.parent, joint.child})
         if (links_.count(link) == 0)
-          fail(joint.line, "joint '" + joint.name + "' names no link: '" + link + "'", "add the link");
+          fail(joint.line, "joint '" + joint.name + "' names no link: '" + link + "'", hint_for_link(link));
       if (!parents_.emplace(joint.child, j).second)
         fail(joint.line, "link '" + joint.child + "' has two parents", "URDF describes trees: remove a joint");
       children_[joint.parent].push_back(j);
     }
+  }
+
+  std::string hint_for_link(const std::string& wanted) const {
+    std::vector<std::string> names;
+    for (const urdf::Link& link : robot_.links) names.push_back(link.name);
+    const std::string near = scene_file::nearest_name(wanted, names);
+    return near.empty() ? "add the link" : "did you mean '" + near + "'?";
+  }
+
+  /// Throws an Error with the joints of the loop that is reached from a link by going to parents for ever.
+  [[noreturn]] void fail_by_loop(std::string link) const {
+    for (std::size_t i = 0; i < robot_.links.size(); ++i)
+      link = robot_.joints[parents_.at(link)].parent;  // now in the loop
+    std::set<std::size_t> joints;
+    for (; joints.insert(parents_.at(link)).second;) link = robot_.joints[parents_.at(link)].parent;
+    std::vector<std::string> names;
+    for (const std::size_t joint : joints) names.push_back(robot_.joints[joint].name);
+    fail(robot_.joints[*joints.begin()].line, "joints " + listed(names) + " form a loop",
+         "URDF describes trees: remove one of these joints");
   }
 
   std::size_t root_link() const {
@@ -92,7 +143,7 @@ class RobotBuilder {
     std::vector<std::size_t> roots;
     for (std::size_t l = 0; l < robot_.links.size(); ++l)
       if (parents_.count(robot_.links[l].name) == 0) roots.push_back(l);
-    if (roots.empty()) fail(robot_.links[0].line, "the joints form a loop", "URDF describes trees: remove a joint");
+    if (roots.empty()) fail_by_loop(robot_.links[0].name);
     if (roots.size() > 1)
       fail(robot_.links[roots[1]].line, "link '" + robot_.links[roots[1]].name + "' is joined to nothing", "add a joint");
     return roots[0];
@@ -113,8 +164,9 @@ class RobotBuilder {
       for (const std::size_t child : children_[link.name])
         open.push_back({links_.at(robot_.joints[child].child), product(at.pose, robot_.joints[child].origin)});
     }
-    if (done < robot_.links.size())
-      fail(robot_.joints[0].line, "some joints form a loop", "URDF describes trees: remove a joint");
+    if (done == robot_.links.size()) return;
+    for (const urdf::Link& link : robot_.links)
+      if (bodies_.count(link.name) == 0) fail_by_loop(link.name);
   }
 
   void add_link(const urdf::Link& link, const Pose& pose) {
@@ -127,7 +179,9 @@ class RobotBuilder {
       return;
     }
     try {
-      bodies_[link.name] = add_body(object_, solids_of(link), options_of(link, pose, is_empty));
+      std::vector<Solid> solids = solids_of(link);
+      if (solids.empty() && !is_empty) warn_of_no_shape(link);
+      bodies_[link.name] = add_body(object_, std::move(solids), options_of(link, pose, is_empty));
     } catch (const Error& error) {
       if (!error.where().file.empty()) throw;
       fail(link.line, "link '" + link.name + "': " + error.where().element + " " + error.problem(), error.advice());
@@ -149,12 +203,20 @@ class RobotBuilder {
       turn_inertia(link.inertial->origin.rotation, inertia.moments, inertia.products);
       options.inertia = inertia;
     } else if (is_empty) {
-      warn(link.line, "link '" + link.name + "' moves but has no mass; it gets 1 g and the inertia of a ball of 1 cm");
+      warn(link.line,
+           "link '" + link.name + "' moves but has no mass; it gets 1 g and the inertia of a ball of 1 cm, no shape");
       options.inertia = BodyInertia{0.001f, {}, {4e-8f, 4e-8f, 4e-8f}, {}};
     } else {
       warn(link.line, "link '" + link.name + "' has no mass; it gets that of its shapes at 1000 kg/m^3");
     }
     return options;
+  }
+
+  void warn_of_no_shape(const urdf::Link& link) {
+    const bool has_none = link.collision.empty() && link.visual.empty();
+    warn(link.line, "link '" + link.name + "' has mass but no " +
+                        (has_none ? "collision or visual shape" : "shape that can be read") +
+                        ", so it touches nothing and is not drawn");
   }
 
   /// The shapes of collision, or if there are none those of pictures.
@@ -164,12 +226,12 @@ class RobotBuilder {
       Solid solid;
       solid.position = geometry.origin.position;
       solid.rotation = geometry.origin.rotation;
-      if (set_shape(geometry, solid)) solids.push_back(std::move(solid));
+      if (set_shape(link, geometry, solid)) solids.push_back(std::move(solid));
     }
     return solids;
   }
 
-  bool set_shape(const urdf::Geometry& geometry, Solid& solid) {
+  bool set_shape(const urdf::Link& link, const urdf::Geometry& geometry, Solid& solid) {
     const Vec3f& size = geometry.size;
     const Quatf along_z = rotation({1, 0, 0}, 90);  // from y, the axis of our shapes
     switch (geometry.kind) {
@@ -186,27 +248,26 @@ class RobotBuilder {
         solid.shape = Capsule{size.x, 0.5f * size.y};
         break;
       case urdf::Geometry::Kind::mesh:
-        return set_hull(geometry, solid);
+        return set_hull(link, geometry, solid);
     }
     solid.rotation = product(solid.rotation, along_z);
     return true;
   }
 
-  bool set_hull(const urdf::Geometry& geometry, Solid& solid) {
-    const std::string file = found_file(geometry.file);
-    std::string suffix = std::filesystem::path(file).extension().string();
+  bool set_hull(const urdf::Link& link, const urdf::Geometry& geometry, Solid& solid) {
+    const std::string mesh = "mesh '" + geometry.file + "' of link '" + link.name + "'";
+    std::string suffix = std::filesystem::path(geometry.file).extension().string();
     std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (suffix != ".obj" && suffix != ".ply" && suffix != ".stl") {
-      warn(geometry.line, "mesh '" + geometry.file + "' is ignored: only .obj, .ply and .stl can be read");
+      warn(geometry.line, mesh + " is ignored: only .obj, .ply and .stl can be read");
       return false;
     }
-    const std::string home = std::filesystem::path(path_).parent_path().string();
-    if (!options_.allow_outside && !scene_file::lies_below(file, home.empty() ? "." : home))
-      fail(geometry.line, "mesh '" + geometry.file + "' leaves the folder of the file",
-           "put it there, or permit files outside");
+    const std::string file = found_file(geometry.file);
+    if (!options_.allow_outside && !scene_file::lies_below(file, home()))
+      fail(geometry.line, mesh + " leaves the folder of the file", "put it there, or permit files outside");
     if (!std::filesystem::is_regular_file(file)) {
-      warn(geometry.line, "mesh '" + geometry.file + "' is ignored: there is no file " + file);
+      warn(geometry.line, mesh + " is ignored: there is no file '" + file + "'" + other_places(geometry.file));
       return false;
     }
     Hull hull{read_mesh(file).positions, 0};
@@ -216,20 +277,35 @@ class RobotBuilder {
     return true;
   }
 
+  static constexpr const char* package_ = "package://";
+
+  bool is_searched(const std::string& name) const { return name.rfind(package_, 0) == 0 && options_.packages.empty(); }
+
+  /// Where else a missing mesh was sought.
+  std::string other_places(const std::string& name) const {
+    if (!is_searched(name)) return {};
+    return ", and no '" + name.substr(std::string(package_).size()) + "' in this folder or one above";
+  }
+
+  std::string home() const {
+    const std::string folder = std::filesystem::path(path_).parent_path().string();
+    return folder.empty() ? "." : folder;
+  }
+
   /// "package://NAME/PATH" is PATH in the option's folder of packages, else in the nearest folder above the file that has it.
   std::string found_file(const std::string& name) const {
     namespace fs = std::filesystem;
-    const fs::path home = fs::path(path_).parent_path();
-    const std::string package = "package://", file = "file://";
+    const std::string file = "file://";
     if (name.rfind(file, 0) == 0) return name.substr(file.size());
-    if (name.rfind(package, 0) != 0) return fs::path(name).is_absolute() ? name : (home / name).string();
-    const std::string inside = name.substr(package.size());
+    if (name.rfind(package_, 0) != 0) return fs::path(name).is_absolute() ? name : (fs::path(home()) / name).string();
+    const std::string inside = name.substr(std::string(package_).size());
     if (!options_.packages.empty()) return (fs::path(options_.packages) / inside).string();
     const std::string rest = inside.substr(std::min(inside.size(), inside.find('/') + 1));
-    for (fs::path folder = fs::absolute(home); folder.has_relative_path(); folder = folder.parent_path())
+    for (fs::path folder = fs::absolute(home()).lexically_normal(); folder.has_relative_path();
+         folder = folder.parent_path())
       for (const std::string& tail : {inside, rest})
         if (fs::is_regular_file(folder / tail)) return (folder / tail).string();
-    return (home / rest).string();
+    return (fs::path(home()) / rest).string();
   }
 
   void set_colour() {
@@ -259,6 +335,8 @@ class RobotBuilder {
         add_joint(object_,
                   SliderJoint{a, b, pose.position, axis, limit_of(joint, 1e6f), motor_of(joint), joint.friction, named});
       } else if (joint.type == "planar") {
+        if (joint.friction != 0 || joint.has_limit)
+          warn(joint.line, "friction and limits of the planar joint '" + joint.name + "' are ignored");
         add_joint(object_, PlanarJoint{.a = a, .b = b, .anchor = pose.position, .normal = axis, .options = named});
       } else if (joint.type != "floating") {
         fail(joint.line, "joint '" + joint.name + "' has the unknown type '" + joint.type + "'",
@@ -285,7 +363,8 @@ class RobotBuilder {
     const auto target = options_.targets.find(joint.name);
     if (!options_.motors && target == options_.targets.end()) return {};
     if (!(joint.effort > 0)) {
-      warn(joint.line, "joint '" + joint.name + "' has no effort limit, so it gets no motor");
+      warn(joint.line, "joint '" + joint.name + "' has no effort limit, so it gets no motor" +
+                           (target == options_.targets.end() ? "" : ", and its target is ignored"));
       return {};
     }
     JointMotor motor;

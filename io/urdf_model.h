@@ -45,7 +45,7 @@ struct Joint {
   std::string name, type, parent, child;
   Pose origin{};
   Vec3f axis{1, 0, 0};
-  float lower = 0, upper = 0, effort = 0, velocity = 0, friction = 0;
+  float lower = 0, upper = 0, effort = 0, velocity = 0, friction = 0, damping = 0;
   bool has_limit = false;
   int line = 0;
 };
@@ -56,8 +56,13 @@ struct Robot {
   std::vector<Joint> joints;
 };
 
-/// Reads a file. Throws an Error with file and line if it is no XML, or what it says is no URDF. Elements that are ignored are
-/// named in `warnings`, each kind once.
+/// True of a joint that a motor can move to a target: revolute or continuous [rad], or prismatic [m].
+inline bool has_target(const Joint& joint) {
+  return joint.type == "revolute" || joint.type == "continuous" || joint.type == "prismatic";
+}
+
+/// Reads a file. Throws an Error with file and line if it is no XML, or what it says is no URDF. Elements and attributes that are
+/// ignored are named in `warnings`, each kind once.
 Robot read(const std::string& path, std::vector<std::string>& warnings);
 
 }  // namespace pliant::urdf

@@ -1,10 +1,11 @@
 // Reads URDF by tinyxml2.
-#include <set>
+#include <algorithm>
 
 #include "file_bytes.h"
 #include "pliant/error.h"
 #include "pliant/motion.h"
 #include "text_lines.h"
+#include "urdf_known.h"
 #include "urdf_model.h"
 
 #ifdef PLIANT_XML
@@ -33,12 +34,7 @@ class Reader {
     throw Error({.file = path_, .line = line, .object = {}, .element = {}}, problem, advice);
   }
 
-  /// Names an ignored element, each kind once.
-  void ignore(const Element& at, const std::string& inside) {
-    const std::string what = quoted(at.Name()) + " of " + inside;
-    if (ignored_.insert(what).second)
-      warnings_.push_back(path_ + ":" + std::to_string(at.GetLineNum()) + ": " + what + " is not supported and ignored");
-  }
+  void warn(int line, const std::string& text) { warnings_.push_back(path_ + ":" + std::to_string(line) + ": " + text); }
 
   std::string text(const Element& at, const char* name) const {
     const char* value = at.Attribute(name);
@@ -52,8 +48,24 @@ class Reader {
     const NumberProblem problem = parse_float(word, value);
     if (problem != NumberProblem::none)
       fail(at.GetLineNum(), std::string(at.Name()) + ", " + name + ": " + quoted(word) + " " + describe(problem),
-           "give finite numbers");
+           word.find(',') == std::string_view::npos ? "give finite numbers"
+                                                    : "separate numbers by blanks, with decimal points");
     return value;
+  }
+
+  /// The numbers of an attribute, which are at least `least` and at most `most`.
+  std::vector<float> numbers(const Element& at, const char* name, std::size_t least, std::size_t most) const {
+    const std::string all = text(at, name);
+    std::string_view rest = all;
+    std::vector<float> values;
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest))
+      values.push_back(number(at, name, word));
+    if (values.size() < least || values.size() > most)
+      fail(at.GetLineNum(),
+           std::string(at.Name()) + ", " + name + ": needs " + std::to_string(most) + " numbers, has " +
+               std::to_string(values.size()),
+           "give " + std::to_string(most) + " numbers, separated by blanks");
+    return values;
   }
 
   float number(const Element& at, const char* name) const { return number(at, name, text(at, name)); }
@@ -62,11 +74,7 @@ class Reader {
   }
 
   Vec3f vector(const Element& at, const char* name) const {
-    const std::string all = text(at, name);
-    std::string_view rest = all;
-    std::array<float, 3> values{};
-    for (float& value : values) value = number(at, name, take_word(rest));
-    if (!take_word(rest).empty()) fail(at.GetLineNum(), std::string(name) + " has more than three numbers", "give three");
+    const std::vector<float> values = numbers(at, name, 3, 3);
     return {values[0], values[1], values[2]};
   }
   Vec3f vector(const Element& at, const char* name, const Vec3f& fallback) const {
@@ -94,7 +102,6 @@ class Reader {
  private:
   const std::string& path_;
   std::vector<std::string>& warnings_;
-  std::set<std::string> ignored_;
 };
 
 std::optional<Geometry> geometry_of(Reader& reader, const Element& parent) {
@@ -118,8 +125,7 @@ std::optional<Geometry> geometry_of(Reader& reader, const Element& parent) {
     geometry.file = reader.text(*shape, "filename");
     geometry.scale = reader.vector(*shape, "scale", {1, 1, 1});
   } else {
-    reader.ignore(*shape, "geometry");
-    return {};
+    return {};  // name_ignored() names it
   }
   return geometry;
 }
@@ -140,11 +146,8 @@ Inertial inertial_of(Reader& reader, const Element& at) {
 /// The colour of a material: its own, or that of the robot's material of this name.
 std::optional<Vec3f> colour_of(const Reader& reader, const Element& robot, const Element& material) {
   if (const Element* colour = material.FirstChildElement("color")) {
-    const std::string all = reader.text(*colour, "rgba");
-    std::string_view rest = all;
-    Vec3f rgb;
-    for (float* part : {&rgb.x, &rgb.y, &rgb.z}) *part = reader.number(*colour, "rgba", take_word(rest));
-    return rgb;
+    const std::vector<float> rgba = reader.numbers(*colour, "rgba", 3, 4);
+    return Vec3f{rgba[0], rgba[1], rgba[2]};
   }
   const char* name = material.Attribute("name");
   for (const Element* at = robot.FirstChildElement("material"); at != nullptr && name != nullptr;
@@ -168,8 +171,6 @@ Link link_of(Reader& reader, const Element& robot, const Element& at) {
       if (geometry) (kind == "visual" ? link.visual : link.collision).push_back(*geometry);
       const Element* material = child->FirstChildElement("material");
       if (material != nullptr && !link.colour) link.colour = colour_of(reader, robot, *material);
-    } else {
-      reader.ignore(*child, "link");
     }
   }
   return link;
@@ -201,12 +202,52 @@ Joint joint_of(Reader& reader, const Element& at) {
       joint.velocity = reader.number(*child, "velocity", 0);
     } else if (kind == "dynamics") {
       joint.friction = reader.number(*child, "friction", 0);
-      if (reader.number(*child, "damping", 0) != 0) reader.ignore(*child, "joint (its damping)");
-    } else if (kind != "parent" && kind != "child" && kind != "origin") {
-      reader.ignore(*child, "joint");
+      joint.damping = reader.number(*child, "damping", 0);
     }
   }
   return joint;
+}
+
+void warn_of_damping(Reader& reader, const Robot& robot) {
+  const auto is_damped = [](const Joint& joint) { return joint.damping != 0; };
+  const auto first = std::find_if(robot.joints.begin(), robot.joints.end(), is_damped);
+  if (first == robot.joints.end()) return;
+  const auto more = std::count_if(first + 1, robot.joints.end(), is_damped);
+  reader.warn(first->line, "damping of joint '" + first->name + "'" +
+                               (more == 0 ? "" : " and of " + std::to_string(more) + " more") +
+                               " is not supported and ignored");
+}
+
+const char* xml_error_in_words(tinyxml2::XMLError error) {
+  switch (error) {
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "it has no element";
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "this element is closed by a tag of another name";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute of this element is not of the form name=\"value\"";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment that begins here has no end";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested too deeply";
+    case tinyxml2::XML_ERROR_PARSING:
+      return "an element that begins here has no end";
+    default:
+      return "a tag is damaged";
+  }
+}
+
+/// Throws an Error with the line at which tinyxml2 stopped, and its words.
+[[noreturn]] void refuse_xml(const Reader& reader, const tinyxml2::XMLDocument& document, const std::string& bytes) {
+  const int line = document.ErrorLineNum();
+  LineReader lines(bytes);
+  while (lines.number() < line && lines.next()) continue;
+  std::string_view text = lines.line();
+  text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t")));
+  reader.fail(line,
+              std::string("is not valid XML: ") + xml_error_in_words(document.ErrorID()) +
+                  (text.empty() ? "" : ": " + quoted(text)),
+              "correct the file");
 }
 
 }  // namespace
@@ -216,21 +257,20 @@ Robot read(const std::string& path, std::vector<std::string>& warnings) {
   const std::string bytes = read_file_bytes(path, largest);
   Reader reader(path, warnings);
   tinyxml2::XMLDocument document;
-  if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS)
-    reader.fail(document.ErrorLineNum(), std::string("is not valid XML: ") + document.ErrorName(), "correct the file");
+  if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) refuse_xml(reader, document, bytes);
   const Element* root = document.FirstChildElement("robot");
   if (root == nullptr) reader.fail(1, "has no element 'robot'", "give a URDF file; xacro files are expanded first");
   Robot robot;
   robot.name = reader.text(*root, "name");
+  name_ignored(*root, path, warnings);
   for (const Element* child = root->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
     const std::string kind = child->Name();
     if (kind == "link")
       robot.links.push_back(link_of(reader, *root, *child));
     else if (kind == "joint")
       robot.joints.push_back(joint_of(reader, *child));
-    else if (kind != "material")
-      reader.ignore(*child, "robot");
   }
+  warn_of_damping(reader, robot);
   return robot;
 }
 

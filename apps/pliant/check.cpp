@@ -199,8 +199,15 @@ Checked check_scene(const std::string& path, double seconds) {
         extent(points) + ", " + counted(scene.colliders.size() + scene.mesh_colliders.size(), "collider") + ", " +
         counted(static_cast<std::size_t>(scene.frames), "frame") + "\n");
   print(broken(how_it_is_solved(scene)) + "\n");
-  print_repairs(file.repairs);
   Checked checked{inspect(scene)};
+  std::vector<std::string> of_meshes;
+  for (const std::string& repair : file.repairs) {
+    if (is_of_robot(repair))
+      checked.findings.push_back({false, repair, ""});
+    else
+      of_meshes.push_back(repair);
+  }
+  print_repairs(of_meshes);
   try_out(scene, seconds, checked);
   return checked;
 }

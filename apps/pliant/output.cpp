@@ -105,8 +105,11 @@ void print(const std::string& text) {
   }
 }
 
+bool is_of_robot(const std::string& repair) { return repair.rfind("robot '", 0) == 0; }
+
 void print_repairs(const std::vector<std::string>& repairs) {
-  for (const std::string& repair : repairs) print("repaired: " + one_line(repair) + "\n");
+  for (const std::string& repair : repairs)
+    print((is_of_robot(repair) ? "doubtful: " : "repaired: ") + one_line(repair) + "\n");
 }
 
 std::string one_line(const std::string& text) {

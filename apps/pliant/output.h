@@ -18,7 +18,11 @@ std::string one_line(const std::string& text);
 /// A number with a noun: "1 frame", "2 frames".
 std::string counted(std::size_t count, const std::string& noun);
 
-/// Prints "repaired: ..." for each repair of a mesh, which then differs from its file.
+/// True of what a robot description lacks or has in vain, which SceneFile::repairs has beside the repairs of meshes.
+bool is_of_robot(const std::string& repair);
+
+/// Prints "repaired: ..." for each repair of a mesh, which then differs from its file, and "doubtful: ..." for each doubt about a
+/// robot description.
 void print_repairs(const std::vector<std::string>& repairs);
 
 /// Prints what was written, "wrote draped.glb (1.2 MB)": a line for each of one or two files, one line for more. Units

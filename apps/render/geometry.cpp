@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 
 #include "io/write_frames.h"
 #include "matrix.h"
 #include "pliant/error.h"
+#include "walls.h"
 
 namespace pliant::render {
 
@@ -189,6 +191,28 @@ void include_bodies(const RenderScene& scene, bool fixed, float largest, std::ve
   }
 }
 
+/// Adds the points of a liquid but for the few that lie far from the others: a camera that framed every drop of a splash would show
+/// the rest small.
+void include_most(const std::vector<Vec3f>& positions, std::vector<Vec3f>& points) {
+  constexpr float few = 0.01f, around = 0.1f;  // shares of the points on each side, and of their size
+  if (positions.empty()) return;
+  Vec3f low{}, high{};
+  std::vector<float> along(positions.size());
+  const auto rank = static_cast<std::ptrdiff_t>(few * static_cast<float>(positions.size()));
+  for (float Vec3f::*const axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
+    std::transform(positions.begin(), positions.end(), along.begin(), [&](const Vec3f& p) { return p.*axis; });
+    std::nth_element(along.begin(), along.begin() + rank, along.end());
+    low.*axis = along[static_cast<std::size_t>(rank)];
+    std::nth_element(along.begin(), along.end() - 1 - rank, along.end());
+    high.*axis = along[along.size() - 1 - static_cast<std::size_t>(rank)];
+  }
+  const Vec3f margin = (high - low) * around;
+  low -= margin, high += margin;
+  std::copy_if(positions.begin(), positions.end(), std::back_inserter(points), [&](const Vec3f& p) {
+    return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z && p.z <= high.z;
+  });
+}
+
 /// Makes one ball of radius 1, coarser if there are many, and the place of each.
 Geometry build_balls(const RenderBalls& balls, float least_radius) {
   Geometry geometry{.vertices = {}, .indices = {}, .colour = balls.colour, .material = Material::solid};
@@ -276,8 +300,12 @@ bool is_level_plane(const RenderCollider& collider) {
 
 std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
   std::vector<Vec3f> points;
-  for (const RenderMesh& mesh : scene.meshes)
-    if (!mesh.is_solid) points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
+  for (const RenderMesh& mesh : scene.meshes) {
+    if (mesh.is_liquid)
+      include_most(mesh.positions, points);
+    else if (!mesh.is_solid)
+      points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
+  }
   for (const RenderTube& tube : scene.tubes) points.insert(points.end(), tube.points.begin(), tube.points.end());
   for (const RenderBalls& balls : scene.balls) points.insert(points.end(), balls.centres.begin(), balls.centres.end());
   for (const RenderSmoke& smoke : scene.smokes) points.insert(points.end(), smoke.centres.begin(), smoke.centres.end());
@@ -326,7 +354,9 @@ std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& arou
   add_bodies(scene.bodies, result);
   for (const RenderCollider& collider : scene.colliders) {
     const bool is_ground = scene.ground && is_level_plane(collider) && collider.position.y <= *scene.ground + 1e-6f;
-    if (!is_ground && !hides_all(collider, eye)) result.push_back(build_collider(collider, around, radius));
+    if (is_ground || hides_all(collider, eye)) continue;
+    result.push_back(is_wall(collider) ? build_wall(collider, scene.colliders, around, radius)
+                                       : build_collider(collider, around, radius));
   }
   return result;
 }

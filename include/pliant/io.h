@@ -38,7 +38,7 @@ TriangleMesh read_mesh(const std::string& path);
 /// Writes a mesh as .obj or .ply. If writing fails, an existing file stays unchanged, and the Error names the path.
 void write_mesh(const std::string& path, const TriangleMesh& mesh);
 
-/// A scene that was read, and descriptions of the repairs of its meshes.
+/// A scene that was read, and the repairs of its meshes and the doubts about its robots ("robot 'NAME', FILE:LINE: ...").
 struct SceneFile {
   Scene scene;
   std::string description;  ///< the file's "description"; may be empty

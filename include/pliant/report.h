@@ -125,7 +125,7 @@ struct ContactEvent {
   Change change = Change::begin;
   Thing first, second;  ///< first < second; equal for self-contact
   int contacts = 0;     ///< largest number of active contacts in a substep; can be 0 for a liquid
-  double impulse = 0;   ///< sum of the magnitudes of their normal impulses over the frame [N s]
+  double impulse = 0;   ///< sum of the magnitudes of their normal impulses over the frame, with those of restitution [N s]
   Vec3f position{};     ///< mean position of the contacts, weighted by impulse [m]
   Vec3f normal{};       ///< unit vector: mean direction of the push on `first`; zero if pushes cancel
   Vec3d push{};         ///< sum of their normal impulses on `first` over the frame [N s]

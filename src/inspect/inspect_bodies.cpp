@@ -12,8 +12,8 @@ namespace pliant {
 
 namespace {
 
-/// Largest size of a solid [m].
-constexpr double largest_size = 1e6, smallest_size = 1e-6;
+/// Bounds of the size of a solid [m]; as floats, so that 1e-6f is within.
+constexpr double largest_size = 1e6, smallest_size = static_cast<double>(1e-6f);
 
 struct SolidCheck {
   Problems& problems;

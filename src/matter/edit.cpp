@@ -194,17 +194,32 @@ class Cut {
     for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
       const std::vector<int> stencil = stencil_of(group, slots, c);
       const std::vector<int> triangles = triangles_of(stencil, object_, around_);
+      if (triangles.empty()) {
+        append_for_copies(group, c, stencil, out);
+        continue;
+      }
       std::map<std::vector<int>, double> sides;  // area of the triangles on each side; key: stencil on that side
       double whole = 0;
       for (const int t : triangles) {
         sides[copies(stencil, t, triangles)] += area_of(object_, t);
         whole += area_of(object_, t);
       }
-      if (sides.empty()) sides[stencil] = 0;
       if (sides.size() > 1 && slots > 2) continue;
       for (const auto& [side, area] : sides) append(group, c, side, sides.size() > 1 && area > 0 ? whole / area : 1, out);
     }
     return out;
+  }
+
+  /// Appends a constraint that belongs to no triangle. What ties a particle to a body also ties its copies.
+  void append_for_copies(const ConstraintGroup& group, int number, std::vector<int> stencil, ConstraintGroup& out) const {
+    append(group, number, stencil, 1, out);
+    if (group.type != "body_anchor") return;
+    const int tied = stencil.back();
+    for (std::size_t i = 0; i < origins_.size(); ++i) {
+      if (origins_[i] != tied) continue;
+      stencil.back() = particles() + static_cast<int>(i);
+      append(group, number, stencil, 1, out);
+    }
   }
 
   /// The stencil after the cut, as seen from triangle t; particles that t does not contain are taken from the other
@@ -220,10 +235,17 @@ class Cut {
     return out;
   }
 
+  /// Pins and attaches a copy as its origin is.
   static void add_pins(int of, int copy, Object& object) {
     const std::vector<Pin> pins = object.pins;
     for (const Pin& pin : pins)
       if (pin.particle == of) object.pins.push_back({copy, pin.motion});
+    const std::vector<Attachment> attachments = object.attachments;
+    for (Attachment attachment : attachments) {
+      if (attachment.particle != of) continue;
+      attachment.particle = copy;
+      object.attachments.push_back(attachment);
+    }
   }
 
   /// A copy joins the clusters of its origin, at the same rest place.

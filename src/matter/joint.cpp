@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 #include "constraints/joint_rows.h"
 #include "matter/joint_draft.h"
@@ -49,6 +51,12 @@ void set_plane(JointDraft& draft, const PlanarJoint& joint) {
 
 std::vector<int> slots_of(const JointDraft& draft) {
   return {draft.a().point, draft.a().frame, draft.b().point, draft.b().frame};
+}
+
+std::string in_metres(float length) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g m", static_cast<double>(length));
+  return text;
 }
 
 /// Adds a joint_distance between two anchors.
@@ -147,8 +155,11 @@ int add_joint(Object& object, const DistanceJoint& joint) {
   const bool is_kept = !joint.least && !joint.most;
   const auto now = static_cast<float>(distance(a, b));
   const float least = is_kept ? now : joint.least.value_or(0), most = is_kept ? now : joint.most.value_or(joint::no_limit);
-  draft.require(least, "least distance", 0);
-  draft.require(most, "greatest distance", least);
+  draft.require(least, "least distance [m]", 0);
+  if (least > most)
+    draft.refuse("has a least distance of " + in_metres(least) + ", more than its greatest of " + in_metres(most),
+                 "give 'most' at least as large as 'least'");
+  draft.require(most, "greatest distance [m]", 0);
   add_distance(draft, a, b, least, most, joint.options.compliance, joint.options.damping);
   return draft.finish();
 }

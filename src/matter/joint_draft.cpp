@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "constraints/joint_rows.h"
+#include "model/body_names.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979324;
 constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float above_zero = 1e-20f;
 constexpr const char* world_name = "world";
 
 bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -64,6 +66,14 @@ std::string in_words(float value, bool is_angle) {
   return text;
 }
 
+/// "body 3 ('wheel')", or "body 3" of one without its own name.
+std::string called(const Object& object, int body) {
+  const auto index = static_cast<std::size_t>(body);
+  const std::string name = index < object.bodies.size() ? object.bodies[index].name : world_name;
+  const bool is_named = has_own_name(name) || name == world_name;
+  return "body " + std::to_string(body) + (is_named ? " ('" + name + "')" : "");
+}
+
 /// The group to which a constraint can be added; a new one if there is none.
 std::size_t group_for(Object& object, const std::string& type, const Stiffness& stiffness) {
   for (std::size_t i = 0; i < object.constraints.size(); ++i)
@@ -75,7 +85,7 @@ std::size_t group_for(Object& object, const std::string& type, const Stiffness& 
 }  // namespace
 
 Quatd rotation_from_x(const Vec3d& axis) {
-  if (axis.x < -0.999999) return {0, 0, 1, 0};  // half a turn about z
+  if (axis.x < -1 + 1e-12) return {0, 0, 1, 0};  // half a turn about z
   return normalise(Quatd{0, -axis.z, axis.y, 1 + axis.x});
 }
 
@@ -89,12 +99,12 @@ JointDraft::JointDraft(Object& object, std::string kind, int a, int b, const Joi
   if (is_taken && !options.name.empty()) refuse("has a name that is taken", "joints of an object have different names");
   a_ = find(a);
   b_ = find(b);
-  if (a_.body == b_.body) refuse("joins body " + std::to_string(a) + " with itself", "give two bodies");
+  if (a_.body == b_.body) refuse("joins " + called(object, a_.body) + " with itself", "give two bodies");
   if (is_fixed(object, a_) && is_fixed(object, b_)) refuse("joins two fixed bodies", "make at least one of them dynamic");
   require(options.compliance, "compliance", 0);
   require(options.damping, "damping", 0);
-  require(options.break_force, "break_force", 0, unlimited, true);
-  require(options.break_torque, "break_torque", 0, unlimited, true);
+  require(options.break_force, "break_force", above_zero, unlimited, true);
+  require(options.break_torque, "break_torque", above_zero, unlimited, true);
 }
 
 void JointDraft::refuse(const std::string& problem, const std::string& advice) const {
@@ -200,11 +210,11 @@ void JointDraft::require_range(const JointRange& range, bool is_angle) const {
 void JointDraft::limit_angle(int axis, const JointRange& range) {
   require_range(range, true);
   const double low = static_cast<double>(range.low), high = static_cast<double>(range.high);
-  if (high - low > 2 * pi)
+  constexpr double rounding = 1e-6;  // of -180 to 180 degrees in single precision
+  if (high - low > 2 * pi + rounding)
     refuse("has a range of " + in_words(static_cast<float>(high - low), true), "give at most a full turn, or no range");
-  add("joint_angle", axis,
-      {static_cast<float>(principal_angle((low + high) / 2)), static_cast<float>((high - low) / 2), joint::no_limit},
-      range.compliance);
+  const float middle = middles_[static_cast<std::size_t>(axis)] = static_cast<float>(principal_angle((low + high) / 2));
+  add("joint_angle", axis, {middle, static_cast<float>(std::min((high - low) / 2, pi)), joint::no_limit}, range.compliance);
 }
 
 void JointDraft::limit_offset(int axis, const JointRange& range) {
@@ -215,29 +225,32 @@ void JointDraft::limit_offset(int axis, const JointRange& range) {
 void JointDraft::add_motor(const char* type, int axis, const JointMotor& motor, const char* name, bool is_angle) {
   const bool to_position = motor.kind == JointMotor::Kind::position;
   require(motor.target, "motor target", -joint::no_limit, joint::no_limit);
-  require(motor.most, "greatest motor torque or force", 0, unlimited, true);
+  require(motor.most, "greatest motor torque or force", above_zero, unlimited, true);
   require(motor.rate, "motor rate", 0);
   require(motor.most_speed, "greatest motor speed", 0, unlimited, true);
   const float target = is_angle ? static_cast<float>(principal_angle(static_cast<double>(motor.target))) : motor.target;
   motors_.push_back({name, static_cast<int>(parts_.size()), to_position});
-  add(type, axis,
-      {to_position ? target : 0, to_position ? motor.rate : 0, to_position ? limited(motor.most_speed) : 0,
-       to_position ? 0 : motor.target, limited(motor.most)},
-      0);
+  std::vector<float> rest{to_position ? target : 0, to_position ? motor.rate : 0,
+                          to_position ? limited(motor.most_speed) : 0, to_position ? 0 : motor.target, limited(motor.most)};
+  if (is_angle) rest.push_back(middles_[static_cast<std::size_t>(axis)]);
+  add(type, axis, rest, 0);
 }
 
-void JointDraft::add_friction(const char* type, int axis, float friction) {
+void JointDraft::add_friction(const char* type, int axis, float friction, bool is_angle) {
   require(friction, "friction", 0);
-  if (friction > 0) add(type, axis, {0, 0, 0, 0, friction}, 0);
+  if (friction == 0) return;
+  std::vector<float> rest{0, 0, 0, 0, friction};
+  if (is_angle) rest.push_back(joint::no_limit);
+  add(type, axis, rest, 0);
 }
 
 void JointDraft::drive_angle(int axis, const std::optional<JointMotor>& motor, float friction, const char* name) {
   if (motor) add_motor("joint_angle_motor", axis, *motor, name, true);
-  add_friction("joint_angle_motor", axis, friction);
+  add_friction("joint_angle_motor", axis, friction, true);
 }
 void JointDraft::drive_offset(int axis, const std::optional<JointMotor>& motor, float friction, const char* name) {
   if (motor) add_motor("joint_offset_motor", axis, *motor, name, false);
-  add_friction("joint_offset_motor", axis, friction);
+  add_friction("joint_offset_motor", axis, friction, false);
 }
 
 int JointDraft::finish() {

@@ -1,10 +1,12 @@
 // A joint while it is made: its parts are collected, and added to the object only when all numbers are known to be right.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "constraints/joint_rows.h"
 #include "math/quat.h"
 #include "pliant/joint.h"
 
@@ -72,7 +74,7 @@ class JointDraft {
   void add_world();
   void require_range(const JointRange& range, bool is_angle) const;
   void add_motor(const char* type, int axis, const JointMotor& motor, const char* name, bool is_angle);
-  void add_friction(const char* type, int axis, float friction);
+  void add_friction(const char* type, int axis, float friction, bool is_angle);
 
   Object& object_;
   std::string kind_, name_;
@@ -82,6 +84,8 @@ class JointDraft {
   Quatd axes_{};
   std::vector<Part> parts_;
   std::vector<ObjectJointMotor> motors_;
+  std::array<float, 3> middles_{joint::no_limit, joint::no_limit,
+                                joint::no_limit};  ///< of the ranges of angles, by axis [rad]
   mutable bool needs_world_ = false;
 };
 

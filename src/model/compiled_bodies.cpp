@@ -119,7 +119,7 @@ std::vector<double> edge_lengths_of(const Object& object, const std::vector<int>
 
 std::string words_of_body(const CompiledBodies& bodies, int body, const std::string& object) {
   const std::string& name = bodies.labels[static_cast<std::size_t>(body)].name;
-  return (has_own_name(name) ? "body '" + name + "'" : "body " + std::to_string(body)) + " of '" + object + "'";
+  return "body " + std::to_string(body) + (has_own_name(name) ? " ('" + name + "')" : "") + " of '" + object + "'";
 }
 
 ConvexShape convex_shape_of(const SolidShape& shape, std::vector<Polyhedron>& polyhedra) {

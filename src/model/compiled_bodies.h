@@ -45,7 +45,7 @@ struct CompiledBodies {
   std::vector<char> is_centre;  ///< [particle]; empty without bodies
 };
 
-/// The words for a body in messages: "body 'wheel' of 'car'", or "body 3 of 'car'" if it has no name of its own.
+/// The words for a body in messages: "body 3 ('wheel') of 'car'", or "body 3 of 'car'" if it has no name of its own.
 std::string words_of_body(const CompiledBodies& bodies, int body, const std::string& object);
 
 /// Compiles the bodies of an object. `place` are the storage indices of its particles.

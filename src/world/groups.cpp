@@ -220,7 +220,7 @@ void bring_up_to_date(WorldData& world) {
   if (world.groups.objects_changed || world.groups.all.empty()) prepare_groups(world);
   update_surfaces(world);
   if (!has_contact(world.groups)) world.groups.tables = nullptr;
-  if (std::exchange(world.groups.colliders_changed, false) || world.groups.objects_changed) make_body_solvers(world);
+  if (std::exchange(world.groups.bodies_meet_others, false) || world.groups.objects_changed) make_body_solvers(world);
   if (!world.groups.objects_changed) return;
   make_particle_solvers(world);
   for (TileScratch& tile : world.workspace.tiles)

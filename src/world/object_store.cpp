@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "collision/fields/solid_fields.h"
 #include "math/motion.h"
+#include "solver/bodies/joint_load.h"
 #include "solver/sweeps/sweep.h"
 #include "world/groups.h"
 
@@ -167,6 +170,26 @@ void forget_contacts(WorldData& world, int number) {
                 [&](const BodyContact& contact) { return contact.a.owner == number || contact.b.owner == number; });
 }
 
+/// The names of an object's broken joints.
+std::set<std::string> broken_joints_of(const WorldData& world, int number) {
+  std::set<std::string> names;
+  for (const BrokenJoint& joint : world.state.broken_joints)
+    if (joint.block == number) names.insert(world.model.objects[number].joints[static_cast<std::size_t>(joint.joint)].name);
+  return names;
+}
+
+/// Breaks the joints of these names again after an edit.
+void break_again(WorldData& world, int number, const std::set<std::string>& names) {
+  const std::vector<CompiledJoint>& joints = world.model.objects[number].joints;
+  std::vector<int> broken;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (names.count(joints[j].name) != 0) broken.push_back(static_cast<int>(j));
+  if (broken.empty()) return;
+  for (const int joint : broken) world.state.broken_joints.push_back({number, joint});
+  std::sort(world.state.broken_joints.begin(), world.state.broken_joints.end());
+  set_broken(world.model.objects[number], broken, world.workspace.joints[number]);
+}
+
 /// Discards what the user set for an object or mesh collider that is removed or edited.
 void forget_control(WorldData& world, int number) {
   world.workspace.control.objects.erase(number);
@@ -255,6 +278,7 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   Origins origins;
   for (const int user : by.order) origins.particles.push_back(origin(user));
   origins.frames = frame_origins(old, by, origins.particles);
+  const std::set<std::string> broken = broken_joints_of(world, number);
   const ObjectState kept = take_state(world, number);
   forget_control(world, number);
   forget_contacts(world, number);
@@ -262,6 +286,7 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   place_object(world, number);
   drop_unused_sweeps(world.model, world.workspace);
   give_back_state(world, number, kept, origins);
+  break_again(world, number, broken);
   clear_births_if_nothing_flows(world);
   const auto emitters = static_cast<std::int32_t>(world.model.objects[number].flow.emitters.size());
   for (const EmittedLayers& emitted : kept.emitted)

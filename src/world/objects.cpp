@@ -105,7 +105,7 @@ void forget_contacts(WorldData& world, int collider) {
 
 /// For each object that can collide by edges and triangles: prepares these, which depend on the colliders.
 void prepare_shape_contacts(WorldData& world) {
-  world.groups.colliders_changed = true;
+  world.groups.bodies_meet_others = true;
   for (int o = 0; o < static_cast<int>(world.model.objects.size()); ++o)
     world.workspace.shape_contacts.prepare(world.model, o);
 }

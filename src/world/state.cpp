@@ -139,7 +139,9 @@ void break_joints_of_state(WorldData& world) {
     std::vector<int> broken;
     for (const BrokenJoint& joint : world.state.broken_joints)
       if (joint.block == static_cast<int>(o)) broken.push_back(joint.joint);
-    if (broken != world.workspace.joints[o].broken) set_broken(world.model.objects[o], broken, world.workspace.joints[o]);
+    if (broken == world.workspace.joints[o].broken) continue;
+    set_broken(world.model.objects[o], broken, world.workspace.joints[o]);
+    world.groups.bodies_meet_others = true;
   }
 }
 

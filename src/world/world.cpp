@@ -131,6 +131,7 @@ Report World::step(float dt) {
                 &data_->overstretch.meter(), data_->settings.sleep},
                dt, report);
   for (JointBreak& broken : report.broken_joints) broken.object = data_->ids.objects.id_of(broken.object.slot);
+  if (!report.broken_joints.empty()) data_->groups.bodies_meet_others = true;
   data_->stopped = report.nonfinite.has_value();
   report.flow.present = count_present(*data_);
   if (data_->stopped || report.stopped) forget_multipliers(*data_, !data_->stopped);

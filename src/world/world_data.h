@@ -41,8 +41,9 @@ struct WorldGroups {
   BodyMeshes body_meshes;                   ///< shared by all groups
   std::vector<int> changed_surfaces;        ///< the numbers of these objects whose surface can touch something
   std::vector<int> changed;                 ///< the numbers of all of these objects
-  bool colliders_changed = false;           ///< true if primitive colliders were added or removed since the last step
-  bool objects_changed = false;             ///< true if objects were added, removed or edited since the last step
+  bool bodies_meet_others =
+      false;  ///< true if primitive colliders were added or removed, or joints broke, since the last step
+  bool objects_changed = false;  ///< true if objects were added, removed or edited since the last step
 };
 
 /// The contact events of a World.

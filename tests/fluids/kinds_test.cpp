@@ -33,6 +33,17 @@ TEST(KindsOfLiquid, AreThoseOfThePage) {
   }
 }
 
+TEST(KindsOfLiquid, AreInTheTableOfMaterials) {
+  std::ifstream file(PLIANT_SOURCE_DIR "/docs/guide/materials.md");
+  std::stringstream page;
+  page << file.rdbuf();
+  for (const LiquidKind& of : liquids()) {
+    const std::string row = "| " + of.name + " | `\"kind\": \"" + of.name + "\"` | " + number(of.density) + " | " +
+                            number(of.viscosity) + " | " + number(of.surface_tension) + " | - |\n";
+    EXPECT_NE(page.str().find(row), std::string::npos) << row;
+  }
+}
+
 TEST(KindsOfLiquid, AreFoundByName) {
   for (const char* name : {"water", "oil", "glycerine", "honey"}) EXPECT_EQ(liquid(name).name, name);
   EXPECT_GT(liquid("honey").viscosity, 1000 * liquid("water").viscosity);

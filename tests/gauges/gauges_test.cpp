@@ -162,6 +162,32 @@ TEST(ForceGauge, OfAFloatingBodyIsItsWeight) {
   EXPECT_NEAR(force[0], weight, 0.05 * weight);
 }
 
+// Drops that bounce off a body press on it for a frame or two: the gauge sees twice what stops them, where nothing is lost.
+TEST(ForceGauge, OfABodyHasTheWholeBounceOfALiquid) {
+  for (const float restitution : {0.f, 0.5f, 1.f}) {
+    LiquidOptions options;
+    options.fluid.spacing = spacing;
+    options.velocity = {0, -2, 0};
+    Object drops = make_liquid({{0, 0.3f, 0}, {0.5f, 0.4f, 0}, {-0.5f, 0.35f, 0}}, options);
+    drops.restitution = restitution;
+    Scene scene = scene_of({drops}, {});
+    Object slab = make_body({{Box{{1, 0.1f, 1}}}}, {.mass = 1e4f});
+    slab.name = "slab";
+    scene.add(slab);
+    World world(scene);
+    Gauges gauges({{"down", ForceGauge{"slab"}}}, scene, world);
+    gauges.read(world);
+    double impulse = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+      world.step(dt);
+      impulse += gauges.read(world).front() / 60;
+    }
+    const double mass = 1000 * 0.05 * 0.05 * 0.05, expected = 3 * mass * 2 * (1 + double(restitution));
+    EXPECT_NEAR(impulse, expected, 0.01 * expected) << restitution;
+    EXPECT_NEAR(world.object(0).velocities()[0].y, 2 * restitution, 0.01) << restitution;
+  }
+}
+
 std::string refusal(const Gauge& gauge, const Scene& scene) {
   World world(scene);
   try {

@@ -156,7 +156,10 @@ TEST(SceneJoints, AreNamedInErrors) {
       {R"({"between": ["arm_1", "arm_2"], "hinge": {"anchor": [0, 0, 0], "axis": [0, 0, 0]}})",
        "x.json:3:1: object 'bodies', /objects/0/joints/0"},
       {R"({"between": ["arm_1", "arm_1"], "fixed": {"anchor": [0, 0, 0]}})",
-       "x.json:3:1: object 'bodies', /objects/0/joints/0"},
+       "x.json:3:1: object 'bodies', /objects/0/joints/0, joint 'fixed 0': joins body 0 ('arm_1') with itself; give two "
+       "bodies"},
+      {R"({"between": ["arm_1", "arm_2"], "distance": {"anchors": [[0, 0, 0], [1, 0, 0]], "least": 2, "most": 1}})",
+       "has a least distance of 2 m, more than its greatest of 1 m"},
       {R"({"between": ["arm_1", "arm_2"]})", "the kind of this joint is missing"},
       {R"({"between": ["arm_1"], "fixed": {"anchor": [0, 0, 0]}})", "/objects/0/joints/0/between: "}};
   for (const auto& [joint, message] : cases) {

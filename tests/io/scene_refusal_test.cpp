@@ -252,6 +252,8 @@ TEST(SceneRefusal, NamesValuesThatContradictEachOther) {
       {R"({"particles": {"positions": [[0, 0, 0], [1, 0, 0]], "masses": 1, "constraints": [
            {"type": "distence", "particles": []}]}})",
        "there is no 'distence' here; did you mean 'distance'?"},
+      {R"({"bodies": [{"solids": [{"sphere": {}}], "mass": "1kg"}]})",
+       "/mass: there is no '1kg' here; expected a number above 0, up to 1e+30 [kg], or 'fixed'"},
       {R"({"name": "a", "rope": {"points": [[0, 0, 0], [1, 0, 0]]}}, {"name": "a", "rope": {"points": [[0, 0, 0], [1, 0, 0]]}})",
        "/objects/1/name: the name 'a' is taken"},
       {R"({"rope": {"points": [[0, 0, 0], [1, 0, 0]], "stretch": {"stiffness": 1, "damping": 1}}})",

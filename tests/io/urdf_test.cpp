@@ -52,11 +52,11 @@ class Urdf : public testing::Test {
   }
 
   /// The error that a robot of these elements causes.
-  static std::string refused(const std::string& elements) {
+  static std::string refused(const std::string& elements, const UrdfOptions& options = {}) {
     const test::Folder folder;
     test::put(folder / "a.urdf", "<robot name=\"r\">\n" + elements + "</robot>\n");
     try {
-      static_cast<void>(read_urdf(folder / "a.urdf"));
+      static_cast<void>(read_urdf(folder / "a.urdf", options));
     } catch (const Error& error) {
       return std::string(error.what()).substr(folder.path().size() + 1);
     }
@@ -187,10 +187,99 @@ TEST_F(Urdf, NamesWhatItIgnoresWithItsLine) {
   std::string all;
   for (const std::string& one : warnings) all += one.substr(one.find("arm.urdf")) + "\n";
   for (const std::string part :
-       {"arm.urdf:18: 'dynamics' of joint (its damping)", "arm.urdf:29: mesh 'wheel.dae' is ignored: only .obj",
-        "arm.urdf:28: mesh 'package://arm/tetra.obj' is ignored: there is no file", "arm.urdf:31: 'mimic' of joint",
+       {"arm.urdf:16: damping of joint 'shoulder' is not supported and ignored",
+        "arm.urdf:29: mesh 'wheel.dae' of link 'wheel' is ignored: only .obj",
+        "arm.urdf:28: mesh 'package://arm/tetra.obj' of link 'wheel' is ignored: there is no file",
+        "arm.urdf:26: link 'wheel' has mass but no shape that can be read, so it touches nothing",
+        "arm.urdf:31: 'mimic' of joint is not supported and ignored",
+        "arm.urdf:32: link 'camera' has mass but no collision or visual shape, so it touches nothing",
         "arm.urdf:34: 'transmission' of robot", "arm.urdf:22: link 'finger' has no mass"})
     EXPECT_NE(all.find(part), std::string::npos) << part << "\nin\n" << all;
+}
+
+/// The warnings of a robot of two links, with what is added to its joint and after it.
+std::string warned(const std::string& type, const std::string& in_joint, const std::string& after = {}) {
+  const test::Folder folder;
+  const std::string inertial = R"(<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial>)";
+  const std::string shape = R"(<collision><geometry><sphere radius="0.1"/></geometry></collision>)";
+  test::put(folder / "a.urdf", "<robot name=\"r\">\n<link name=\"a\">" + inertial + shape + "</link>\n<link name=\"b\">" +
+                                   inertial + shape + "</link>\n<joint name=\"j\" type=\"" + type +
+                                   "\"><parent link=\"a\"/><child link=\"b\"/>" + in_joint + "</joint>\n" + after +
+                                   "</robot>\n");
+  std::vector<std::string> warnings;
+  static_cast<void>(read_urdf(folder / "a.urdf", {}, &warnings));
+  std::string all;
+  for (const std::string& one : warnings) all += one.substr(folder.path().size() + 1) + "\n";
+  return all;
+}
+
+TEST_F(Urdf, SuggestsANameForWhatIsUnknown) {
+  const std::string limit = R"(<limit lower="-1" upper="1" effort="1" velocity="1"/>)";
+  EXPECT_EQ(warned("revolute", limit), "");
+  EXPECT_EQ(warned("revolute", limit + R"(<axes xyz="0 0 1"/>)"),
+            "a.urdf:4: 'axes' of joint is unknown and ignored; did you mean 'axis'?\n");
+  EXPECT_EQ(warned("revolute", limit + R"(<origin xyz="0 0 1" ryp="0 0 1"/>)"),
+            "a.urdf:4: attribute 'ryp' of origin is unknown and ignored; did you mean 'rpy'?\n");
+  EXPECT_EQ(warned("revolute", limit, "<gazebo/><gazebo/>\n<gazebo/>"),
+            "a.urdf:5: 'gazebo' of robot is not supported and ignored (and 2 more)\n");
+  EXPECT_EQ(warned("planar", R"(<dynamics friction="1"/>)"),
+            "a.urdf:4: friction and limits of the planar joint 'j' are ignored\n");
+}
+
+TEST_F(Urdf, NamesAMissingMeshOfAPackageByARelativePath) {
+  const test::Folder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  test::put(folder / "a.urdf",
+            "<robot name=\"r\">\n<link name=\"a\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" "
+            "izz=\"1\"/></inertial>\n<visual><geometry><mesh "
+            "filename=\"package://x/no.stl\"/></geometry></visual></link></robot>");
+  std::filesystem::current_path(folder.path());
+  std::vector<std::string> warnings;
+  UrdfOptions options;
+  options.allow_outside = false;
+  static_cast<void>(read_urdf("a.urdf", options, &warnings));
+  std::filesystem::current_path(before);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_EQ(warnings[0],
+            "a.urdf:3: mesh 'package://x/no.stl' of link 'a' is ignored: there is no file './no.stl', and no 'x/no.stl' in "
+            "this folder or one above");
+}
+
+TEST_F(Urdf, RefusesTargetsThatNoMotorReaches) {
+  const std::string link = R"(<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
+)";
+  for (const std::string type : {"fixed", "planar", "floating"}) {
+    const std::string robot = "<link name=\"a\">" + link + "<link name=\"b\">" + link + "<joint name=\"elbow\" type=\"" +
+                              type + "\"><parent link=\"a\"/><child link=\"b\"/></joint>";
+    UrdfOptions options;
+    options.targets["elbow"] = 1;
+    EXPECT_NE(refused(robot, options).find("a.urdf:4: object 'r': joint 'elbow' is " + type + ", so no motor moves it"),
+              std::string::npos)
+        << refused(robot, options);
+    options.targets = {{"elbwo", 1}};
+    EXPECT_NE(refused(robot, options).find("has no joint 'elbwo', for which there is a target; did you mean 'elbow'?"),
+              std::string::npos)
+        << refused(robot, options);
+  }
+  const auto refused_target = [](const std::string& target) -> std::string {
+    try {
+      static_cast<void>(
+          parse_scene(R"({"objects": [{"name": "r", "urdf": {"file": "arm.urdf", "targets": [)" + target + "]}}]}",
+                      "x.json", PLIANT_SOURCE_DIR "/tests/io"));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {R"({"joint": "sholder", "angle": 1})", "the robot has no joint 'sholder'; did you mean 'shoulder'?"},
+      {R"({"joint": "mount", "angle": 1})", "targets/0/joint: joint 'mount' is fixed, so no motor moves it to a target"},
+      {R"({"joint": "free", "angle": 1})", "targets/0/joint: joint 'free' is floating, so no motor"},
+      {R"({"joint": "grip", "angle": 1})", "targets/0/angle: joint 'grip' is prismatic, so its target is a displacement"},
+      {R"({"joint": "shoulder", "displacement": 1})",
+       "targets/0/displacement: joint 'shoulder' is revolute, so its target is an angle; give 'angle' in degrees"}};
+  for (const auto& [target, message] : cases)
+    EXPECT_NE(refused_target(target).find(message), std::string::npos) << refused_target(target);
 }
 
 TEST_F(Urdf, IsAnObjectOfASceneFile) {
@@ -238,19 +327,25 @@ TEST_F(Urdf, RefusesWhatIsNoTreeOrNoRobot) {
   const std::string link = R"(<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
 )";
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"<link name=\"a\">", "not valid XML"},
+      {"<link name=\"a\">",
+       "a.urdf:2: is not valid XML: this element is closed by a tag of another name: '<link name=\"a\"></robot>'"},
+      {"<link name=a/>", "a.urdf:2: is not valid XML: an attribute of this element is not of the form name=\"value\""},
       {"<link/>", "a.urdf:2: link has no attribute 'name'"},
       {link + "<link name=\"a\"/>", "a.urdf:3: "},
       {link + "<link name=\"b\"/>", "a.urdf:3: "},
       {link + R"(<joint name="j" type="fixed"><parent link="a"/><child link="c"/></joint>)", "names no link: 'c'"},
       {link + R"(<link name="b"/><joint name="j" type="screw"><parent link="a"/><child link="b"/></joint>)", "'screw'"},
-      {link + R"(<joint name="j" type="fixed"><parent link="a"/><child link="a"/></joint>)", "loop"},
+      {link + R"(<joint name="j" type="fixed"><parent link="a"/><child link="a"/></joint>)",
+       "a.urdf:3: object 'r': joint 'j' joins link 'a' to itself; name two links"},
       {R"(<link name="a"><visual><geometry><sphere radius="x"/></geometry></visual></link>)", "a.urdf:2: sphere, radius: "},
-      {R"(<link name="a"><visual><geometry><box size="1 1"/></geometry></visual></link>)", "a.urdf:2: box, size: "},
+      {R"(<link name="a"><visual><geometry><box size="1 1"/></geometry></visual></link>)",
+       "a.urdf:2: box, size: needs 3 numbers, has 2"},
+      {R"(<link name="a"><visual><geometry><box size="1,1,1"/></geometry></visual></link>)", "separate numbers by blanks"},
+      {R"(<link name="a"><visual><geometry><box size="1 1 1 1"/></geometry></visual></link>)", "needs 3 numbers, has 4"},
       {R"(<link name="a"><inertial><mass value="1"/><inertia ixx="-1" iyy="1" izz="1"/></inertial></link>)", "a.urdf:2: "},
       {link + R"(<link name="b"/><link name="c"/><joint name="j" type="fixed"><parent link="b"/><child link="c"/></joint>
 <joint name="k" type="fixed"><parent link="c"/><child link="b"/></joint>)",
-       "a.urdf:3: object 'r': some joints form a loop"},
+       "a.urdf:3: object 'r': joints 'j' and 'k' form a loop"},
       {R"(<link name="a"/>)", "no link with mass or geometry"},
       {"", "has no links"}};
   for (const auto& [elements, message] : cases) {

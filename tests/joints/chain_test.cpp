@@ -1,7 +1,9 @@
 // Tests of joints that are solved directly: long chains with heavy ends, and trees with limits and motors.
 #include <gtest/gtest.h>
+#include <limits>
 
 #include "joint_support.h"
+#include "pliant/edit.h"
 
 namespace pliant {
 namespace {
@@ -173,6 +175,44 @@ TEST(JointBreaks, AJointBreaksByForceOrTorqueAboveItsLimitAlone) {
   m.run(1);
   EXPECT_LT(m.pose(0).position.y, -4) << "it falls";
   EXPECT_TRUE(m.world->step(frame_time).broken_joints.empty()) << "it breaks once";
+}
+
+/// A box that stands on a fixed one and is held by a joint that breaks as it is pressed down.
+Scene standing_box(int joints) {
+  Scene scene;
+  Object pair;
+  pair.name = "pair";
+  add_body(pair, {{Box{{0.2f, 0.2f, 0.2f}}}}, {.mass = std::numeric_limits<float>::infinity()});
+  add_body(pair, {{Box{{0.1f, 0.1f, 0.1f}}}}, {.position = {0, 0.301f, 0}, .mass = 1});
+  for (int i = 0; i < joints; ++i)
+    add_joint(pair, FixedJoint{.a = 0, .b = 1, .options = {.break_force = i == 0 ? 5.f : 1e6f}});
+  scene.add(pair);
+  return scene;
+}
+
+TEST(JointBreaks, ThenTheBodiesCollide) {
+  World world(standing_box(1)), other(standing_box(1));
+  EXPECT_EQ(world.step(frame_time).broken_joints.size(), 1u);
+  other.restore(world.state());
+  for (int frame = 0; frame < 240; ++frame) {
+    EXPECT_TRUE(world.step(frame_time).ok());
+    EXPECT_TRUE(other.step(frame_time).ok());
+  }
+  EXPECT_NEAR(world.object(0).positions()[1].y, 0.3, 2e-3) << "it stands";
+  EXPECT_EQ(hash(world.state()), hash(other.state()));
+}
+
+TEST(JointBreaks, AnEditLeavesThemBroken) {
+  Scene scene = standing_box(1);
+  scene.objects[0].positions[1].y = 5;
+  World world(scene);
+  EXPECT_EQ(world.step(frame_time).broken_joints.size(), 1u);
+  for (int frame = 0; frame < 30; ++frame) world.step(frame_time);
+  const float before = world.object(0).positions()[1].y;
+  world.edit({0}, unchanged(scene.objects[0]));
+  EXPECT_TRUE(world.object(0).joint_is_broken(0));
+  EXPECT_TRUE(world.step(frame_time).broken_joints.empty());
+  EXPECT_LT(world.object(0).positions()[1].y, before) << "it falls on";
 }
 
 TEST(JointBreaks, ABrokenJointIsPartOfTheState) {

@@ -58,5 +58,36 @@ TEST(Stops, HoldAgainstTheMotorOfTheSameSlider) {
   }
 }
 
+/// The angle about y at which an arm is that starts at `start` and turns to `target` within a range [rad].
+double angle_after(const JointRange& range, float start, float target) {
+  Scene scene;
+  scene.gravity = {};
+  Object arm;
+  arm.name = "arm";
+  add_body(arm, {{Box{{0.5f, 0.1f, 0.1f}}}}, {.position = {0.5f, 0, 0}, .mass = 32});
+  JointMotor motor{.kind = JointMotor::Kind::position, .target = start, .most = 1e5f};
+  add_joint(arm, HingeJoint{.b = 0, .anchor = {}, .axis = {0, 1, 0}, .limit = range, .motor = motor});
+  scene.add(arm);
+  World world(scene);
+  for (int frame = 0; frame < 120; ++frame) EXPECT_TRUE(world.step(dt).ok());
+  world.object(0).set_motor(arm.joints[0].name, {.target = target});
+  for (int frame = 0; frame < 240; ++frame) EXPECT_TRUE(world.step(dt).ok());
+  const Vec3f x = world.object(0).positions()[0];
+  return std::remainder(std::atan2(-static_cast<double>(x.z), static_cast<double>(x.x)) - static_cast<double>(target),
+                        2 * 3.14159265358979);
+}
+
+TEST(Stops, AreNotOnTheWayOfAPositionMotor) {
+  EXPECT_NEAR(angle_after({0, 5.236f}, 0, 4.363f), 0, 1e-3) << "0 to 300 degrees, to 250";
+  EXPECT_NEAR(angle_after({-0.0175f, 3.7525f}, 0, 3.6f), 0, 1e-3) << "an elbow of a real arm";
+  EXPECT_NEAR(angle_after({-3, 3}, -2.8f, 2.8f), 0, 1e-3);
+  EXPECT_NEAR(angle_after({-3, 3}, 2.8f, -2.8f), 0, 1e-3);
+}
+
+TEST(Stops, MayBeAFullTurnApart) {
+  for (const float half : {3.14159265359f, 3.1415925f})
+    EXPECT_NEAR(angle_after({-half, half}, 0, 3), 0, 1e-3) << "-180 to 180 degrees";
+}
+
 }  // namespace
 }  // namespace pliant

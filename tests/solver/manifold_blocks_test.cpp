@@ -164,6 +164,7 @@ int solve_in_blocks(Pile& pile, const ManifoldKernels& kernels, int threads) {
           manifold(i).impulse[k] = m.impulse[k];
           manifold(i).gap_now[k] = m.gap_now[k];
         }
+        manifold(i).bounced = m.bounced;
         manifold(i).friction_impulse = m.friction_impulse;
         manifold(i).twist_impulse = m.twist_impulse;
       });
@@ -182,6 +183,7 @@ void expect_same(const Pile& got, const Pile& expected, const std::string& name)
     for (std::size_t k = 0; k < 4; ++k)
       ASSERT_TRUE(same_bits(a.impulse[k], b.impulse[k]) && same_bits(a.gap_now[k], b.gap_now[k]))
           << name << ", contact " << i << ", point " << k << " of " << a.count;
+    ASSERT_TRUE(same_bits(a.bounced, b.bounced)) << name << ", contact " << i;
     ASSERT_TRUE(same_bits(a.friction_impulse[0], b.friction_impulse[0]) &&
                 same_bits(a.friction_impulse[1], b.friction_impulse[1]) && same_bits(a.twist_impulse, b.twist_impulse))
         << name << ", contact " << i;

@@ -98,5 +98,31 @@ TEST(FlatBody, ABoxThatTipsOverStaysAboveThePlane) {
     EXPECT_LT(deepest_of_a_box_that_tips_over({0.012f, 0.024f, 0.0037f}, 0, spin), 0.0011f) << spin;
 }
 
+/// How far a box at rest gets that is suddenly pushed towards a wall, 15 cm ahead in the mesh on whose floor it stands [m].
+float farthest_after_a_push(float speed) {
+  Scene scene;
+  scene.settings.threads = 1;
+  MeshCollider room;
+  room.mesh.positions = {{-5, 0, -5}, {5, 0, -5}, {5, 0, 5}, {-5, 0, 5}, {1, 0, -5}, {1, 0, 5}, {1, 3, 5}, {1, 3, -5}};
+  room.mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}};
+  scene.mesh_colliders.push_back(room);
+  scene.add(make_body({{Box{{0.05f, 0.05f, 0.05f}}}}, {.position = {0.8f, 0.052f, 0}, .mass = 1}));
+  World world(scene);
+  for (int frame = 0; frame < 60; ++frame) EXPECT_TRUE(world.step(1.f / 60).ok());
+  const std::vector<Vec3f> push{{speed, 0, 0}};
+  world.object(0).set_velocities(push);
+  float farthest = 0;
+  for (int frame = 0; frame < 30; ++frame) {
+    EXPECT_TRUE(world.step(1.f / 60).ok());
+    farthest = std::max(farthest, world.object(0).positions()[0].x);
+  }
+  return farthest;
+}
+
+/// The triangles that it will meet are not those on which it lies.
+TEST(FlatBody, ABoxAtRestThatIsPushedMeetsTheWallsOfItsRoom) {
+  for (const float speed : {5.f, 10.f, 20.f, 30.f}) EXPECT_LT(farthest_after_a_push(speed), 0.955f) << speed;
+}
+
 }  // namespace
 }  // namespace pliant

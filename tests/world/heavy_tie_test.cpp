@@ -130,7 +130,7 @@ TEST(HeavyTie, ThatOpensIsNamed) {
   EXPECT_FALSE(is_tolerable(tie));
   ASSERT_EQ(report.warnings.size(), 1U) << report.explain();
   EXPECT_EQ(report.warnings[0].find("object 'swing': particle 41 is "), 0U) << report.warnings[0];
-  EXPECT_NE(report.warnings[0].find(" mm away from its place on body 'weight' of 'swing', "), std::string::npos);
+  EXPECT_NE(report.warnings[0].find(" mm away from its place on body 0 ('weight') of 'swing', "), std::string::npos);
 }
 
 /// A tie with compliance opens by its force, which is no error. It is solved after the chain, whose last particle it moves by up to

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "pliant/body.h"
 #include "pliant/error.h"
 #include "world/run_time_support.h"
 
@@ -104,6 +105,24 @@ TEST(Cut, HoldsItsEdgesOnEitherSideByItsShare) {
   const std::vector<int> same = unchanged(whole).from;
   const double before = stiffness_of(whole, 13, 22, same);
   EXPECT_NEAR(stiffness_of(edit.object, 13, 22, edit.from), before, 1e-5 * before) << "springs side by side";
+}
+
+TEST(Cut, BothHalvesStayTiedAndAttached) {
+  Object whole = make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, {.position = {0, 1, 0}});
+  const int first = append(whole, sheet().objects[0]);
+  attach(whole, {first + 4}, 0);
+  whole.attachments.push_back({first + 76, {0, 0, 1}});
+  std::vector<int> path = middle_column();
+  for (int& particle : path) particle += first;
+  const Edit edit = cut(whole, path);
+  std::vector<int> tied, attached;
+  for (const ConstraintGroup& group : edit.object.constraints)
+    for (std::size_t i = 0; group.type == "body_anchor" && i < group.particles.size(); i += 3)
+      tied.push_back(edit.from[static_cast<std::size_t>(group.particles[i + 2])]);
+  for (const Attachment& attachment : edit.object.attachments)
+    attached.push_back(edit.from[static_cast<std::size_t>(attachment.particle)]);
+  EXPECT_EQ(tied, (std::vector<int>{first + 4, first + 4}));
+  EXPECT_EQ(attached, (std::vector<int>{first + 76, first + 76}));
 }
 
 TEST(Cut, RefusesWhatIsNoEdge) {

@@ -250,12 +250,19 @@ struct BodyContacts::Task {
     return of.pairs_.are_apart(pair.first, pair.second, more_than_rounding * static_cast<float>(reach_of(pair, approach)));
   }
 
+  /// True if a body moves so far within the frame that it may meet triangles of a mesh other than those that it touches.
+  bool may_meet_more(const Pair& pair, const BodyState& a, const BodyState& b, double size) const {
+    return of.parts_[at(pair.first)].mesh != nullptr &&
+           static_cast<double>(dt * length(a.velocity - b.velocity)) > still_share * size;
+  }
+
   /// True if the contacts of a pair stay, or, where there are none, if no new ones are looked for.
   bool stay(const Pair& pair, std::span<const BodyContact> old, const BodyState& a, const BodyState& b,
             const Posed& relative) const {
     const auto [one, other] = std::pair{of.parts_[at(pair.first)].body, of.parts_[at(pair.second)].body};
     if (is_renewed(one) || is_renewed(other)) {
       const double size = size_of(pair);
+      if (may_meet_more(pair, a, b, size)) return false;
       const auto hardly_changed = [&](const BodyContact& contact) {
         return hardly_moved(relative, contact, size) && hardly_turned(a.pose.rotation, contact);
       };

@@ -31,6 +31,7 @@ struct Manifold {
   float rolling = 0, spinning = 0;         ///< greatest torque against rolling and spinning, per normal force [m]
 
   std::array<float, 4> impulse{};           ///< of the points along the normal, in a substep [N s]
+  float bounced = 0;                        ///< sum of what bounces gave along the normal, in a substep [N s]
   std::array<float, 2> friction_impulse{};  ///< along the tangents, at the centre [N s]
   float twist_impulse = 0;                  ///< about the normal [N m s]
   std::array<float, 2> rolling_impulse{};   ///< about the tangents [N m s]

@@ -29,7 +29,9 @@ void require_closed(const std::vector<Triangle>& triangles, int vertices) {
       throw Error(Location{.element = "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b)},
                   "it has " + std::to_string(edge.triangle_count) +
                       (edge.triangle_count == 1 ? " triangle" : " triangles") + ", so the mesh is not closed",
-                  "close the mesh, because signed distances need an inside, or use it as triangles");
+                  "close the mesh, because only a closed one has an inside; open ones can be mesh colliders of triangles, "
+                  "or as the "
+                  "solid 'hull' the convex hull of a body");
 }
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 #include "constraints/registry.h"
 #include "solver/bodies/body_math.h"
@@ -53,10 +54,8 @@ bool does_work(const ConstraintPlace& place, const JointsOfConstraints::Entry& e
   return place.pool.law == Law::pbd ? response < 1 : response > 0;
 }
 
-}  // namespace
-
-void add_links(const Model& model, int number, int first_body, int points, std::vector<BodyLink>& links) {
-  const CompiledObject& object = model.objects[at(number)];
+/// The links of an object without its number.
+void add_links_of(const CompiledObject& object, int first_body, int points, std::vector<BodyLink>& links) {
   std::vector<int> node(at(object.particles) + object.frames.size(), -1);  // of each slot; frames come after particles
   std::fill_n(node.begin(), object.particles, points);
   for (std::size_t b = 0; b < object.bodies.bodies.size(); ++b) {
@@ -71,10 +70,35 @@ void add_links(const Model& model, int number, int first_body, int points, std::
       if (first < 0) first = other;
       if (other < 0 || other == first) continue;
       const JointsOfConstraints::Entry entry = joints.at_place(place);
-      links.push_back({first, other, number, entry.joint, does_work(place, entry)});
+      links.push_back({first, other, 0, entry.joint, does_work(place, entry)});
     }
   };
   for (const Segment& segment : object.segments) for_segment(object, segment, visit);
+}
+
+}  // namespace
+
+void add_links(const Model& model, int number, int first_body, int points, std::vector<BodyLink>& links) {
+  const std::size_t before = links.size();
+  add_links_of(model.objects[at(number)], first_body, points, links);
+  for (std::size_t i = before; i < links.size(); ++i) links[i].object = number;
+}
+
+std::vector<std::pair<int, int>> pairs_without_joint(const CompiledObject& object, const std::vector<int>& broken) {
+  const auto points = static_cast<int>(object.bodies.bodies.size());
+  std::vector<BodyLink> links;
+  if (!broken.empty()) add_links_of(object, 0, points, links);
+  std::vector<std::pair<int, int>> joined, freed, left;
+  for (const BodyLink& link : links) {
+    if (link.a == points || link.b == points) continue;
+    const bool is_broken = link.joint >= 0 && std::binary_search(broken.begin(), broken.end(), link.joint);
+    (is_broken ? freed : joined).emplace_back(std::minmax(link.a, link.b));
+  }
+  std::sort(joined.begin(), joined.end());
+  std::sort(freed.begin(), freed.end());
+  freed.erase(std::unique(freed.begin(), freed.end()), freed.end());
+  std::set_difference(freed.begin(), freed.end(), joined.begin(), joined.end(), std::back_inserter(left));
+  return left;
 }
 
 }  // namespace pliant

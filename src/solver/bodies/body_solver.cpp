@@ -137,13 +137,22 @@ void BodySolver::start_substep(const Substep& s) {
   motions_.load_predicted(s, bodies_, true, pushes_are_known_ ? push_share_ : 0);
   if (!pushes_are_known_) blocks_.warm_start(executor, kernels, motions_.all());
   pushes_are_known_ = true;
+  bounced_.clear();
   if (!blocks_.bounces()) return;
+  blocks_.clear_bounced();
   const Vec3f fall = s.model.gravity * s.h;
   motions_.change_once([&] {
     bool goes_on = true;
     for (int round = 0; goes_on && round < most_rounds_of_impacts; ++round)
       goes_on = blocks_.bounce(executor, kernels, motions_.all(), s.h, fall);
   });
+  note_bounces(s);
+}
+
+void BodySolver::note_bounces(const Substep& s) {
+  if (s.work.contact_log == nullptr) return;
+  bounced_.assign(contacts_.all().size(), 0);
+  blocks_.for_bounced(colours_, [&](int i, float impulse) { bounced_[at(i)] = impulse; });
 }
 
 void BodySolver::collide(Substep& s) {
@@ -210,11 +219,21 @@ const std::vector<char>& BodySolver::press_joints(Substep& s) {
   return pressed_objects_;
 }
 
+/// True if press_joints has started one of the contact's bodies. The other one is then started, too, or does not move.
+bool BodySolver::is_pressed(int contact) const {
+  const auto is_started = [&](int place) { return place < bodies_.dynamic() && pressed_bodies_[at(place)] != 0; };
+  const auto& [a, b] = contacts_.bodies()[at(contact)];
+  return is_started(a) || is_started(b);
+}
+
 /// The rest of a substep's start after press_joints: what has moved stays, and the other bodies start as if they were alone.
 void BodySolver::start_others(const Substep& s) {
   const BodyMotions::Pushes pressed = motions_.pushes();
+  const std::vector<float> bounced = bounced_;
   start_substep(s);
   motions_.reload_predicted(s, pressed_bodies_, pressed);
+  for (int i = 0; i < static_cast<int>(bounced.size()); ++i)
+    if (is_pressed(i)) bounced_[at(i)] = bounced[at(i)];
 }
 
 void BodySolver::project(Substep& s, bool is_first) {
@@ -279,16 +298,19 @@ void BodySolver::end_frame(Substep& s) {
 
 void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
   take_impulses(s);
-  const auto add = [&](const BodyContact& c, const Vec3d& centre_b) {
-    const double impulse = static_cast<double>((c.impulse[0] + c.impulse[1]) + (c.impulse[2] + c.impulse[3]));
+  const auto add = [&](const BodyContact& c, float bounced, const Vec3d& centre_b) {
+    const double pressed = static_cast<double>((c.impulse[0] + c.impulse[1]) + (c.impulse[2] + c.impulse[3]));
+    const double impulse = pressed + static_cast<double>(bounced);
     if (impulse > 0) add_push({c.a.owner, c.b.owner, impulse, -c.normal, centre_b + convert<double>(c.arm_b)}, log);
   };
   for (const int i : colours_.order()) {
     const std::size_t b = at(contacts_.bodies()[at(i)].second);
-    add(contacts_.all()[at(i)], contacts_.states()[b].pose.position + convert<double>(motions_.all()[b].displacement));
+    const float bounced = bounced_.empty() ? 0.f : bounced_[at(i)];
+    add(contacts_.all()[at(i)], bounced,
+        contacts_.states()[b].pose.position + convert<double>(motions_.all()[b].displacement));
   }
-  for (const BodyContact& c : sleep_.kept_contacts()) add(c, contacts_.states()[at(sleep_.body_of(c.b))].pose.position);
-  points_.impulses().log_contacts(s, points_.solids(), log);
+  for (const BodyContact& c : sleep_.kept_contacts()) add(c, 0, contacts_.states()[at(sleep_.body_of(c.b))].pose.position);
+  points_.impulses().log_contacts(s, points_.solids(), shares_, log);
   finish_substep(log);
 }
 

@@ -84,7 +84,7 @@ class BodySolver {
   /// In ascending order of parts. The State takes them at a frame's end; the next frame makes new ones.
   std::vector<BodyContact>& contacts() { return contacts_.all(); }
   int contacts_that_press() const;
-  /// Adds the impulses of the current substep, after respond. Those of impacts with restitution are left out.
+  /// Adds the impulses of the current substep, after respond, with those of impacts with restitution.
   void log_contacts(const Substep& s, ContactLog& log);
 
  private:
@@ -95,6 +95,8 @@ class BodySolver {
   bool find_jointed(const Substep& s);
   void find_pressed(const Substep& s);
   void start_others(const Substep& s);
+  void note_bounces(const Substep& s);
+  bool is_pressed(int contact) const;
 
   ContactBodies bodies_;
   FrameContacts contacts_;
@@ -106,6 +108,7 @@ class BodySolver {
   std::vector<std::pair<int, int>> pressing_;  ///< bodies of those that press, for find_islands
   ManifoldColours colours_;                    ///< of contacts_
   ManifoldBlocks blocks_;                      ///< the manifolds of contacts_ in a frame
+  std::vector<float> bounced_;                 ///< [contact] impulses of impacts with restitution in a substep, for events
   std::vector<int> overlaps_;                  ///< [place] FrameContacts::count_overlaps
   PressedBy pressed_by_ = PressedBy::bodies;
   std::vector<char> is_separating_;    ///< [contact] nonzero: its bodies overlap more than what presses them explains

@@ -113,20 +113,24 @@ std::string ContactBodies::name(const Model& model, int index) const {
   const BodyPlace& place = places_[at(index)];
   if (place.collider >= 0) return "'" + model.colliders[at(place.collider)].name + "'";
   const std::string object = "'" + model.objects[at(place.object)].name + "'";
-  return place.is_body() ? "body " + std::to_string(place.body) + " of " + object : object;
+  return place.is_body()
+             ? words_of_body(model.objects[at(place.object)].bodies, place.body, model.objects[at(place.object)].name)
+             : object;
 }
 
-bool ContactBodies::meet(const Model& model, int a, int b) const {
+bool ContactBodies::meet(const Substep& s, int a, int b) const {
   const BodyPlace &one = places_[at(a)], &other = places_[at(b)];
   if (!one.is_body() && !other.is_body()) return false;
   if (one.collider >= 0 || other.collider >= 0) return true;
   if (!one.is_body() || !other.is_body())
-    return meets_mesh(model, one.is_body() ? one : other, one.is_body() ? other : one);
+    return meets_mesh(s.model, one.is_body() ? one : other, one.is_body() ? other : one);
   if (!rules_.meet(one.object, other.object)) return false;
   if (one.object != other.object) return true;
-  const std::vector<std::pair<int, int>>& jointed = model.objects[at(one.object)].bodies.jointed;
   const std::pair<int, int> both = std::minmax(one.body, other.body);
-  return jointed.empty() || !std::binary_search(jointed.begin(), jointed.end(), both);
+  const auto has = [&](const std::vector<std::pair<int, int>>& pairs) {
+    return !pairs.empty() && std::binary_search(pairs.begin(), pairs.end(), both);
+  };
+  return !has(s.model.objects[at(one.object)].bodies.jointed) || has(s.work.joints[at(one.object)].freed);
 }
 
 bool ContactBodies::meets_mesh(const Model& model, const BodyPlace& body, const BodyPlace& mesh) const {

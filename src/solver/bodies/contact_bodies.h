@@ -55,7 +55,8 @@ class ContactBodies {
   Vec3f round_axes(int body) const { return round_[static_cast<std::size_t>(body)]; }
   /// "body 3 of 'pile'", or the name of a collider.
   std::string name(const Model& model, int place) const;
-  bool meet(const Model& model, int a, int b) const;
+  /// Whether two places may touch. It changes as joints break.
+  bool meet(const Substep& s, int a, int b) const;
   BodyMaterial material(const Model& model, int a, int b) const;
 
   /// Finds where colliders are at the substep's start and the frame's end.

@@ -38,8 +38,8 @@ void FrameContacts::update(Substep& s, const std::vector<BodyContact>& before) {
   const double left = time_left(s);
   const float gravity = static_cast<float>(left) * length(s.model.gravity);
   finder_.update(
-      s.context.executor, states_, static_cast<float>(left), gravity,
-      [&](int a, int b) { return bodies_->meet(s.model, a, b); }, before, contacts_);
+      s.context.executor, states_, static_cast<float>(left), gravity, [&](int a, int b) { return bodies_->meet(s, a, b); },
+      before, contacts_);
 }
 
 /// Contacts with a body that sleeps wake it, and are found once more with those of its island.
@@ -163,7 +163,7 @@ void FrameContacts::renew(Substep& s, const BodyMotions& motions, bool some_boun
   const double left = time_left(s);
   finder_.renew(
       s.context.executor, states_, static_cast<float>(left), static_cast<float>(left) * length(s.model.gravity),
-      [&](int a, int b) { return bodies_->meet(s.model, a, b); }, is_outdated_, some_bounce ? far_moved : 1e30f, contacts_);
+      [&](int a, int b) { return bodies_->meet(s, a, b); }, is_outdated_, some_bounce ? far_moved : 1e30f, contacts_);
 }
 
 }  // namespace pliant

@@ -4,6 +4,7 @@
 
 #include "constraints/registry.h"
 #include "math/quat.h"
+#include "solver/bodies/body_links.h"
 #include "solver/bodies/joint_forest.h"
 #include "solver/substep.h"
 #include "solver/visit.h"
@@ -62,6 +63,7 @@ ReactionLoad load_of(const LoadView& view, const CompiledJoint& joint) {
 
 void set_broken(const CompiledObject& object, const std::vector<int>& joints, ObjectJoints& into) {
   into.broken = joints;
+  into.freed = pairs_without_joint(object, joints);
   into.is_broken.assign(joints.empty() ? 0 : object.pools.size(), {});
   for (const int j : joints)
     for (const CompiledJoint::Part& part : object.joints[static_cast<std::size_t>(j)].parts) {

@@ -105,6 +105,19 @@ bool ManifoldBlocks::bounces() const {
   return std::any_of(blocks_.begin(), blocks_.end(), [](const ManifoldBlock& block) { return block.bounces != 0; });
 }
 
+void ManifoldBlocks::clear_bounced() {
+  for (ManifoldBlock& block : blocks_)
+    if (block.bounces != 0) std::fill_n(block.rows.bounced, block_width, 0.f);
+}
+
+void ManifoldBlocks::for_bounced(const ManifoldColours& colours, FunctionRef<void(int, float)> visit) const {
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    for (int lane = 0; blocks_[i].bounces != 0 && lane < blocks_[i].lanes; ++lane) {
+      const float impulse = blocks_[i].rows.bounced[lane];
+      if (impulse > 0) visit(colours.order()[at(first_[i] + lane)], impulse);
+    }
+}
+
 int ManifoldBlocks::pressing() const {
   int count = 0;
   for (const ManifoldBlock& block : blocks_)

@@ -30,6 +30,11 @@ class ManifoldBlocks {
   /// Multiplies all impulses, where the next substep is longer or shorter by that factor.
   void scale_impulses(Executor& executor, float factor);
 
+  /// Forgets what bounces gave in the last substep.
+  void clear_bounced();
+  /// Calls visit(number, impulse) for each manifold that has bounced since then [N s].
+  void for_bounced(const ManifoldColours& colours, FunctionRef<void(int, float)> visit) const;
+
   /// The number of manifolds with a normal impulse.
   int pressing() const;
   /// Calls visit(number) for each of them.

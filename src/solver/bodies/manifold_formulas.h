@@ -297,10 +297,11 @@ PLIANT_HD void rub_in_impact(const ManifoldRows<lanes>& m, const R& pressed, Mot
   add(m, first * (one * scale) + second * (two * scale), Vec3<R>{none, none, none}, a, b);
 }
 
-/// True where a point would pass through in this substep; those points get the velocity that restitution demands.
+/// True where a point would pass through in this substep; those points get the velocity that restitution demands. Their impulses are summed
+/// apart from those that press: they act once, and no substep may start with them.
 template <class R, int lanes>
-PLIANT_HD auto bounce(const ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const Moved<R>& moved_a,
-                      const Moved<R>& moved_b, float h, const Vec3f& fall) {
+PLIANT_HD auto bounce(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const Moved<R>& moved_a, const Moved<R>& moved_b,
+                      float h, const Vec3f& fall) {
   Wrench<R> motion = along(m, approach(m, a, b), b.spin - a.spin);
   const Wrench<R> moved = moved_apart(m, moved_a, moved_b);
   const Mobility<R> mobility = mobility_of<R>(m);
@@ -330,8 +331,10 @@ PLIANT_HD auto bounce(const ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, 
   }
   Motion<R> after_a = a, after_b = b;
   apply(m, impulse, after_a, after_b);
-  rub_in_impact(m, (impulse.at[0] + impulse.at[1]) + (impulse.at[2] + impulse.at[3]), after_a, after_b);
-  const auto closes = most > zero;  // where none does, not even the sign of a zero may change
+  const R given = (impulse.at[0] + impulse.at[1]) + (impulse.at[2] + impulse.at[3]);
+  rub_in_impact(m, given, after_a, after_b);
+  store_row(m.bounced, get<R>(m.bounced) + given);  // none where no point closes
+  const auto closes = most > zero;                  // where none does, not even the sign of a zero may change
   a.velocity = select(closes, after_a.velocity, a.velocity);
   a.spin = select(closes, after_a.spin, a.spin);
   b.velocity = select(closes, after_b.velocity, b.velocity);

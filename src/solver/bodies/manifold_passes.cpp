@@ -145,7 +145,7 @@ void warm_start(const Manifold& m, BodyMotion& a, BodyMotion& b) { run(m, a, b, 
 
 bool bounce(Manifold& m, BodyMotion& a, BodyMotion& b, float h, const Vec3f& fall) {
   bool bounced = false;
-  if (m.restitution > 0) run(m, a, b, Bounce{h, fall, &bounced});
+  if (m.restitution > 0) take_impulses(run(m, a, b, Bounce{h, fall, &bounced}), 0, m);
   return bounced;
 }
 

@@ -59,7 +59,7 @@ void prepare(Manifold& manifold, const BodyMotion& a, const BodyMotion& b);
 void warm_start(const Manifold& manifold, BodyMotion& a, BodyMotion& b);
 
 /// Where points would pass through in this substep, faster than twice `fall`, which is what gravity adds to velocities in the substep [m/s], gives them the velocity that restitution demands.
-/// Returns true if there were any. Called for all manifolds in turn until none is left, before the passes, so that a row of
+/// Returns true if there were any, and adds their impulses to Manifold::bounced. Called for all manifolds in turn until none is left, before the passes, so that a row of
 /// balls passes an impact on.
 bool bounce(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h, const Vec3f& fall);
 

@@ -25,7 +25,7 @@ struct ManifoldRows {
   float impulse[4][lanes], friction_impulse[2][lanes], twist_impulse[lanes];
   float gap_now[4][lanes];
   float gap[4][lanes];
-  float restitution[lanes];
+  float restitution[lanes], bounced[lanes];
   float radius[lanes];  ///< mean distance of touching points from the centre [m]
   float spinning[lanes];
   float rolling[lanes], rolling_impulse[2][lanes];  ///< used only where some manifold of the block has rolling friction
@@ -87,6 +87,7 @@ void put_manifold(const Manifold& m, ManifoldRows<lanes>& rows, int lane) {
   rows.friction[lane] = m.friction;
   rows.sliding[lane] = m.sliding;
   rows.restitution[lane] = m.restitution;
+  rows.bounced[lane] = m.bounced;
   rows.radius[lane] = mean_radius(m);
 }
 
@@ -97,6 +98,7 @@ void take_impulses(const ManifoldRows<lanes>& rows, int lane, Manifold& m) {
     m.impulse[static_cast<std::size_t>(i)] = rows.impulse[i][lane];
     m.gap_now[static_cast<std::size_t>(i)] = rows.gap_now[i][lane];
   }
+  m.bounced = rows.bounced[lane];
   m.friction_impulse = {rows.friction_impulse[0][lane], rows.friction_impulse[1][lane]};
   m.twist_impulse = rows.twist_impulse[lane];
   m.rolling_impulse = {rows.rolling_impulse[0][lane], rows.rolling_impulse[1][lane]};

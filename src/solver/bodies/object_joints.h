@@ -9,7 +9,9 @@ namespace pliant {
 struct JointForest;
 
 struct ObjectJoints {
-  std::vector<int> broken;                   ///< indices in CompiledObject::joints, ascending
+  std::vector<int> broken;  ///< indices in CompiledObject::joints, ascending
+  std::vector<std::pair<int, int>>
+      freed;  ///< pairs of bodies that collide because all joints between them are broken; sorted
   std::vector<std::vector<char>> is_broken;  ///< [pool][16 batch + lane] 1: part of a broken joint; empty: none
   std::vector<char> is_asleep;               ///< [body] 1: sleeps, so its constraints are left out; empty: none does
   std::vector<std::vector<char>>

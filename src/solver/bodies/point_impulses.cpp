@@ -128,7 +128,9 @@ void PointImpulses::respond(Substep& s, const BodySolids& solids, const std::vec
                             FunctionRef<Vec3f(int object)> gravity) {
   const float slow = 2 * length(s.model.gravity) * s.h;
   Record* velocities = s.state.velocities.data();
-  for (const Contact& c : contacts_) {
+  bounced_.assign(contacts_.size(), 0.f);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Contact& c = contacts_[i];
     if (!(c.push > 0)) continue;
     const int number = solids.number_of(c);
     const TouchedBody& body = solids.bodies()[at(number)];
@@ -145,20 +147,24 @@ void PointImpulses::respond(Substep& s, const BodySolids& solids, const std::vec
     const Vec3f turning = cross(arm, c.normal);
     const float mass = w + motion.inverse_mass + dot(turning, times(motion.inverse_inertia, turning));
     if (!(mass > 0)) continue;
-    const Vec3f impulse = c.normal * ((wanted - separating) / mass);
+    const float size = (wanted - separating) / mass;
+    const Vec3f impulse = c.normal * size;
+    bounced_[i] = size;
     move_sides(c, impulse * w, velocities);
     velocities[body.particle] = plus(velocities[body.particle], -impulse * motion.inverse_mass);
     spin = plus(spin, rotate(conjugate(q), -times(motion.inverse_inertia, cross(arm, impulse))));
   }
 }
 
-void PointImpulses::log_contacts(const Substep& s, const BodySolids& solids, ContactLog& log) const {
+void PointImpulses::log_contacts(const Substep& s, const BodySolids& solids, const VelocityShares& shares,
+                                 ContactLog& log) const {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Contact& c = contacts_[i];
-    if (!(c.push > 0) || !(impulses_[i] > 0)) continue;
+    const float share = s.velocity_share * shares.of_points(s.model.object_of(c.point[0]));
+    const double impulse = static_cast<double>(impulses_[i] * share) + static_cast<double>(bounced_[i]);
+    if (!(c.push > 0) || !(impulse > 0)) continue;
     const Vec3d place = convert<double>(relative(c, s.state.positions.data()));
-    add_push({s.model.object_of(c.point[0]), solids.body_of(c).object, static_cast<double>(impulses_[i]), c.normal, place},
-             log);
+    add_push({s.model.object_of(c.point[0]), solids.body_of(c).object, impulse, c.normal, place}, log);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "collision/narrow/contact.h"
 #include "solver/bodies/body_solids.h"
 #include "solver/bodies/manifold_passes.h"
+#include "solver/bodies/velocity_shares.h"
 #include "solver/contact_log.h"
 
 namespace pliant {
@@ -38,13 +39,13 @@ class PointImpulses {
   /// Projects those from number `first` on once. `yields`: the points move too; else only bodies that are not fixed.
   void project_from(Substep& s, const BodySolids& solids, std::size_t first, const std::vector<BodyMotion>& motions,
                     bool yields);
-  /// Applies restitution to velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
+  /// Applies restitution to velocities, and keeps its impulses. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
   void respond(Substep& s, const BodySolids& solids, const std::vector<BodyMotion>& motions,
                FunctionRef<Vec3f(int object)> gravity);
 
   int contacts_that_press() const;
-  /// Adds the pushes of the current substep.
-  void log_contacts(const Substep& s, const BodySolids& solids, ContactLog& log) const;
+  /// Adds the pushes of the current substep, after respond. `shares` of the corrections have become velocity.
+  void log_contacts(const Substep& s, const BodySolids& solids, const VelocityShares& shares, ContactLog& log) const;
 
  private:
   /// How a body has moved since contacts were found, and in this pass.
@@ -60,6 +61,7 @@ class PointImpulses {
 
   std::vector<Contact> contacts_;
   std::vector<float> impulses_;
+  std::vector<float> bounced_;  ///< what respond gave beside them: the next substep's loads are not to take it for a weight
   std::vector<Progress> progress_;  ///< of bodies
 };
 

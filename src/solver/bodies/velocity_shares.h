@@ -24,6 +24,9 @@ class VelocityShares {
     to.particles[static_cast<std::size_t>(place.particle)] = to.frames[static_cast<std::size_t>(place.frame)] = share;
   }
 
+  /// Of the particles of an object that are no centres of bodies, and of the bodies that they touch.
+  float of_points(int object) const { return of_object_.empty() ? 1 : of_object_[static_cast<std::size_t>(object)].points; }
+
   /// Calls body(first, last, share) for ranges of the particles [first, last) of an object that have one share.
   template <class Body>
   void for_particles(const Model& model, int object, int first, int last, const Body& body) const {

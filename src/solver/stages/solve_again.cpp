@@ -3,7 +3,8 @@
 // Contacts are projected after the chains, so where they conflict contacts win, and edges end too long: in jammed or
 // pinched cloth one in a hundred by 3 %, however many iterations follow, because both cannot be met exactly. So chains
 // and contacts take turns once more, and contacts yield: they may overlap by a share of their thickness, which nobody
-// sees, while an edge that is too long is seen. The filter still keeps surfaces from crossing.
+// sees, while an edge that is too long is seen. The filter still keeps surfaces from crossing. What is far heavier than the
+// cloth that it lies on, such as stones, would be overrun by it in this way, so its contacts do not yield.
 #include "solver/stages/solve_again.h"
 #include "solver/bodies/body_solver.h"
 
