@@ -133,6 +133,7 @@ class RobotBuilder {
     std::set<std::size_t> joints;
     for (; joints.insert(parents_.at(link)).second;) link = robot_.joints[parents_.at(link)].parent;
     std::vector<std::string> names;
+    names.reserve(joints.size());
     for (const std::size_t joint : joints) names.push_back(robot_.joints[joint].name);
     fail(robot_.joints[*joints.begin()].line, "joints " + listed(names) + " form a loop",
          "URDF describes trees: remove one of these joints");
@@ -179,9 +180,9 @@ class RobotBuilder {
       return;
     }
     try {
-      std::vector<Solid> solids = solids_of(link);
+      const std::vector<Solid> solids = solids_of(link);
       if (solids.empty() && !is_empty) warn_of_no_shape(link);
-      bodies_[link.name] = add_body(object_, std::move(solids), options_of(link, pose, is_empty));
+      bodies_[link.name] = add_body(object_, solids, options_of(link, pose, is_empty));
     } catch (const Error& error) {
       if (!error.where().file.empty()) throw;
       fail(link.line, "link '" + link.name + "': " + error.where().element + " " + error.problem(), error.advice());
