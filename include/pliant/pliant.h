@@ -25,6 +25,7 @@
 #include "pliant/save.h"
 #include "pliant/scene.h"
 #include "pliant/shape.h"
+#include "pliant/soft_body.h"
 #include "pliant/state.h"
 #include "pliant/substep_bounds.h"
 #include "pliant/surface.h"

@@ -21,6 +21,8 @@
 #include "constraints/pulley_joint.h"
 #include "constraints/rack_joint.h"
 #include "constraints/slider_joint.h"
+#include "constraints/tetrahedron_shear.h"
+#include "constraints/tetrahedron_volume.h"
 #include "constraints/traits.h"
 #include "constraints/type_list.h"
 #include "constraints/universal_joint.h"
@@ -29,7 +31,7 @@ namespace pliant {
 
 /// The types in the order in which a sweep visits them. Of joints, motors and friction come first, then limits, so that what
 /// holds parts together has the last word.
-using AllConstraints = TypeList<Distance, DihedralBending, IsometricBending, JointAngleMotor, JointOffsetMotor, JointAngle,
+using AllConstraints = TypeList<Distance, DihedralBending, IsometricBending, TetrahedronShear, TetrahedronVolume, JointAngleMotor, JointOffsetMotor, JointAngle,
                                 JointOffset, JointSwing, JointDistance, PulleyJointRows, GearJointRows, RackJointRows,
                                 PlanarJointRows, CylindricalJointRows, UniversalJointRows, SliderJointRows, BallJointRows,
                                 HingeJointRows, FixedJointRows, BodyAnchor>;

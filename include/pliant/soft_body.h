@@ -1,0 +1,75 @@
+// Elastic solids of tetrahedra: gelatine, rubber, foam, muscle.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pliant/mesh.h"
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// A mesh of tetrahedra. Seen from its fourth corner, the first three corners of each run clockwise, so that its volume is
+/// positive; make_soft_body turns those that are not.
+struct TetrahedralMesh {
+  std::vector<Vec3f> positions;                ///< [m]
+  std::vector<std::array<int, 4>> tetrahedra;  ///< indices of positions
+};
+
+/// Properties of an elastic solid. They do not depend on a mesh.
+struct ElasticSolid {
+  std::string name;
+  float density = 1000;          ///< mass per volume [kg/m^3]
+  float youngs_modulus = 5e4f;   ///< stress per strain of a bar that is pulled, > 0 [Pa]
+  float poisson_ratio = 0.45f;   ///< how much narrower the bar becomes per strain, 0..0.495 [-]
+  float damping = 0;             ///< of the rate of strain: viscous stress is this times the elastic modulus times the rate [s]
+  float static_friction = 0.6f;  ///< coefficient of friction at rest [-]
+  float kinetic_friction = 0.5f;  ///< coefficient of friction while sliding [-]
+  std::string source;             ///< where the numbers come from
+};
+
+/// Returns a built-in elastic solid: "gelatine", "rubber", "foam" or "muscle". For any other name throws an Error that lists
+/// the names.
+const ElasticSolid& elastic_solid(std::string_view name);
+
+/// All built-in elastic solids.
+const std::vector<ElasticSolid>& elastic_solids();
+
+/// Options of make_soft_body.
+struct SoftBodyOptions {
+  std::string name = "soft_body";
+  ElasticSolid material{};
+  Vec3f velocity{};          ///< at the start [m/s]
+  float thickness = 0.001f;  ///< Object::thickness: distance that its surface keeps [m]
+};
+
+/// Makes an elastic body of a tetrahedral mesh, which becomes its rest shape: of each tetrahedron a quarter of the mass at each
+/// corner, and two constraints, on its shear and on its volume, which together are the neo-Hookean solid of its Lame
+/// coefficients (Smith, de Goes and Kim 2018; Macklin and Mueller 2021). Its border is its surface, which collides, also with
+/// itself. Corners that no tetrahedron uses are dropped. Throws an Error that names a tetrahedron that cannot be used, or an
+/// option that is out of range.
+Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& options = {});
+
+/// The triangles that belong to one tetrahedron alone, counter-clockwise seen from outside. Throws an Error that names a
+/// triangle of three or more tetrahedra.
+std::vector<std::array<int, 3>> border_triangles(const TetrahedralMesh& mesh);
+
+/// A box about the origin of `cells` cubes along each axis, each cut into six tetrahedra about one diagonal (Kuhn 1960), so that
+/// faces match. Throws an Error unless the sizes are positive and there are 1 to 2^24 cells.
+TetrahedralMesh box_tetrahedra(const Vec3f& size, const std::array<int, 3>& cells);
+
+/// A tetrahedral mesh that was made of a surface, and what there is to say about it.
+struct FilledMesh {
+  TetrahedralMesh mesh;
+  std::vector<std::string> notes;
+};
+
+/// Fills what a closed mesh encloses with tetrahedra whose edges are about `size` long [m], cut from a body-centred cubic
+/// lattice; its border is moved onto the mesh where no tetrahedron becomes flat. Parts thinner than `size` may be lost, and a
+/// note says so. A surface that passes through itself encloses where it winds around. Throws an Error if the mesh has an edge
+/// without two triangles, encloses nothing at that size, or there would be more than 2^24 nodes.
+FilledMesh fill_with_tetrahedra(const TriangleMesh& mesh, float size);
+
+}  // namespace pliant
