@@ -21,11 +21,11 @@ struct TetrahedralMesh {
 /// Properties of an elastic solid. They do not depend on a mesh.
 struct ElasticSolid {
   std::string name;
-  float density = 1000;          ///< mass per volume [kg/m^3]
-  float youngs_modulus = 5e4f;   ///< stress per strain of a bar that is pulled, > 0 [Pa]
-  float poisson_ratio = 0.45f;   ///< how much narrower the bar becomes per strain, 0..0.495 [-]
-  float damping = 0;             ///< of the rate of strain: viscous stress is this times the elastic modulus times the rate [s]
-  float static_friction = 0.6f;  ///< coefficient of friction at rest [-]
+  float density = 1000;         ///< mass per volume [kg/m^3]
+  float youngs_modulus = 5e4f;  ///< stress per strain of a bar that is pulled, > 0 [Pa]
+  float poisson_ratio = 0.45f;  ///< how much narrower the bar becomes per strain, 0..0.495 [-]
+  float damping = 0;  ///< of the rate of strain: viscous stress is this times the elastic modulus times the rate [s]
+  float static_friction = 0.6f;   ///< coefficient of friction at rest [-]
   float kinetic_friction = 0.5f;  ///< coefficient of friction while sliding [-]
   std::string source;             ///< where the numbers come from
 };
@@ -47,9 +47,9 @@ struct SoftBodyOptions {
 
 /// Makes an elastic body of a tetrahedral mesh, which becomes its rest shape: of each tetrahedron a quarter of the mass at each
 /// corner, and two constraints, on its shear and on its volume, which together are the neo-Hookean solid of its Lame
-/// coefficients (Smith, de Goes and Kim 2018; Macklin and Mueller 2021). Its border is its surface, which collides, also with
-/// itself. Corners that no tetrahedron uses are dropped. Throws an Error that names a tetrahedron that cannot be used, or an
-/// option that is out of range.
+/// coefficients (Smith, de Goes and Kim 2018; Macklin and Mueller 2021). Its border is its surface, and collides with other
+/// objects; with itself only if Object::self_collision is set. Corners that no tetrahedron uses are dropped. Throws an Error that
+/// names a tetrahedron that cannot be used, or an option that is out of range.
 Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& options = {});
 
 /// The triangles that belong to one tetrahedron alone, counter-clockwise seen from outside. Throws an Error that names a

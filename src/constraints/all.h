@@ -31,9 +31,10 @@ namespace pliant {
 
 /// The types in the order in which a sweep visits them. Of joints, motors and friction come first, then limits, so that what
 /// holds parts together has the last word.
-using AllConstraints = TypeList<Distance, DihedralBending, IsometricBending, TetrahedronShear, TetrahedronVolume, JointAngleMotor, JointOffsetMotor, JointAngle,
-                                JointOffset, JointSwing, JointDistance, PulleyJointRows, GearJointRows, RackJointRows,
-                                PlanarJointRows, CylindricalJointRows, UniversalJointRows, SliderJointRows, BallJointRows,
-                                HingeJointRows, FixedJointRows, BodyAnchor>;
+using AllConstraints =
+    TypeList<Distance, DihedralBending, IsometricBending, TetrahedronShear, TetrahedronVolume, JointAngleMotor,
+             JointOffsetMotor, JointAngle, JointOffset, JointSwing, JointDistance, PulleyJointRows, GearJointRows,
+             RackJointRows, PlanarJointRows, CylindricalJointRows, UniversalJointRows, SliderJointRows, BallJointRows,
+             HingeJointRows, FixedJointRows, BodyAnchor>;
 
 }  // namespace pliant

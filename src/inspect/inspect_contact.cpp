@@ -11,6 +11,7 @@
 #include "collision/fields/solid_fields.h"
 #include "constraints/registry.h"
 #include "inspect/problems.h"
+#include "model/object_sets.h"
 #include "pliant/error.h"
 #include "topology/edges.h"
 #include "topology/folds.h"
@@ -149,7 +150,8 @@ bool masks_allow(const A& a, const B& b) {
 
 /// Warns of an object that is set to collide but can meet nothing: it would pass through everything.
 void doubt_company(Problems& problems, const Object& object, const Scene& scene) {
-  if (!object.collides || !object.bodies.empty() || object.fluid || object.grains) return;  // which collide by default
+  if (!object.collides || !object.bodies.empty() || object.fluid || object.grains || is_soft_body(object))
+    return;  // which collide by default
   const auto is_met_by_object = [&](const Object& other) {
     return &other != &object && other.collides && masks_allow(object, other);
   };

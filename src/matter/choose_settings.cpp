@@ -49,6 +49,7 @@ Choice choose(const Given& given, const Object& object, std::size_t number) {
   const std::string name = "'" + object.name + "'";
   const double gravity = given.surroundings.gravity;
   if (given.settings.iterations > 1) return {Sweep::tiled, "more than one iteration"};
+  if (is_soft_body(object)) return {Sweep::tiled, name + ", a soft body"};
   const std::size_t particles = linked_particles(object);
   // A heavy body stretches even a short rope, unless the rope is solved with the body's inertia, which only chains are.
   const bool is_tied = particles > 0 && has_ties(object);

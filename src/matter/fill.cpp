@@ -3,8 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "collision/fields/distance_grid.h"
-#include "collision/fields/mesh_query.h"
+#include "matter/closed_query.h"
 #include "pliant/error.h"
 #include "pliant/liquid.h"
 
@@ -25,22 +24,6 @@ std::vector<float> places(float low, float high, float spacing) {
   out.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) out.push_back(first + spacing * static_cast<float>(i));
   return out;
-}
-
-/// The mesh with only the vertices of its triangles checked. Throws an Error unless it is finite and closed.
-MeshQuery query_of(const TriangleMesh& mesh) {
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const Vec3f& p = mesh.positions[i];
-    if (!(std::abs(p.x) < 1e15f && std::abs(p.y) < 1e15f && std::abs(p.z) < 1e15f))
-      throw Error({.element = "vertex " + std::to_string(i)}, "is not finite, or beyond 1e15 m", "give a place");
-  }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const int corner : mesh.triangles[t])
-      if (corner < 0 || static_cast<std::size_t>(corner) >= mesh.positions.size())
-        throw Error({.element = "triangle " + std::to_string(t)}, "uses a vertex that does not exist",
-                    "indices count from 0");
-  require_closed(mesh.triangles, static_cast<int>(mesh.positions.size()));
-  return {mesh.positions, mesh.triangles};
 }
 
 }  // namespace
@@ -68,7 +51,7 @@ std::vector<Vec3f> fill_mesh(const TriangleMesh& mesh, float spacing, float clea
   require_positive("spacing", spacing);
   if (!(clearance >= 0) || !std::isfinite(clearance))
     throw Error({.element = "clearance"}, "is " + std::to_string(clearance), "give a finite distance of 0 or more [m]");
-  const MeshQuery query = query_of(mesh);
+  const MeshQuery query = query_of_closed(mesh);
   std::vector<Vec3f> points = fill_box(query.bounds().low, query.bounds().high, spacing);
   std::erase_if(points, [&](const Vec3f& p) {
     return !query.is_inside(p) || (clearance > 0 && query.closest(p, clearance).triangle >= 0);

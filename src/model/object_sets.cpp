@@ -296,6 +296,7 @@ int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_
   if (object.tracers) return 1;
   if (object.fluid) return std::max(substeps_of_fluid(object, frame_time), substeps_of_tension(object, frame_time));
   if (object.grains) return substeps_of_grains(heights_of_grains(object, frame_time), depth_of(object));
+  if (is_soft_body(object)) return substeps_of_soft_body(object, frame_time);
   const bool is_of_bodies = !object.bodies.empty() && object.bodies.size() == object.positions.size();
   if (is_of_bodies && !has_converted(object)) return substeps_of_bodies;
   if (object.volume && solves_chains(sweep) && !has_converted(object)) {

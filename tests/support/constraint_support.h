@@ -126,12 +126,30 @@ bool is_well_spread(const std::array<Vec3d, n>& x) {
   return true;
 }
 
+/// True if a type has no rest shape without volume.
+template <class T>
+inline constexpr bool needs_volume = std::is_same_v<T, TetrahedronShear> || std::is_same_v<T, TetrahedronVolume>;
+
+/// True if C is a norm of several numbers. Its level sets are curved at any distance from rest, so one projection removes its share
+/// only roughly, and several turn the direction of the gradient.
+template <class T>
+inline constexpr bool is_norm = std::is_same_v<T, TetrahedronShear>;
+
+/// True unless a type needs a volume that its first four points do not enclose.
+template <class T>
+bool spans_volume(const Stencil<T, double>& x) {
+  if constexpr (needs_volume<T>)
+    return std::fabs(dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0])) > 0.3;
+  else
+    return true;
+}
+
 template <class T>
 Stencil<T, double> random_stencil(Random& random) {
   for (;;) {
     Stencil<T, double> x;
     for (Vec3d& p : x) p = random_point(random, 1);
-    if (is_well_spread(x)) return x;
+    if (is_well_spread(x) && spans_volume<T>(x)) return x;
   }
 }
 
@@ -151,9 +169,10 @@ ParamsOf<T, double> random_params(Random& random) {
 }
 
 /// A random stencil with a flat rest shape: all points at z = 0, the third and the fourth on opposite sides of the
-/// first two.
+/// first two. Of a type that needs a volume, any stencil.
 template <class T>
 Stencil<T, double> flat_stencil(Random& random) {
+  if constexpr (needs_volume<T>) return random_stencil<T>(random);
   for (;;) {
     Stencil<T, double> x;
     for (std::size_t i = 0; i < x.size(); ++i) {

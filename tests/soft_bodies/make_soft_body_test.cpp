@@ -1,0 +1,190 @@
+// Makers of soft bodies: tetrahedra of boxes and of closed meshes, masses, borders, and what they refuse.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "pliant/error.h"
+#include "soft_bodies/soft_body_support.h"
+#include "topology/boundary.h"
+#include "topology/edges.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+double sum(const std::vector<double>& of) {
+  double all = 0;
+  for (const double one : of) all += one;
+  return all;
+}
+
+double volume_inside(const std::vector<Vec3f>& positions, const std::vector<std::array<int, 3>>& triangles) {
+  double six = 0;
+  for (const auto& [a, b, c] : triangles) {
+    const auto at = [&](int i) { return convert<double>(positions[static_cast<std::size_t>(i)]); };
+    six += dot(cross(at(a), at(b)), at(c));
+  }
+  return six / 6;
+}
+
+template <class Act>
+std::string refusal(const Act& act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BoxTetrahedra, FillTheBoxAndMatch) {
+  const TetrahedralMesh mesh = box_tetrahedra({0.3f, 0.2f, 0.4f}, {3, 2, 4});
+  EXPECT_EQ(mesh.positions.size(), 4u * 3 * 5);
+  EXPECT_EQ(mesh.tetrahedra.size(), 6u * 3 * 2 * 4);
+  const std::vector<double> volumes = six_volumes(mesh.positions, mesh.tetrahedra);
+  EXPECT_GT(*std::min_element(volumes.begin(), volumes.end()), 0);
+  EXPECT_NEAR(sum(volumes) / 6, 0.3 * 0.2 * 0.4, 1e-7);
+  const auto border = border_triangles(mesh);
+  EXPECT_EQ(border.size(), 4u * (3 * 2 + 2 * 4 + 3 * 4));
+  EXPECT_TRUE(is_closed(find_edges(border, static_cast<int>(mesh.positions.size()))));
+  EXPECT_NEAR(volume_inside(mesh.positions, border), 0.024, 1e-7);
+}
+
+TEST(BoxTetrahedra, RefuseWhatIsNoBox) {
+  EXPECT_NE(refusal([] { box_tetrahedra({0, 1, 1}, {1, 1, 1}); }).find("size"), std::string::npos);
+  EXPECT_NE(refusal([] { box_tetrahedra({1, 1, 1}, {0, 1, 1}); }).find("cells"), std::string::npos);
+  EXPECT_NE(refusal([] { box_tetrahedra({1, 1, 1}, {1 << 24, 1 << 24, 1 << 24}); }).find("cells"), std::string::npos);
+  EXPECT_NE(refusal([] { box_tetrahedra({1, std::nanf(""), 1}, {1, 1, 1}); }).find("size"), std::string::npos);
+}
+
+TEST(MakeSoftBody, HasTheMassOfItsVolume) {
+  SoftBodyOptions options;
+  options.material = elastic_solid("rubber");
+  const Object body = make_soft_body(box_tetrahedra({0.3f, 0.2f, 0.4f}, {3, 2, 4}), options);
+  double mass = 0;
+  for (const float one : body.masses) mass += static_cast<double>(one);
+  EXPECT_NEAR(mass, 950 * 0.024, 1e-3);
+  ASSERT_EQ(body.constraints.size(), 2u);
+  EXPECT_TRUE(body.collides);
+  EXPECT_TRUE(is_closed(find_edges(body.triangles, static_cast<int>(body.positions.size()))));
+}
+
+TEST(MakeSoftBody, ComplianceIsThatOfLame) {
+  SoftBodyOptions options;
+  options.material = solid_of(1e5f, 0.25f);
+  const Object body = make_soft_body({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}}, options);
+  // lambda = mu = E / 2.5 = 40 kPa for a ratio of a quarter; the volume is a sixth.
+  EXPECT_NEAR(body.constraints[0].compliances[0], 6 / 4e4, 1e-9);
+  EXPECT_NEAR(body.constraints[1].compliances[0], 6 / 4e4, 1e-9);
+}
+
+TEST(MakeSoftBody, WithoutPoissonsRatioHasNoVolumeConstraint) {
+  SoftBodyOptions options;
+  options.material = solid_of(1e5f, 0);
+  EXPECT_EQ(make_soft_body(box_tetrahedra({1, 1, 1}, {1, 1, 1}), options).constraints.size(), 1u);
+}
+
+TEST(MakeSoftBody, TurnsTetrahedraAndDropsCornersWithoutOne) {
+  const TetrahedralMesh mesh{{{9, 9, 9}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}}, {{1, 2, 3, 4}}};
+  const Object body = make_soft_body(mesh);
+  EXPECT_EQ(body.positions.size(), 4u);
+  EXPECT_NEAR(volume_inside(body.positions, body.triangles), 1.0 / 6, 1e-7);
+}
+
+TEST(MakeSoftBody, NamesWhatItRefuses) {
+  const TetrahedralMesh good{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}};
+  const auto of_mesh = [&](auto change) {
+    TetrahedralMesh mesh = good;
+    change(mesh);
+    return refusal([&] { make_soft_body(mesh); });
+  };
+  const auto of_options = [&](auto change) {
+    SoftBodyOptions options;
+    change(options);
+    return refusal([&] { make_soft_body(good, options); });
+  };
+  const float nan = std::nanf(""), infinity = std::numeric_limits<float>::infinity();
+  EXPECT_NE(of_mesh([](auto& m) { m.tetrahedra.clear(); }).find("no tetrahedron"), std::string::npos);
+  EXPECT_NE(of_mesh([](auto& m) { m.tetrahedra[0][2] = 4; }).find("tetrahedron 0"), std::string::npos);
+  EXPECT_NE(of_mesh([](auto& m) { m.tetrahedra[0][2] = -1; }).find("vertex -1"), std::string::npos);
+  EXPECT_NE(of_mesh([](auto& m) { m.tetrahedra[0][2] = 1; }).find("twice"), std::string::npos);
+  EXPECT_NE(of_mesh([](auto& m) { m.positions[3].z = 0; }).find("flat"), std::string::npos);
+  EXPECT_NE(of_mesh([&](auto& m) { m.positions[3].z = nan; }).find("vertex 3"), std::string::npos);
+  EXPECT_NE(of_mesh([](auto& m) { m.tetrahedra.push_back(m.tetrahedra[0]); }).find("border"), std::string::npos);
+  EXPECT_NE(of_mesh([](auto& m) {
+              m.tetrahedra.push_back(m.tetrahedra[0]);
+              m.tetrahedra.push_back(m.tetrahedra[0]);
+            }).find("shares a face"),
+            std::string::npos);
+  EXPECT_NE(of_options([](auto& o) { o.material.youngs_modulus = 0; }).find("youngs_modulus"), std::string::npos);
+  EXPECT_NE(of_options([&](auto& o) { o.material.youngs_modulus = infinity; }).find("youngs_modulus"), std::string::npos);
+  EXPECT_NE(of_options([](auto& o) { o.material.poisson_ratio = 0.5f; }).find("0.495"), std::string::npos);
+  EXPECT_NE(of_options([&](auto& o) { o.material.density = nan; }).find("density"), std::string::npos);
+  EXPECT_NE(of_options([](auto& o) { o.material.damping = -1; }).find("damping"), std::string::npos);
+  EXPECT_NE(of_options([](auto& o) { o.material.static_friction = 0.1f; }).find("static_friction"), std::string::npos);
+  EXPECT_NE(of_options([](auto& o) { o.thickness = -1; }).find("thickness"), std::string::npos);
+}
+
+TEST(ElasticSolids, AreUsableAndNamed) {
+  ASSERT_FALSE(elastic_solids().empty());
+  for (const ElasticSolid& solid : elastic_solids()) {
+    EXPECT_EQ(&elastic_solid(solid.name), &solid);
+    EXPECT_FALSE(solid.source.empty());
+    SoftBodyOptions options;
+    options.material = solid;
+    EXPECT_NO_THROW(make_soft_body(box_tetrahedra({1, 1, 1}, {1, 1, 1}), options)) << solid.name;
+  }
+  EXPECT_NE(refusal([] { elastic_solid("jelly"); }).find("gelatine"), std::string::npos);
+}
+
+// ------------------------------------------------------------------------------------------------ closed meshes
+
+TEST(FillWithTetrahedra, FillsASphere) {
+  const TriangleMesh sphere = sphere_mesh(4);
+  const FilledMesh filled = fill_with_tetrahedra(sphere, 0.2f);
+  EXPECT_TRUE(filled.notes.empty()) << filled.notes.front();
+  const std::vector<double> volumes = six_volumes(filled.mesh.positions, filled.mesh.tetrahedra);
+  EXPECT_GT(*std::min_element(volumes.begin(), volumes.end()), 0);
+  EXPECT_NEAR(sum(volumes) / 6 / volume_inside(sphere.positions, sphere.triangles), 1, 0.03);
+  double farthest = 0;
+  const auto border = border_triangles(filled.mesh);
+  for (const auto& triangle : border)
+    for (const int corner : triangle)
+      farthest = std::max(
+          farthest, std::fabs(static_cast<double>(length(filled.mesh.positions[static_cast<std::size_t>(corner)])) - 1));
+  EXPECT_LT(farthest, 0.03);
+  EXPECT_TRUE(is_closed(find_edges(border, static_cast<int>(filled.mesh.positions.size()))));
+}
+
+TEST(FillWithTetrahedra, TakesAnInwardMeshAlike) {
+  TriangleMesh sphere = sphere_mesh(3);
+  const FilledMesh outward = fill_with_tetrahedra(sphere, 0.3f);
+  for (auto& triangle : sphere.triangles) std::swap(triangle[1], triangle[2]);
+  const FilledMesh inward = fill_with_tetrahedra(sphere, 0.3f);
+  EXPECT_EQ(outward.mesh.tetrahedra, inward.mesh.tetrahedra);
+}
+
+TEST(FillWithTetrahedra, SaysWhatItLeavesOut) {
+  TriangleMesh two = sphere_mesh(3);  // and a ball much smaller than the cells
+  TriangleMesh small = sphere_mesh(2);
+  const auto first = static_cast<int>(two.positions.size());
+  for (const Vec3f& p : small.positions) two.positions.push_back(0.15f * p + Vec3f{3.05f, 0.02f, 0.04f});
+  for (const auto& [a, b, c] : small.triangles) two.triangles.push_back({first + a, first + b, first + c});
+  const FilledMesh filled = fill_with_tetrahedra(two, 0.25f);
+  for (const Vec3f& p : filled.mesh.positions) EXPECT_LT(p.x, 2);
+}
+
+TEST(FillWithTetrahedra, RefusesWhatEnclosesNothing) {
+  TriangleMesh open = sphere_mesh(2);
+  open.triangles.pop_back();
+  EXPECT_NE(refusal([&] { fill_with_tetrahedra(open, 0.3f); }), "accepted");
+  EXPECT_NE(refusal([] { fill_with_tetrahedra({}, 0.3f); }), "accepted");
+  EXPECT_NE(refusal([] { fill_with_tetrahedra(sphere_mesh(2), 0); }).find("size"), std::string::npos);
+  EXPECT_NE(refusal([] { fill_with_tetrahedra(sphere_mesh(2), 50); }).find("too large"), std::string::npos);
+  EXPECT_NE(refusal([] { fill_with_tetrahedra(sphere_mesh(2), 1e-4f); }).find("larger size"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pliant
