@@ -138,7 +138,7 @@ const JsonValue& one_of(const JsonValue& at, std::initializer_list<const char*> 
 Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
                  std::vector<std::string>& repairs) {
   const JsonValue& what =
-      one_of(at, {"cloth", "rope", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"});
+      one_of(at, {"cloth", "soft_body", "rope", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"});
   BuiltObject built = build_matter(document, what, names.of(document, at, what.key), folder, repairs);
   add_parts(document, at, folder, built.object, repairs);
   set_joints(document, at, built.object);
@@ -263,8 +263,11 @@ PairProperties pair_of(const JsonDocument& document, const JsonValue& at, const 
 std::vector<std::string> names_with_mesh(const JsonDocument& document, const Scene& scene) {
   std::vector<std::string> names;
   const std::vector<JsonValue>& objects = elements(document.root, "objects");
-  for (std::size_t i = 0; i < objects.size(); ++i)
-    if (objects[i].find("cloth") != nullptr) names.push_back(scene.objects[i].name);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const JsonValue* soft = objects[i].find("soft_body");
+    if (objects[i].find("cloth") != nullptr || (soft != nullptr && soft->find("mesh") != nullptr))
+      names.push_back(scene.objects[i].name);
+  }
   for (const MeshCollider& collider : scene.mesh_colliders) names.push_back(collider.name);
   return names;
 }

@@ -17,7 +17,7 @@ struct BuiltObject {
   int columns = 0, rows = 0;  ///< number of vertices along a grid; 0: no grid
 };
 
-/// Builds an object without pins and attachments. `what` is the member "cloth", "rope", "particles", "bodies" or "urdf".
+/// Builds an object without pins and attachments. `what` is the member "cloth", "soft_body", "rope" and so on.
 BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, const std::string& name,
                          const MeshFolder& folder, std::vector<std::string>& repairs);
 
@@ -69,5 +69,9 @@ std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at);
 BuiltObject gas_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
                    std::vector<std::string>& repairs);
 BuiltObject tracers_of(const JsonValue& at, const std::string& name);
+
+// Defined in scene_soft_bodies.cpp.
+BuiltObject soft_body_of(const JsonDocument& document, const JsonValue& at, const std::string& name,
+                         const MeshFolder& folder, std::vector<std::string>& repairs);
 
 }  // namespace pliant::scene_file

@@ -19,6 +19,9 @@ const Record& fill_record();
 const Record& gas_record();
 const Record& tracers_record();
 
+// Defined in scene_grammar_soft_bodies.cpp.
+const Record& soft_body_record();
+
 // Defined in scene_grammar_colliders.cpp.
 const Record& plane_record();
 const Record& sphere_record();

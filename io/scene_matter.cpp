@@ -259,6 +259,7 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
                          const MeshFolder& folder, std::vector<std::string>& repairs) {
   try {
     if (what.key == "cloth") return cloth_of(document, what, name, folder, repairs);
+    if (what.key == "soft_body") return soft_body_of(document, what, name, folder, repairs);
     if (what.key == "liquid") return liquid_of(document, what, name, folder, repairs);
     if (what.key == "gas") return gas_of(document, what, name, folder, repairs);
     if (what.key == "tracers") return tracers_of(what, name);

@@ -140,10 +140,10 @@ TriangleMesh heightfield_of(const JsonDocument& document, const JsonValue& at, S
 
 /// Sets a placement that scales the mesh to a longest side of `size` [m], centres it above the origin and puts its
 /// lowest point at y = 0.
-void fit(const TriangleMesh& mesh, float size, Placement& placement) {
-  if (mesh.positions.empty()) return;
-  Vec3f low = mesh.positions.front(), high = low;
-  for (const Vec3f& p : mesh.positions) {
+void fit(const std::vector<Vec3f>& positions, float size, Placement& placement) {
+  if (positions.empty()) return;
+  Vec3f low = positions.front(), high = low;
+  for (const Vec3f& p : positions) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
@@ -153,10 +153,10 @@ void fit(const TriangleMesh& mesh, float size, Placement& placement) {
   placement.fit_offset = -placement.fit * Vec3f{0.5f * (low.x + high.x), low.y, 0.5f * (low.z + high.z)};
 }
 
-Placement placement_of(const JsonDocument& document, const JsonValue& at, const TriangleMesh& mesh) {
+Placement placement_of(const JsonDocument& document, const JsonValue& at, const std::vector<Vec3f>& positions) {
   Placement placement;
   float size = 0;
-  if (set(at, "fit", size)) fit(mesh, size, placement);
+  if (set(at, "fit", size)) fit(positions, size, placement);
   if (const JsonValue* value = at.find("scale")) {
     const float factor = static_cast<float>(value->number);
     placement.scale = value->kind == JsonValue::Kind::array ? vector_of(*value) : Vec3f{factor, factor, factor};
@@ -166,10 +166,10 @@ Placement placement_of(const JsonDocument& document, const JsonValue& at, const 
   return placement;
 }
 
-void check_places(const JsonDocument& document, const JsonValue& at, const TriangleMesh& mesh) {
+void check_places(const JsonDocument& document, const JsonValue& at, const std::vector<Vec3f>& positions) {
   const auto inside = [](float x) { return x >= -largest_place && x <= largest_place; };  // false for NaN
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    const Vec3f& p = mesh.positions[i];
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec3f& p = positions[i];
     if (!inside(p.x) || !inside(p.y) || !inside(p.z))
       document.fail(at, "vertex " + std::to_string(i) + " lies more than 1000 km from the origin",
                     "scale or move the mesh");
@@ -211,13 +211,18 @@ Vec3f Placement::place(const Vec3f& p) const {
   return (turns ? rotated(turn, q) : q) + translation;
 }
 
+Placement place(const JsonDocument& document, const JsonValue& at, std::vector<Vec3f>& positions) {
+  const Placement placement = placement_of(document, at, positions);
+  for (Vec3f& p : positions) p = placement.place(p);
+  check_places(document, at, positions);
+  return placement;
+}
+
 SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const std::string& name,
                     Repair repair) {
   SceneMesh result;
   fill(document, at, folder, name, repair, result);
-  result.placement = placement_of(document, at, result.mesh);
-  for (Vec3f& p : result.mesh.positions) p = result.placement.place(p);
-  check_places(document, at, result.mesh);
+  result.placement = place(document, at, result.mesh.positions);
   return result;
 }
 
@@ -232,7 +237,7 @@ std::vector<Vec3f> make_frame(const JsonDocument& document, const JsonValue& at,
                       std::to_string(mesh.mesh.positions.size()),
                   "give one position per vertex of the mesh, in its order");
   for (Vec3f& p : frame.positions) p = mesh.placement.place(p);
-  check_places(document, at, frame);
+  check_places(document, at, frame.positions);
   return frame.positions;
 }
 

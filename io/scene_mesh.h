@@ -49,6 +49,10 @@ enum class Repair { yes, no };
 SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const std::string& name,
                     Repair repair = Repair::yes);
 
+/// Moves positions by the placement in a checked record with `fit`, `scale`, `rotate` and `translate`. Throws an Error if one is then
+/// beyond `largest_place`.
+Placement place(const JsonDocument& document, const JsonValue& at, std::vector<Vec3f>& positions);
+
 /// Reads the vertices of another frame of `mesh`, with its placement. Throws like make_mesh, or if their number differs.
 std::vector<Vec3f> make_frame(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder,
                               const SceneMesh& mesh);

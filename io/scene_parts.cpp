@@ -105,7 +105,7 @@ void set_ties(const JsonDocument& document, const JsonValue& at, const BuiltObje
 }
 
 const JsonValue& matter_of(const JsonValue& part) {
-  for (const char* kind : {"cloth", "rope"})
+  for (const char* kind : {"cloth", "soft_body", "rope"})
     if (const JsonValue* found = part.find(kind)) return *found;
   return *part.find("particles");
 }

@@ -10,6 +10,7 @@
 #include "pliant/gauges.h"
 #include "pliant/mesh.h"
 #include "pliant/scene.h"
+#include "pliant/soft_body.h"
 #include "pliant/world.h"
 
 namespace pliant {
@@ -34,6 +35,15 @@ MeshFile read_mesh_file(const std::string& path, const MeshReadOptions& options 
 
 /// Reads a mesh as read_mesh_file does, and returns the mesh alone.
 TriangleMesh read_mesh(const std::string& path);
+
+/// A tetrahedral mesh that was read, and descriptions of the repairs made.
+struct TetrahedralMeshFile {
+  TetrahedralMesh mesh;
+  std::vector<std::string> repairs;
+};
+
+/// Reads a tetrahedral mesh.
+TetrahedralMeshFile read_tetrahedral_mesh(const std::string& path);
 
 /// Writes a mesh as .obj or .ply. If writing fails, an existing file stays unchanged, and the Error names the path.
 void write_mesh(const std::string& path, const TriangleMesh& mesh);

@@ -1,0 +1,82 @@
+// The table of the scene format: soft bodies.
+#include "pliant/soft_body.h"
+#include "scene_grammar_parts.h"
+#include "scene_grammar_words.h"
+
+namespace pliant::scene_file {
+
+namespace {
+
+std::vector<std::string> solid_names() {
+  std::vector<std::string> names;
+  for (const ElasticSolid& one : elastic_solids()) names.push_back(one.name);
+  return names;
+}
+
+const Record& elastic_solid_record() {
+  static const Record result{
+      "elastic solid",
+      "An elastic solid in SI units, independent of the mesh. Missing members come from `base`, or else from the defaults.",
+      {field("base", choice(solid_names()), "none", "A built-in elastic solid to start from."),
+       field("name", string(), "none", "Its name."), field("source", text(), "none", "Source of the numbers."),
+       field("density", positive("kg/m^3", 1e12), ElasticSolid{}.density, "Mass per volume."),
+       field("youngs_modulus", positive("Pa", 1e15), ElasticSolid{}.youngs_modulus,
+             "Young's modulus: stress per strain of a bar that is pulled."),
+       field("poisson_ratio", number("-", 0, 0.495), ElasticSolid{}.poisson_ratio,
+             "Poisson's ratio: how much narrower the bar becomes per strain."),
+       field("damping", number("s", 0, 1e6), ElasticSolid{}.damping,
+             "Viscous stress over the elastic modulus times the rate of strain."),
+       field("static_friction", number("-", 0, 1000), ElasticSolid{}.static_friction, "Coefficient of static friction."),
+       field("kinetic_friction", number("-", 0, 1000), "0.5; at most the static one",
+             "Coefficient of kinetic friction, at most the static one.")},
+      {}};
+  return result;
+}
+
+const Record& tetrahedral_box_record() {
+  static const Record result{"box of tetrahedra",
+                             "A box about the origin, of cubes that are cut into six tetrahedra each.",
+                             {needed("size", positive_vector("m", largest_place), "Sizes along x, y and z."),
+                              needed("cells", list(integer(1, 1 << 20), 3, 3), "Number of cubes along x, y and z.")},
+                             {}};
+  return result;
+}
+
+const Record& tetrahedra_record() {
+  static const Record result{
+      "tetrahedra",
+      "The source of tetrahedra and their placement: fitted, then scaled, then rotated, then moved. The result is also the "
+      "rest shape.",
+      {either("file", string(),
+              "Path of a tetrahedral mesh, relative to the folder of the scene: TetGen .node and .ele, Gmsh .msh, VTK "
+              ".vtk, Medit "
+              ".mesh, or vertices and tetrahedra as text."),
+       either("box", record(tetrahedral_box_record()), "A box."),
+       field("fit", positive("m", largest_place), "none",
+             "Scales and moves the mesh so that its longest side has this length, its centre lies above the origin and its "
+             "lowest point at y = 0."),
+       field("scale", any_of({positive("-", 1e6), positive_vector("-", 1e6)}), 1,
+             "Scale factor, one for all axes or one per axis."),
+       field("rotate", record(rotation_record()), "none", "Rotation about the origin."),
+       field("translate", place(), Vec3f{}, "Translation.")},
+      {"file", "box"}};
+  return result;
+}
+
+}  // namespace
+
+const Record& soft_body_record() {
+  static const Record result{
+      "soft body",
+      "An elastic solid of tetrahedra. Its border is its surface.",
+      {either("tetrahedra", record(tetrahedra_record()), "Its tetrahedra."),
+       either("mesh", record(mesh_record()), "A closed surface, which is filled with tetrahedra of edges of `size`."),
+       field("size", positive("m", largest_place), "an eighth of the longest side",
+             "Only for a mesh: length of the edges of tetrahedra."),
+       field("material", any_of({choice(solid_names()), record(elastic_solid_record())}), "the defaults of elastic solid",
+             "The material: the name of a built-in elastic solid, or an elastic solid.")},
+      {"tetrahedra", "mesh"}};
+  return result;
+}
+
+}  // namespace pliant::scene_file

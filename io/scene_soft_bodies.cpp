@@ -1,0 +1,104 @@
+// Builds soft bodies in scene files.
+#include <algorithm>
+#include <string>
+
+#include "pliant/soft_body.h"
+#include "scene_build.h"
+#include "scene_grammar.h"
+#include "scene_mesh.h"
+#include "scene_values.h"
+
+namespace pliant::scene_file {
+
+namespace {
+
+ElasticSolid solid_of(const JsonDocument& document, const JsonValue& at) {
+  if (at.kind == JsonValue::Kind::string) return elastic_solid(at.text);
+  ElasticSolid solid;
+  if (const JsonValue* base = at.find("base")) solid = elastic_solid(base->text);
+  set(at, "name", solid.name);
+  set(at, "source", solid.source);
+  set(at, "density", solid.density);
+  set(at, "youngs_modulus", solid.youngs_modulus);
+  set(at, "poisson_ratio", solid.poisson_ratio);
+  set(at, "damping", solid.damping);
+  set_friction(document, at, solid.static_friction, solid.kinetic_friction);
+  return solid;
+}
+
+TetrahedralMesh box_of(const JsonDocument& document, const JsonValue& at) {
+  Vec3f size;
+  set(at, "size", size);
+  std::array<int, 3> cells{};
+  double nodes = 1;
+  const JsonValue& list = *at.find("cells");
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    cells[i] = static_cast<int>(list.items[i].number);
+    nodes *= cells[i] + 1.;
+  }
+  if (nodes > largest_scene)
+    document.fail(list, "more than " + std::to_string(largest_scene) + " particles", "use fewer cells");
+  return box_tetrahedra(size, cells);
+}
+
+/// Names of repairs in a scene: of an object, and of the file if it was read from one.
+struct Notes {
+  const std::string& object;
+  std::vector<std::string>& repairs;
+
+  void add(const std::string& source, const std::vector<std::string>& notes) const {
+    for (const std::string& one : notes)
+      repairs.push_back("object '" + object + "', " + (source.empty() ? "" : source + ": ") + one);
+  }
+};
+
+TetrahedralMesh tetrahedra_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder,
+                              const Notes& notes) {
+  TetrahedralMesh mesh;
+  if (const JsonValue* box = at.find("box")) mesh = box_of(document, *box);
+  if (const JsonValue* file = at.find("file")) {
+    TetrahedralMeshFile read = read_tetrahedral_mesh(allowed_path(document, *file, folder));
+    mesh = std::move(read.mesh);
+    notes.add(file->text, read.repairs);
+  }
+  place(document, at, mesh.positions);
+  return mesh;
+}
+
+float longest_side(const TriangleMesh& mesh) {
+  Vec3f low = mesh.positions.front(), high = low;
+  for (const Vec3f& p : mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+TetrahedralMesh filled(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const Notes& notes) {
+  constexpr float share = 0.125f;
+  const SceneMesh surface = make_mesh(document, *at.find("mesh"), folder, notes.object);
+  notes.add("", surface.repairs);
+  float size = surface.mesh.positions.empty() ? 0 : share * longest_side(surface.mesh);
+  set(at, "size", size);
+  FilledMesh result = fill_with_tetrahedra(surface.mesh, size);
+  notes.add("", result.notes);
+  return std::move(result.mesh);
+}
+
+}  // namespace
+
+BuiltObject soft_body_of(const JsonDocument& document, const JsonValue& at, const std::string& name,
+                         const MeshFolder& folder, std::vector<std::string>& repairs) {
+  SoftBodyOptions options;
+  options.name = name;
+  if (const JsonValue* material = at.find("material")) options.material = solid_of(document, *material);
+  const Notes notes{name, repairs};
+  if (const JsonValue* tetrahedra = at.find("tetrahedra")) {
+    if (const JsonValue* size = at.find("size"))
+      document.fail_key(*size, "is only for a mesh", "remove it, or scale the tetrahedra");
+    return {make_soft_body(tetrahedra_of(document, *tetrahedra, folder, notes), options)};
+  }
+  return {make_soft_body(filled(document, at, folder, notes), options)};
+}
+
+}  // namespace pliant::scene_file
