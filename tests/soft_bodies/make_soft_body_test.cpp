@@ -1,11 +1,15 @@
 // Makers of soft bodies: tetrahedra of boxes and of closed meshes, masses, borders, and what they refuse.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 #include <string>
 
 #include "pliant/error.h"
 #include "soft_bodies/soft_body_support.h"
+#include "support/paths.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"
 
@@ -137,6 +141,25 @@ TEST(ElasticSolids, AreUsableAndNamed) {
     EXPECT_NO_THROW(make_soft_body(box_tetrahedra({1, 1, 1}, {1, 1, 1}), options)) << solid.name;
   }
   EXPECT_NE(refusal([] { elastic_solid("jelly"); }).find("gelatine"), std::string::npos);
+}
+
+std::string number(float value) {
+  std::ostringstream text;
+  text << std::setprecision(8) << value;
+  return text.str();
+}
+
+TEST(ElasticSolids, AreThoseOfTheGuide) {
+  std::ifstream file(PLIANT_SOURCE_DIR "/docs/guide/soft_bodies.md");
+  std::ostringstream text;
+  text << file.rdbuf();
+  for (const ElasticSolid& s : elastic_solids()) {
+    std::string row = "| " + s.name;
+    for (const float value :
+         {s.density, s.youngs_modulus, s.poisson_ratio, s.damping, s.static_friction, s.kinetic_friction})
+      row += " | " + number(value);
+    EXPECT_NE(text.str().find(row + " |"), std::string::npos) << "docs/guide/soft_bodies.md should hold\n" << row;
+  }
 }
 
 // ------------------------------------------------------------------------------------------------ closed meshes
