@@ -17,6 +17,7 @@
 #include "apps/bench/memory.h"
 #include "apps/bench/piles.h"
 #include "apps/bench/scene_table.h"
+#include "apps/bench/soft_bodies.h"
 #include "atomic_file.h"
 #include "command.h"
 #include "give_back.h"
@@ -168,6 +169,22 @@ std::string bench_liquids(const BenchOptions& options) {
   return to_json(pliant::bench::measure_liquids(wanted));
 }
 
+std::string bench_soft_bodies(const BenchOptions& options) {
+  pliant::bench::SoftBodyBenchOptions wanted;
+  if (!options.sizes.empty()) wanted.sizes = options.sizes;
+  wanted.frames = options.frames.value_or(wanted.frames);
+  print(
+      "cells  tetrahedra  material           engine       substeps  ms/frame  ns/proj.   ratio  inverted  worst volume  "
+      "set-up, ms\n");
+  wanted.on_row = [](const pliant::bench::SoftBodyRow& row) {
+    throw_if_interrupted();
+    print(fmt::format("{:5}  {:10}  {:<17}  {:<11} {:9} {:9.2f} {:9.2f} {:7.2f} {:9} {:13.3f} {:11.0f}\n", row.cells,
+                      row.tetrahedra, row.material, row.engine, row.substeps, row.median_ms, row.ns, row.ratio,
+                      row.inverted, row.worst, row.set_up_ms));
+  };
+  return to_json(pliant::bench::measure_soft_bodies(wanted));
+}
+
 std::string bench_columns(const BenchOptions& options) {
   pliant::bench::ColumnOptions wanted;
   if (!options.sizes.empty()) wanted.depths = options.sizes;
@@ -226,7 +243,7 @@ void refuse_unknown(const std::string& workload) {
   std::vector<std::string> names;
   for (const pliant::bench::Workload& frames : pliant::bench::workloads()) names.push_back(frames.name);
   for (const char* other : {"bodies", "bodies-pyramid", "bodies-tower", "bodies-pour", "columns", "contact", "covered",
-                            "default", "joints", "memory", "W3", "W3-ball", "W3-cloth", "W5"})
+                            "default", "joints", "memory", "W2", "W3", "W3-ball", "W3-cloth", "W5"})
     names.emplace_back(other);
   if (workload.empty() || std::find(names.begin(), names.end(), workload) != names.end()) return;
   const std::string near = scene_file::nearest_name(workload, names);
@@ -247,6 +264,7 @@ std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload == "memory") return bench_memory(options);
   if (options.workload == "W3" || options.workload == "W3-ball" || options.workload == "W3-cloth")
     return bench_landings(options);
+  if (options.workload == "W2") return bench_soft_bodies(options);
   if (options.workload == "W5") return bench_liquids(options);
   return std::nullopt;
 }

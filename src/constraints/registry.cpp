@@ -95,7 +95,6 @@ bool is_length(const std::string& name) {
 
 bool is_hinge(const std::string& name) { return name == DihedralBending::name || is_flat_hinge(name); }
 bool is_flat_hinge(const std::string& name) { return name == IsometricBending::name; }
-bool is_tetrahedron_shear(const std::string& name) { return name == TetrahedronShear::name; }
 double fold_angle(const Vec3d (&x)[4]) { return DihedralBending::measure(x).rest_angle; }
 
 const std::vector<ConstraintType>& constraint_types() { return registry().types; }

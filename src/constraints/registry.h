@@ -29,8 +29,6 @@ bool is_length(const std::string& name);
 bool is_hinge(const std::string& name);
 /// True if a hinge of this type always has a flat rest shape, whatever its rest data.
 bool is_flat_hinge(const std::string& name);
-/// True if this constraint type is the shear of a tetrahedron, of which a soft body has one each.
-bool is_tetrahedron_shear(const std::string& name);
 /// The dihedral angle of a hinge, given by the ends of its edge and then its tips; 0 if flat [rad].
 double fold_angle(const Vec3d (&x)[4]);
 

@@ -9,6 +9,7 @@
 #include "geometry/shapes.h"
 #include "inspect/problems.h"
 #include "model/object_sets.h"
+#include "model/soft_body_substeps.h"
 #include "pliant/report.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"

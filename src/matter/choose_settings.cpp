@@ -9,6 +9,7 @@
 #include "matter/object_facts.h"
 #include "matter/surroundings.h"
 #include "model/object_sets.h"
+#include "model/soft_body_substeps.h"
 #include "pliant/scene.h"
 
 namespace pliant {

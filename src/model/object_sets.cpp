@@ -12,6 +12,7 @@
 #include "math/functions.h"
 #include "math/vector.h"
 #include "model/attachments.h"
+#include "model/soft_body_substeps.h"
 
 namespace pliant {
 

@@ -57,12 +57,6 @@ int substeps_of_fluid(const Object& object, double frame_time);
 /// The substeps that the surface tension of a liquid needs: of 0.05 sqrt(density spacing^3 / tension), of a capillary wave of the spacing.
 int substeps_of_tension(const Object& object, double frame_time);
 
-/// True if constraints on the shear of tetrahedra make the object an elastic solid.
-bool is_soft_body(const Object& object);
-/// The substeps with which one sweep holds a soft body about as stiffly as its modulus says: in each, a shear wave passes a quarter of
-/// an edge, or less where its constraints are damped. 20 to 1000.
-int substeps_of_soft_body(const Object& object, double frame_time);
-
 /// The share of its overlap that a contact of two grains removes in an iteration (solver/grains/grain_formulas.h).
 inline constexpr float stiffness_of_grains = 0.2f;
 

@@ -1,10 +1,10 @@
-// The substeps of elastic tetrahedra.
+#include "model/soft_body_substeps.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "constraints/registry.h"
-#include "model/object_sets.h"
+#include "constraints/tetrahedron_shear.h"
 
 namespace pliant {
 
@@ -42,7 +42,7 @@ void add(const Object& object, const int* corners, Averages& to) {
 Averages averages_of(const Object& object) {
   Averages sum;
   for (const ConstraintGroup& group : object.constraints) {
-    if (!is_tetrahedron_shear(group.type) || group.stiffness.kind != Stiffness::Kind::compliance) continue;
+    if (!group.type == TetrahedronShear::name || group.stiffness.kind != Stiffness::Kind::compliance) continue;
     for (std::size_t t = 0; t < group.particles.size() / 4; ++t) {
       const double compliance = group.compliances.empty() ? group.stiffness.value : group.compliances[t];
       if (!(compliance > 0)) continue;  // rigid: no number of substeps suffices
@@ -58,7 +58,7 @@ Averages averages_of(const Object& object) {
 
 bool is_soft_body(const Object& object) {
   return std::any_of(object.constraints.begin(), object.constraints.end(),
-                     [](const ConstraintGroup& group) { return is_tetrahedron_shear(group.type); });
+                     [](const ConstraintGroup& group) { return group.type == TetrahedronShear::name; });
 }
 
 int substeps_of_soft_body(const Object& object, double frame_time) {

@@ -1,0 +1,15 @@
+// The substeps of elastic tetrahedra.
+#pragma once
+
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// True if constraints on the shear of tetrahedra make the object an elastic solid.
+bool is_soft_body(const Object& object);
+
+/// The substeps with which one sweep holds a soft body about as stiffly as its modulus says: in each, a shear wave passes a quarter of
+/// an edge, or less where its constraints are damped. 20 to 1000.
+int substeps_of_soft_body(const Object& object, double frame_time);
+
+}  // namespace pliant
