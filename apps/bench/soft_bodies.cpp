@@ -98,8 +98,9 @@ class Bar {
     wall_times_.push_back(wall_ms() - wall_before);
     row_.substeps = report.substeps;
     row_.inverted = 0;
+    const std::vector<Vec3f> positions = world_.object(ObjectId(0)).positions();
     for (const auto& t : mesh_.tetrahedra) {
-      const double share = six_volumes(world_.state().positions, t) / six_volumes(mesh_.positions, t);
+      const double share = six_volumes(positions, t) / six_volumes(mesh_.positions, t);
       row_.inverted += share < 0;
       row_.worst = std::min(row_.worst, share);
     }

@@ -42,7 +42,7 @@ void add(const Object& object, const int* corners, Averages& to) {
 Averages averages_of(const Object& object) {
   Averages sum;
   for (const ConstraintGroup& group : object.constraints) {
-    if (!group.type == TetrahedronShear::name || group.stiffness.kind != Stiffness::Kind::compliance) continue;
+    if (group.type != TetrahedronShear::name || group.stiffness.kind != Stiffness::Kind::compliance) continue;
     for (std::size_t t = 0; t < group.particles.size() / 4; ++t) {
       const double compliance = group.compliances.empty() ? group.stiffness.value : group.compliances[t];
       if (!(compliance > 0)) continue;  // rigid: no number of substeps suffices

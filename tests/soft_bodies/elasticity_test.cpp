@@ -84,9 +84,10 @@ double sag_over_beam(int cells, float youngs_modulus, float poisson_ratio, int s
   scene.pin(0, held);
   World world(scene);
   run(world, 240);
+  const std::vector<Vec3f> positions = positions_of(world);
   double sag = 0;
   for (const int i : tip)
-    sag -= static_cast<double>(world.state().positions[static_cast<std::size_t>(i)].y -
+    sag -= static_cast<double>(positions[static_cast<std::size_t>(i)].y -
                                scene.objects[0].positions[static_cast<std::size_t>(i)].y) /
            static_cast<double>(tip.size());
   const double l = length, s = side, load = density * gravity * s * s;
@@ -132,16 +133,17 @@ TEST(Elasticity, APulledBarBecomesNarrowerByPoissonsRatio) {
   scene.pin(0, pulled, right);
   World world(scene);
   run(world, 240);
+  const std::vector<Vec3f> positions = positions_of(world);
   double low = 1, high = -1, left = 1, ahead = -1;  // of the middle, where the clamps are far
   for (std::size_t i = 0; i < scene.objects[0].positions.size(); ++i) {
     const Vec3f& rest = scene.objects[0].positions[i];
     if (std::fabs(rest.x) < 0.011f) {
-      low = std::min(low, static_cast<double>(world.state().positions[i].y));
-      high = std::max(high, static_cast<double>(world.state().positions[i].y));
+      low = std::min(low, static_cast<double>(positions[i].y));
+      high = std::max(high, static_cast<double>(positions[i].y));
     }
     if (std::fabs(std::fabs(rest.x) - 0.05f) < 0.001f) {
-      left = std::min(left, static_cast<double>(world.state().positions[i].x));
-      ahead = std::max(ahead, static_cast<double>(world.state().positions[i].x));
+      left = std::min(left, static_cast<double>(positions[i].x));
+      ahead = std::max(ahead, static_cast<double>(positions[i].x));
     }
   }
   const double strain = (ahead - left) / 0.1 - 1, narrowing = 1 - (high - low) / 0.06;
@@ -186,7 +188,8 @@ TEST(Elasticity, AnAffineBorderGivesAnAffineInside) {
     if (is_border[i]) scene.pin(0, {static_cast<int>(i)});
   World world(scene);
   run(world, 240);
-  for (std::size_t i = 0; i < rest.size(); ++i) EXPECT_LT(length(world.state().positions[i] - mapped(rest[i])), 2e-4f) << i;
+  const std::vector<Vec3f> positions = positions_of(world);
+  for (std::size_t i = 0; i < rest.size(); ++i) EXPECT_LT(length(positions[i] - mapped(rest[i])), 2e-4f) << i;
 }
 
 // ------------------------------------------------------------------------------------------------ motion
@@ -236,16 +239,17 @@ TEST(SoftBodyMotion, FindsItsShapeAgainFromRandomPlaces) {
   scene.gravity = {};
   World world(scene);
   run(world, 300);
+  const std::vector<Vec3f> positions = positions_of(world);
   int inverted = 0;
   double edge = 0, off = 0;
-  const std::vector<double> volumes = six_volumes(world.state().positions, mesh.tetrahedra);
+  const std::vector<double> volumes = six_volumes(positions, mesh.tetrahedra);
   for (const double volume : volumes) inverted += volume <= 0;
   for (const auto& t : mesh.tetrahedra)
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < i; ++k) {
         const auto a = static_cast<std::size_t>(t[i]), b = static_cast<std::size_t>(t[k]);
         const double was = static_cast<double>(length(rest[a] - rest[b]));
-        const double is = static_cast<double>(length(world.state().positions[a] - world.state().positions[b]));
+        const double is = static_cast<double>(length(positions[a] - positions[b]));
         edge += was * was;
         off += (is - was) * (is - was);
       }

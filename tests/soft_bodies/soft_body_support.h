@@ -45,6 +45,8 @@ inline Scene scene_of(Object body, int substeps) {
   return scene;
 }
 
+inline std::vector<Vec3f> positions_of(const World& world) { return world.object(ObjectId(0)).positions(); }
+
 inline void run(World& world, int frames) {
   for (int i = 0; i < frames; ++i) {
     const Report report = world.step(1.f / 60);
@@ -59,10 +61,11 @@ struct Momentum {
 
 inline Momentum momentum_of(const World& world, const std::vector<float>& masses) {
   Momentum sum;
+  const std::vector<Vec3f> positions = positions_of(world), velocities = world.object(ObjectId(0)).velocities();
   for (std::size_t i = 0; i < masses.size(); ++i) {
-    const Vec3d p = convert<double>(world.state().velocities[i]) * static_cast<double>(masses[i]);
+    const Vec3d p = convert<double>(velocities[i]) * static_cast<double>(masses[i]);
     sum.linear += p;
-    sum.angular += cross(convert<double>(world.state().positions[i]), p);
+    sum.angular += cross(convert<double>(positions[i]), p);
   }
   return sum;
 }
