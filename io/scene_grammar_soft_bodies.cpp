@@ -48,9 +48,9 @@ const Record& tetrahedra_record() {
       "The source of tetrahedra and their placement: fitted, then scaled, then rotated, then moved. The result is also the "
       "rest shape.",
       {either("file", string(),
-              "Path of a tetrahedral mesh, relative to the folder of the scene: TetGen .node and .ele, Gmsh .msh, VTK "
-              ".vtk, Medit "
-              ".mesh, or vertices and tetrahedra as text."),
+              "Path of a tetrahedral mesh, relative to the folder of the scene: TetGen .node or .ele, Gmsh .msh, VTK .vtk, "
+              "Medit .mesh, or "
+              ".t (docs/guide/soft_bodies.md)."),
        either("box", record(tetrahedral_box_record()), "A box."),
        field("fit", positive("m", largest_place), "none",
              "Scales and moves the mesh so that its longest side has this length, its centre lies above the origin and its "

@@ -1,10 +1,60 @@
+// Chooses the reader of a tetrahedral mesh by the suffix of its file.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+
+#include "file_bytes.h"
 #include "pliant/error.h"
-#include "pliant/io.h"
+#include "tetra_formats.h"
 
 namespace pliant {
 
+namespace {
+
+std::string suffix_of(const std::string& path) {
+  std::string suffix = std::filesystem::path(path).extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return suffix;
+}
+
+/// The same path with another suffix.
+std::string beside(const std::string& path, const char* suffix) {
+  return std::filesystem::path(path).replace_extension(suffix).string();
+}
+
+TetrahedralMeshFile read_pair(const std::string& node, const std::string& ele) {
+  const std::string nodes = read_file_bytes(node), elements = read_file_bytes(ele);
+  return read_tetgen({nodes, node}, {elements, ele});
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& suffix) {
+  static const std::map<std::string, std::pair<const char*, const char*>> known{
+      {".vtu", {"is an XML file of VTK, which is not read", "write a legacy .vtk file as ASCII, or a Gmsh file"}},
+      {".meshb", {"is a binary Medit file, which is not read", "write a .mesh file"}},
+      {".obj", {"is a surface", "fill it with tetrahedra: `mesh` in a scene, or fill_with_tetrahedra"}},
+      {".stl", {"is a surface", "fill it with tetrahedra: `mesh` in a scene, or fill_with_tetrahedra"}},
+      {".ply", {"is a surface", "fill it with tetrahedra: `mesh` in a scene, or fill_with_tetrahedra"}}};
+  if (const auto found = known.find(suffix); found != known.end())
+    throw Error({.file = path}, found->second.first, found->second.second);
+  throw Error({.file = path}, "has the suffix '" + suffix + "', which no format of tetrahedra has",
+              "give .node or .ele, .msh, .vtk, .mesh or .t");
+}
+
+}  // namespace
+
 TetrahedralMeshFile read_tetrahedral_mesh(const std::string& path) {
-  throw Error({.file = path}, "cannot be read yet", "use a mesh");
+  const std::string suffix = suffix_of(path);
+  if (suffix == ".ele") return read_pair(beside(path, ".node"), path);
+  if (suffix == ".node") return read_pair(path, beside(path, ".ele"));
+  static const std::map<std::string, TetrahedralMeshFile (*)(std::string_view, const std::string&)> readers{
+      {".msh", read_gmsh}, {".vtk", read_vtk}, {".mesh", read_medit}, {".t", read_vertex_tet}};
+  const auto reader = readers.find(suffix);
+  if (reader == readers.end()) refuse(path, suffix);
+  const std::string bytes = read_file_bytes(path);
+  if (bytes.empty()) throw Error({.file = path}, "is empty", "export the mesh again");
+  return reader->second(bytes, path);
 }
 
 }  // namespace pliant

@@ -1,0 +1,237 @@
+// Tests the readers of tetrahedral meshes: each format, what is damaged, and every file of real meshes where they are there.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene_support.h"
+
+namespace pliant {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string write(const std::string& name, const std::string& text) {
+  const fs::path folder = fs::path(testing::TempDir()) / "tetrahedra";
+  fs::create_directories(folder);
+  std::ofstream(folder / name, std::ios::binary) << text;
+  return (folder / name).string();
+}
+
+double volume_of(const TetrahedralMesh& mesh) {
+  double six = 0;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    const auto at = [&, origin = mesh.positions[static_cast<std::size_t>(a)]](int i) {
+      return mesh.positions[static_cast<std::size_t>(i)] - origin;
+    };
+    six += static_cast<double>(dot(cross(at(b), at(c)), at(d)));
+  }
+  return six / 6;
+}
+
+/// Two tetrahedra, of volumes 1/6 and 1/3; the second is inside out. Node 9 is in none.
+const std::string medit =
+    "MeshVersionFormatted 2\nDimension 3\n# two\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 -2 0\n9 9 9 0\n"
+    "Triangles 1\n1 2 3 0\nTetrahedra 2\n1 2 3 4 0\n1 2 3 5 0\nEnd\n";
+const std::string vtk =
+    "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n0 0 0 1 0 0\n0 1 0 0 0 1 0 0 -2 9 9 "
+    "9\n"
+    "CELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 0 1 2 4\nCELL_TYPES 3\n5\n10\n10\nPOINT_DATA 6\nSCALARS s float\n";
+const std::string vtk_5 =
+    "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n0 0 0 1 0 0 0 1 0 0 0 1 0 0 -2 "
+    "9 9 9\n"
+    "CELLS 3 8\nOFFSETS vtktypeint64\n0 4 8\nCONNECTIVITY vtktypeint64\n0 1 2 3 0 1 2 4\nCELL_TYPES 2\n10 10\n";
+const std::string gmsh_2 =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"a body\"\n$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 1 0 "
+    "0\n"
+    "3 0 1 0\n4 0 0 1\n7 0 0 -2\n9 9 9 9\n$EndNodes\n$Elements\n3\n1 2 2 0 1 1 2 3\n2 4 2 0 1 1 2 3 4\n3 4 0 1 2 3 "
+    "7\n$EndElements\n";
+const std::string gmsh_4 =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n2 6 1 9\n2 1 1 2\n1\n2\n0 0 0 0.5 0.5\n1 0 0 0.5 0.5\n3 1 0 "
+    "4\n3\n4\n7\n9\n0 1 0\n"
+    "0 0 1\n0 0 -2\n9 9 9\n$EndNodes\n$Elements\n2 3 1 3\n2 1 2 1\n1 1 2 3\n3 1 4 2\n2 1 2 3 4\n3 1 2 3 7\n$EndElements\n";
+const std::string vertex_tet =
+    "Vertex 0 0 0 0\nVertex 1 1 0 0 {rgb=1}\nVertex 2 0 1 0\nVertex 3 0 0 1\nVertex 5 0 0 -2\nVertex 9 9 9 9\nTet 0 0 1 2 "
+    "3\nTet 1 0 1 2 5\n";
+const std::string node =
+    "# nodes\n6 3 1 1\n1 0 0 0 7 0\n2 1 0 0 7 0\n3 0 1 0 7 0\n4 0 0 1 7 0\n5 0 0 -2 7 1\n6 9 9 9 7 1\n";
+const std::string ele = "2 4 1\n1 1 2 3 4 -1\n2 1 2 3 5 -1\n# made by hand\n";
+
+template <class T>
+void put(std::string& to, T value, bool swap) {
+  char raw[sizeof value];
+  std::memcpy(raw, &value, sizeof value);
+  if (swap) std::reverse(raw, raw + sizeof value);
+  to.append(raw, sizeof value);
+}
+
+std::string binary_gmsh_2(bool swap) {
+  std::string text = "$MeshFormat\n2.2 1 8\n";
+  const auto number = [&](std::int32_t value) { put(text, value, swap); };
+  number(1);
+  text += "\n$EndMeshFormat\n$Nodes\n5\n";
+  const double at[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -2}};
+  for (int i = 0; i < 5; ++i) {
+    number(i + 1);
+    for (const double x : at[i]) put(text, x, swap);
+  }
+  text += "\n$EndNodes\n$Elements\n2\n";
+  for (const int one : {4, 2, 1, /* number, tag, nodes */ 1, 7, 1, 2, 3, 4, 2, 7, 1, 2, 3, 5}) number(one);
+  return text + "\n$EndElements\n";
+}
+
+void expect_two(const std::string& path) {
+  const TetrahedralMeshFile file = read_tetrahedral_mesh(path);
+  EXPECT_EQ(file.mesh.positions.size(), 5u) << path;
+  EXPECT_EQ(file.mesh.tetrahedra.size(), 2u) << path;
+  EXPECT_NEAR(volume_of(file.mesh), 0.5, 1e-6) << path;
+  ASSERT_GE(file.repairs.size(), 1u) << path;
+  EXPECT_EQ(file.repairs[0], "1 tetrahedron was inside out, and was turned") << path;
+}
+
+TEST(TetrahedralFiles, OfEachFormatGiveTheSameMesh) {
+  expect_two(write("two.mesh", medit));
+  expect_two(write("two.vtk", vtk));
+  expect_two(write("five.vtk", vtk_5));
+  expect_two(write("two.msh", gmsh_2));
+  expect_two(write("four.msh", gmsh_4));
+  expect_two(write("two.t", vertex_tet));
+  write("two.ELE", ele);
+  expect_two(write("pair.node", (write("pair.ele", ele), node)));
+  expect_two(write("pair.ele", ele));
+  expect_two(write("binary.msh", binary_gmsh_2(false)));
+  expect_two(write("other_order.msh", binary_gmsh_2(true)));
+}
+
+TEST(TetrahedralFiles, NameNodesThatNoTetrahedronUses) {
+  EXPECT_EQ(read_tetrahedral_mesh(write("two.mesh", medit)).repairs[1], "1 node that no tetrahedron uses was left out");
+}
+
+std::string message(const std::string& path) {
+  try {
+    read_tetrahedral_mesh(path);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.where().file.empty(), false) << error.what();
+    EXPECT_FALSE(error.problem().empty()) << path;
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(TetrahedralFiles, ThatAreDamagedAreRefusedWithTheirLine) {
+  const std::vector<std::pair<std::pair<std::string, std::string>, std::string>> cases = {
+      {{"a.mesh", ""}, "is empty"},
+      {{"a.mesh", "\x7f\x45LF\xff\xfe"}, "should be"},
+      {{"a.mesh", replaced(medit, "1 2 3 5 0\nEnd", "1 2 3 77 0\nEnd")},
+       ":15: a tetrahedron uses node 77, which does not exist; nodes run from 1 to 6"},
+      {{"a.mesh", replaced(medit, "0 1 0 0", "0 nan 0 0")}, ":7: 'nan', y, is not finite"},
+      {{"a.mesh", replaced(medit, "0 1 0 0", "0 x 0 0")}, ":7: 'x', y, is not a number"},
+      {{"a.mesh", replaced(medit, "Vertices 6", "Vertices 1000000000000000000")},
+       ":4: the number of vertices is 1000000000000000000"},
+      {{"a.mesh", replaced(medit, "Vertices 6", "Vertices -6")}, "too short"},
+      {{"a.mesh", replaced(medit, "Triangles 1\n1 2 3 0", "Hexahedra 1\n1 2 3 4 5 6 1 2 0")},
+       ":11: has Hexahedra; export linear tetrahedra alone"},
+      {{"a.mesh", replaced(medit, "Dimension 3", "Dimension 2")}, "has 2 dimensions"},
+      {{"a.mesh", replaced(medit, "Triangles", "Squares")}, "'Squares' is no keyword"},
+      {{"a.mesh", medit.substr(0, medit.size() - 12)}, "ends where"},
+      {{"a.mesh", medit.substr(0, medit.find("Tetra"))}, "has no tetrahedron; export the volume mesh"},
+      {{"a.vtk", replaced(vtk, "ASCII", "BINARY")}, "is binary; write it as ASCII"},
+      {{"a.vtk", replaced(vtk, "UNSTRUCTURED_GRID", "POLYDATA")}, "'POLYDATA' has no tetrahedra"},
+      {{"a.vtk", replaced(vtk, "10\n10", "10\n12")}, "cell 2 has type 12"},
+      {{"a.vtk", replaced(vtk, "10\n10", "10\n24")}, "cell 2 has type 24"},
+      {{"a.vtk", replaced(vtk, "4 0 1 2 4", "900000000 0 1 2 4")}, "a cell has 900000000 corners"},
+      {{"a.vtk", replaced(vtk, "CELL_TYPES 3", "CELL_TYPES 2")}, "2 types for 3 cells"},
+      {{"a.vtk", vtk.substr(0, vtk.find("CELL_TYPES"))}, "ends before its CELL_TYPES"},
+      {{"a.vtk", "solid"}, "is no VTK file"},
+      {{"a.vtk", replaced(vtk_5, "0 4 8", "0 9 8")}, "'CELL_TYPES' is no integer"},
+      {{"a.msh", replaced(gmsh_2, "2.2", "4.0")}, ":2: has version '4.0' of the format"},
+      {{"a.msh", replaced(gmsh_2, "2 4 2 0 1", "2 5 2 0 1")}, ":20: has elements of type 5"},
+      {{"a.msh", replaced(gmsh_2, "2 4 2 0 1", "2 11 2 0 1")}, "Mesh.ElementOrder = 1"},
+      {{"a.msh", replaced(gmsh_2, "2 4 2 0 1", "2 4 9999999 0 1")}, "9999999 tags"},
+      {{"a.msh", replaced(gmsh_2, "$Nodes\n6", "$Nodes\n600")}, "for which the file is too short"},
+      {{"a.msh", replaced(gmsh_2, "4 0 0 1\n", "3 0 0 1\n")}, ":13: node 3 is there twice"},
+      {{"a.msh", gmsh_2.substr(0, gmsh_2.find("$Elements"))}, "has no $Elements"},
+      {{"a.msh", replaced(gmsh_4, "3 1 4 2", "3 1 4 200000000000")}, "too short"},
+      {{"a.msh", binary_gmsh_2(false).substr(0, 150)}, "byte"},
+      {{"a.t", "Vertex 0 0 0\n"}, "ends where z should follow"},
+      {{"a.t", "Hex 0 0 0\n"}, "'Hex' is no keyword"},
+      {{"a.vtu", "<VTKFile>"}, "is an XML file of VTK"},
+      {{"a.meshb", "x"}, "binary Medit"},
+      {{"a.obj", "v 0 0 0"}, "is a surface; fill it"},
+      {{"a.foo", "x"}, "which no format of tetrahedra has"},
+  };
+  for (const auto& [file, expected] : cases) {
+    const std::string found = message(write(file.first, file.second));
+    EXPECT_NE(found.find(expected), std::string::npos) << file.second << "\n" << found;
+  }
+}
+
+TEST(TetrahedralFiles, OfTetGenNeedBothFiles) {
+  fs::remove(fs::path(testing::TempDir()) / "tetrahedra" / "alone.node");
+  EXPECT_NE(message(write("alone.ele", ele)).find("alone.node"), std::string::npos);
+  const auto pair = [](const std::string& nodes, const std::string& elements) {
+    write("bad.node", nodes);
+    return message(write("bad.ele", elements));
+  };
+  EXPECT_NE(pair(replaced(node, "6 3 1 1", "7 3 1 1"), ele).find("ends after 6 of 7 nodes"), std::string::npos);
+  EXPECT_NE(pair(replaced(node, "6 3 1 1", "6 2 1 1"), ele).find("have 2 coordinates"), std::string::npos);
+  EXPECT_NE(pair(node, replaced(ele, "2 4 1", "2 10 1")).find("without the option -o2"), std::string::npos);
+  EXPECT_NE(pair(node, replaced(ele, "2 1 2 3 5", "2 1 2 3 0")).find("bad.ele:3: a tetrahedron uses node 0"),
+            std::string::npos);
+  EXPECT_NE(pair(node, replaced(ele, "2 4 1", "900000000000 4 1")).find("too short"), std::string::npos);
+  EXPECT_EQ(pair(replaced(node, "6 3 1 1", "6 3 1000000000000000000 1"), ele), "accepted");  // attributes are not read
+}
+
+// Each byte that is changed or cut off gives a mesh or an Error, and nothing else; the sanitizers look on.
+TEST(TetrahedralFiles, NeverCrash) {
+  for (const auto& [name, text] : {std::pair<std::string, std::string>{"x.mesh", medit},
+                                   {"x.vtk", vtk},
+                                   {"x5.vtk", vtk_5},
+                                   {"x2.msh", gmsh_2},
+                                   {"x4.msh", gmsh_4},
+                                   {"xb.msh", binary_gmsh_2(false)},
+                                   {"x.t", vertex_tet}}) {
+    for (std::size_t i = 0; i < text.size(); i += 3) {
+      std::string changed = text;
+      changed[i] = static_cast<char>(changed[i] ^ (i % 2 == 0 ? 0x10 : 0x7f));
+      for (const std::string& one : {changed, text.substr(0, i)}) {
+        try {
+          read_tetrahedral_mesh(write(name, one));
+        } catch (const Error& error) {
+          EXPECT_FALSE(error.problem().empty());
+        }
+      }
+    }
+  }
+}
+
+TEST(TetrahedralFiles, OfResearchCodesAreReadOrRefusedWithAReason) {
+  const fs::path folder = fs::path(PLIANT_SOURCE_DIR) / ".." / "shared" / "data" / "tet";
+  if (!fs::exists(folder)) GTEST_SKIP() << "the meshes are not there";
+  int read = 0, refused = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string suffix = entry.path().extension().string();
+    if (!entry.is_regular_file() || suffix.empty() || suffix == ".md" || suffix == ".txt") continue;
+    try {
+      const TetrahedralMeshFile file = read_tetrahedral_mesh(entry.path().string());
+      EXPECT_GT(volume_of(file.mesh), 0) << entry.path();
+      ++read;
+    } catch (const Error& error) {
+      ++refused;
+      EXPECT_FALSE(error.advice().empty()) << error.what();
+      ADD_FAILURE() << error.what();
+    }
+  }
+  EXPECT_GT(read, 40);
+  RecordProperty("read", read);
+  RecordProperty("refused", refused);
+}
+
+}  // namespace
+}  // namespace pliant
