@@ -24,14 +24,14 @@ Edit unchanged(const Object& object);
 
 /// Removes triangles, and the constraints that only they supported: pairs of particles that no triangle contains any
 /// more, and larger stencils with a missing triangle. Particles keep their indices. Throws an Error if a triangle does
-/// not exist.
+/// not exist, or the object is a soft body.
 Edit remove_triangles(const Object& object, std::span<const int> triangles);
 
 /// Cuts a surface along a path of particles, each joined to the next by a triangle's edge. A particle is split where
 /// the cut separates its triangles: inside the path, and at an end on the border. Copies follow all other particles;
 /// masses are divided by triangle area, so mass and momentum are conserved. Constraints across the cut are removed. An
 /// edge on the cut stays on both sides, its stiffness divided by area. Throws an Error if two neighbours of the path
-/// share no edge.
+/// share no edge, or the object is a soft body.
 Edit cut(const Object& object, std::span<const int> path);
 
 }  // namespace pliant

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "model/soft_body_substeps.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
 
@@ -279,6 +280,13 @@ std::set<Edge> edges_of(const Object& object, std::span<const int> path) {
   return edges;
 }
 
+/// The edits of this file know of surfaces; tetrahedra would be left behind.
+void refuse_soft_body(const Object& object) {
+  if (is_soft_body(object))
+    throw Error({.object = object.name}, "is a soft body, whose tetrahedra cannot be cut",
+                "cut cloth, or make the body of other tetrahedra");
+}
+
 }  // namespace
 
 Edit unchanged(const Object& object) {
@@ -288,6 +296,7 @@ Edit unchanged(const Object& object) {
 }
 
 Edit remove_triangles(const Object& object, std::span<const int> triangles) {
+  refuse_soft_body(object);
   std::vector<char> present(object.triangles.size(), 1);
   for (const int t : triangles) {
     if (t < 0 || t >= static_cast<int>(present.size()))
@@ -314,6 +323,7 @@ Edit remove_triangles(const Object& object, std::span<const int> triangles) {
 }
 
 Edit cut(const Object& object, std::span<const int> path) {
+  refuse_soft_body(object);
   for (const int p : path)
     if (p < 0 || p >= static_cast<int>(object.positions.size()))
       throw Error({.object = object.name, .element = "particle " + std::to_string(p)}, "does not exist",

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "pliant/edit.h"
 #include "pliant/error.h"
 #include "soft_bodies/soft_body_support.h"
 #include "support/paths.h"
@@ -129,6 +130,13 @@ TEST(MakeSoftBody, NamesWhatItRefuses) {
   EXPECT_NE(of_options([](auto& o) { o.material.damping = -1; }).find("damping"), std::string::npos);
   EXPECT_NE(of_options([](auto& o) { o.material.static_friction = 0.1f; }).find("static_friction"), std::string::npos);
   EXPECT_NE(of_options([](auto& o) { o.thickness = -1; }).find("thickness"), std::string::npos);
+}
+
+TEST(MakeSoftBody, IsNotCutAsASurface) {
+  const Object body = make_soft_body(box_tetrahedra({1, 1, 1}, {1, 1, 1}));
+  const std::vector<int> path{body.triangles[0][0], body.triangles[0][1]}, first{0};
+  EXPECT_NE(refusal([&] { cut(body, path); }).find("cannot be cut"), std::string::npos);
+  EXPECT_NE(refusal([&] { remove_triangles(body, first); }).find("cannot be cut"), std::string::npos);
 }
 
 TEST(ElasticSolids, AreUsableAndNamed) {
