@@ -79,7 +79,8 @@ const char* const contact_scenes[] = {"bodies/bowl",        "bodies/hammock",
                                       "bags/water",         "grains/heap",
                                       "grains/hammock",     "bags/gravel",
                                       "grains/sand_clock",  "soft_bodies/cantilevers",
-                                      "soft_bodies/stairs", "soft_bodies/squeeze"};
+                                      "soft_bodies/stairs", "soft_bodies/squeeze",
+                                      "soft_bodies/finger", "soft_bodies/mattress"};
 constexpr int contact_frames = 16;
 
 /// Upper limit of grid nodes along a side: grids as fine as those of the scenes would take seconds to make.
