@@ -13,7 +13,15 @@ const Record& mesh_record();
 const Record& fabric_record();
 std::vector<std::string> fabric_names();
 
+// Defined in scene_grammar_matter.cpp.
+const Record& cloth_record();
+const Record& rope_record();
+const Record& particles_record();
 const Record& fill_record();
+const Record& emitter_record();
+const Record& drain_record();
+const Record& liquid_record();
+const Record& grains_record();
 
 // Defined in scene_grammar_gases.cpp.
 const Record& gas_record();
