@@ -71,7 +71,7 @@ const Record& soft_body_record() {
       "An elastic solid of tetrahedra. Its border is its surface.",
       {either("tetrahedra", record(tetrahedra_record()), "Its tetrahedra."),
        either("mesh", record(mesh_record()), "A closed surface, which is filled with tetrahedra of edges of `size`."),
-       field("size", positive("m", largest_place), "an eighth of the longest side",
+       field("size", positive("m", largest_place), "an eighth of the longest side, less if it is thin",
              "Only for a mesh: length of the edges of tetrahedra."),
        field("material", any_of({choice(solid_names()), record(elastic_solid_record())}), "the defaults of elastic solid",
              "The material: the name of a built-in elastic solid, or an elastic solid.")},

@@ -1,5 +1,6 @@
 // Builds soft bodies in scene files.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "pliant/soft_body.h"
@@ -27,17 +28,18 @@ ElasticSolid solid_of(const JsonDocument& document, const JsonValue& at) {
 }
 
 TetrahedralMesh box_of(const JsonDocument& document, const JsonValue& at) {
+  constexpr int most_tetrahedra = largest_scene, tetrahedra_of_cell = 6;
   Vec3f size;
   set(at, "size", size);
   std::array<int, 3> cells{};
-  double nodes = 1;
+  double tetrahedra = tetrahedra_of_cell;
   const JsonValue& list = *at.find("cells");
   for (std::size_t i = 0; i < cells.size(); ++i) {
     cells[i] = static_cast<int>(list.items[i].number);
-    nodes *= cells[i] + 1.;
+    tetrahedra *= cells[i];
   }
-  if (nodes > largest_scene)
-    document.fail(list, "more than " + std::to_string(largest_scene) + " particles", "use fewer cells");
+  if (tetrahedra > most_tetrahedra)
+    document.fail(list, "more than " + std::to_string(most_tetrahedra) + " tetrahedra", "use fewer cells");
   return box_tetrahedra(size, cells);
 }
 
@@ -65,21 +67,34 @@ TetrahedralMesh tetrahedra_of(const JsonDocument& document, const JsonValue& at,
   return mesh;
 }
 
-float longest_side(const TriangleMesh& mesh) {
+/// An eighth of the longest side, and less where the body is thinner than that: of a plate, three quarters of its thickness. But never
+/// less than a 64th.
+float default_size(const TriangleMesh& mesh) {
   Vec3f low = mesh.positions.front(), high = low;
   for (const Vec3f& p : mesh.positions) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const float longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  double six_volumes = 0, two_areas = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto from_low = [&](int corner) {
+      const Vec3f p = mesh.positions[static_cast<std::size_t>(corner)] - low;
+      return Vec3d{p.x, p.y, p.z};
+    };
+    six_volumes += dot(cross(from_low(a), from_low(b)), from_low(c));
+    const Vec3d normal = cross(from_low(b) - from_low(a), from_low(c) - from_low(a));
+    two_areas += std::sqrt(dot(normal, normal));
+  }
+  const double thin = two_areas > 0 ? 1.5 * (std::fabs(six_volumes) / 6) / (two_areas / 2) : 0;
+  return std::clamp(static_cast<float>(thin), longest / 64, longest / 8);
 }
 
 TetrahedralMesh filled(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const Notes& notes) {
-  constexpr float share = 0.125f;
   const SceneMesh surface = make_mesh(document, *at.find("mesh"), folder, notes.object);
   notes.add("", surface.repairs);
-  float size = surface.mesh.positions.empty() ? 0 : share * longest_side(surface.mesh);
-  set(at, "size", size);
+  float size = 0;
+  if (!set(at, "size", size) && !surface.mesh.positions.empty()) size = default_size(surface.mesh);
   FilledMesh result = fill_with_tetrahedra(surface.mesh, size);
   notes.add("", result.notes);
   return std::move(result.mesh);

@@ -23,6 +23,8 @@ constexpr Passed passed[] = {{"Edges", 3},
                              {"RequiredVertices", 1},
                              {"RequiredEdges", 1},
                              {"RequiredTriangles", 1},
+                             {"RequiredQuadrilaterals", 1},
+                             {"RequiredTetrahedra", 1},
                              {"Normals", 3},
                              {"Tangents", 3},
                              {"NormalAtVertices", 2},
@@ -54,7 +56,7 @@ void pass_over(WordReader& words, std::string_view keyword) {
   const auto* found =
       std::find_if(std::begin(passed), std::end(passed), [&](const Passed& one) { return one.keyword == keyword; });
   if (found == std::end(passed))
-    words.fail(quoted(keyword) + " is no keyword of this format", "the file is not a Medit mesh, or it is damaged");
+    words.fail(quoted(keyword) + " is no keyword of this format", "remove it with its rows, or write the mesh without it");
   const std::int64_t count = words.count("the number of rows");
   for (std::int64_t i = 0; i < count * found->words; ++i)
     if (words.word().empty()) words.fail("ends in its " + std::string(keyword), "the file is cut off: export it again");

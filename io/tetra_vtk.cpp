@@ -56,21 +56,24 @@ void add_cell(WordReader& words, std::int64_t corners, Cells& cells) {
 }
 
 /// Version 5.1: where the corners of each cell begin, then all corners.
-void read_offsets(WordReader& words, std::int64_t offsets, Cells& cells) {
+void read_offsets(WordReader& words, std::int64_t offsets, std::int64_t size, Cells& cells) {
   words.word();  // vtktypeint64
   std::vector<std::int64_t> at;
-  for (std::int64_t i = 0; i < offsets; ++i) at.push_back(words.integer("an offset"));
+  for (std::int64_t i = 0; i < offsets; ++i) {
+    at.push_back(words.integer("an offset"));
+    if (at.front() != 0 || at.back() < (i == 0 ? 0 : at[at.size() - 2]) || at.back() > size)
+      words.fail("offset " + std::to_string(i) + " is " + std::to_string(at.back()),
+                 "offsets ascend from 0 to the number of corners, " + std::to_string(size));
+  }
   words.expect("CONNECTIVITY");
   words.word();
   for (std::size_t i = 1; i < at.size(); ++i) add_cell(words, at[i] - at[i - 1], cells);
 }
 
-void read_cells(WordReader& words, TetraBuilder& builder, Cells& cells) {
-  const std::int64_t count = words.count("the number of cells"), size = words.integer("the number of integers");
-  const std::string_view first = words.word();
-  if (first == "OFFSETS") return read_offsets(words, count, cells);
-  std::int64_t corners = 0, found = 0;
-  if (count > 0 && !parse_integer(first, corners)) words.fail(quoted(first) + " is no number of corners");
+/// Versions up to 4: each cell is the number of its corners, and then these. `corners` is the first number.
+void read_counted(WordReader& words, std::int64_t corners, std::int64_t count, std::int64_t size, TetraBuilder& builder,
+                  Cells& cells) {
+  std::int64_t found = 0;
   for (std::int64_t i = 0; i < count; ++i) {
     if (i > 0) corners = words.integer("a number of corners");
     add_cell(words, corners, cells);
@@ -78,6 +81,16 @@ void read_cells(WordReader& words, TetraBuilder& builder, Cells& cells) {
   }
   if (found != size)
     builder.note("its cells have " + std::to_string(found) + " integers, where it says " + std::to_string(size));
+}
+
+void read_cells(WordReader& words, TetraBuilder& builder, Cells& cells) {
+  const std::int64_t count = words.count("the number of cells"), size = words.integer("the number of integers");
+  if (count == 0) return;
+  const std::string_view first = words.word();
+  if (first == "OFFSETS") return read_offsets(words, count, size, cells);
+  std::int64_t corners = 0;
+  if (!parse_integer(first, corners)) words.fail(quoted(first) + " is no number of corners", "the file is damaged");
+  read_counted(words, corners, count, size, builder, cells);
 }
 
 void add_tetrahedra(WordReader& words, const Cells& cells, TetraBuilder& builder) {

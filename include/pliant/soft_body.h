@@ -21,10 +21,10 @@ struct TetrahedralMesh {
 /// Properties of an elastic solid. They do not depend on a mesh.
 struct ElasticSolid {
   std::string name;
-  float density = 1000;         ///< mass per volume [kg/m^3]
-  float youngs_modulus = 5e4f;  ///< stress per strain of a bar that is pulled, > 0 [Pa]
-  float poisson_ratio = 0.45f;  ///< how much narrower the bar becomes per strain, 0..0.495 [-]
-  float damping = 0;  ///< of the rate of strain: viscous stress is this times the elastic modulus times the rate [s]
+  float density = 1000;           ///< mass per volume [kg/m^3]
+  float youngs_modulus = 5e4f;    ///< stress per strain of a bar that is pulled, > 0 [Pa]
+  float poisson_ratio = 0.45f;    ///< how much narrower the bar becomes per strain, 0..0.495 [-]
+  float damping = 0;              ///< stress over elastic modulus and rate of strain, along the strain [s]
   float static_friction = 0.6f;   ///< coefficient of friction at rest [-]
   float kinetic_friction = 0.5f;  ///< coefficient of friction while sliding [-]
   std::string source;             ///< where the numbers come from
@@ -69,7 +69,7 @@ struct FilledMesh {
 /// Fills what a closed mesh encloses with tetrahedra whose edges are about `size` long [m], cut from a body-centred cubic
 /// lattice; its border is moved onto the mesh where no tetrahedron becomes flat. Parts thinner than `size` may be lost, and a
 /// note says so. A surface that passes through itself encloses where it winds around. Throws an Error if the mesh has an edge
-/// without two triangles, encloses nothing at that size, or there would be more than 2^24 nodes.
+/// without two triangles, encloses nothing at that size, or there would be more than 2^22 nodes.
 FilledMesh fill_with_tetrahedra(const TriangleMesh& mesh, float size);
 
 }  // namespace pliant

@@ -9,7 +9,6 @@
 #include "geometry/shapes.h"
 #include "inspect/problems.h"
 #include "model/object_sets.h"
-#include "model/soft_body_substeps.h"
 #include "pliant/report.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"
@@ -250,21 +249,6 @@ void doubt_compression(const Doubts& d) {
                       "use " + std::to_string(needed) + ", or leave substeps out");
 }
 
-/// Says by how much too few substeps soften a soft body: by up to the square of their length, over their iterations.
-void doubt_soft_body(const Doubts& d) {
-  constexpr double tolerated = 2, excess_by_default = 0.1;  // what substeps_of_soft_body leaves
-  const Settings& settings = d.scene.settings;
-  if (!is_soft_body(d.object) || settings.substeps <= 0) return;
-  const int needed = substeps_of_soft_body(d.object, static_cast<double>(d.scene.frame_time));
-  const double longer = static_cast<double>(needed) / settings.substeps;
-  const double slack = longer * longer / settings.iterations;
-  if (slack <= tolerated) return;
-  d.problems.doubtful(
-      "settings, substeps",
-      "are so few that it will yield about " + words(1 + excess_by_default * slack) + " times as much as its modulus says",
-      "use " + std::to_string(needed) + ", or leave substeps out");
-}
-
 /// Says by how much too few substeps weaken surface tension.
 void doubt_tension(const Doubts& d) {
   constexpr double tolerated = 1.2;  // the bound of solver/fluids/tension_law.cpp over the substeps by default
@@ -320,7 +304,6 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   doubt_air(doubts);
   doubt_compression(doubts);
   doubt_tension(doubts);
-  doubt_soft_body(doubts);
   doubt_tracers(doubts);
 }
 

@@ -16,7 +16,7 @@ namespace pliant {
 
 namespace {
 
-constexpr double most_nodes = 1 << 24;
+constexpr double most_nodes = 1 << 22;  // of up to six tetrahedra each
 /// Nodes up to this share of a cell outside of the mesh belong to the body; the border is then about as often outside as inside.
 constexpr float reach = 0.25f;
 /// Of a tetrahedron when a corner is moved: volume over that of a regular one with edges of the same root mean square.
@@ -263,25 +263,34 @@ TetrahedralMesh Filling::result() const {
   return mesh;
 }
 
-double volume_of(const TriangleMesh& mesh) {
-  double six = 0;
-  const Vec3f& origin = mesh.positions[static_cast<std::size_t>(mesh.triangles.front()[0])];
-  const auto at = [&](int corner) {
-    const Vec3f p = mesh.positions[static_cast<std::size_t>(corner)] - origin;
-    return Vec3d{p.x, p.y, p.z};
-  };
-  for (const auto& [a, b, c] : mesh.triangles) six += dot(cross(at(a), at(b)), at(c));
-  return std::fabs(six) / 6;
+/// Says which vertices of the mesh the tetrahedra do not reach.
+void note_what_is_far(const TriangleMesh& mesh, float size, FilledMesh& filled) {
+  const MeshQuery border(filled.mesh.positions, border_triangles(filled.mesh));
+  std::vector<bool> is_used(mesh.positions.size(), false);
+  for (const auto& triangle : mesh.triangles)
+    for (const int corner : triangle) is_used[static_cast<std::size_t>(corner)] = true;
+  std::size_t far = 0, first = 0;
+  for (std::size_t i = 0; i < is_used.size(); ++i) {
+    if (!is_used[i] || border.closest(mesh.positions[i], 0.75f * size).triangle >= 0) continue;
+    if (border.is_inside(mesh.positions[i])) continue;  // as where the mesh overlaps itself
+    if (far++ == 0) first = i;
+  }
+  if (far > 0)
+    filled.notes.push_back(std::to_string(far) + " of " + std::to_string(is_used.size()) +
+                           " vertices of the mesh, the first " + std::to_string(first) +
+                           ", lie off the tetrahedra: a smaller size follows thin parts");
 }
 
-/// Says what the tetrahedra miss of the mesh.
-void note_difference(const TriangleMesh& mesh, FilledMesh& filled) {
-  constexpr double tolerated = 0.1;
-  const double wanted = volume_of(mesh);
-  const double got = volume_of({filled.mesh.positions, border_triangles(filled.mesh)});
-  if (std::fabs(got - wanted) <= tolerated * wanted) return;
-  filled.notes.push_back("the tetrahedra enclose " + std::to_string(std::lround(100 * got / wanted)) +
-                         " % of the volume of the mesh: a smaller size follows thin parts");
+/// Far from the origin, neighbouring floats are too coarse for a lattice of this size.
+void require_near_origin(const BoxBounds& bounds, float size) {
+  float farthest = 0;
+  for (const Vec3f& p : {bounds.low, bounds.high})
+    farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  if (size < 1e-5f * farthest)
+    throw Error({.element = "size"},
+                "is " + std::to_string(size) + " m for a mesh " + std::to_string(farthest) +
+                    " m from the origin, where floats are too coarse",
+                "move the mesh to the origin, or give a larger size");
 }
 
 }  // namespace
@@ -291,6 +300,7 @@ FilledMesh fill_with_tetrahedra(const TriangleMesh& mesh, float size) {
     throw Error({.element = "size"}, "is " + std::to_string(size), "give a positive, finite length [m]");
   const MeshQuery query = query_of_closed(mesh);
   const Lattice lattice = lattice_about(query.bounds(), size);
+  require_near_origin(query.bounds(), size);
   Filling filling(query, lattice);
   FilledMesh out;
   const int crumbs = filling.drop_crumbs();
@@ -300,7 +310,7 @@ FilledMesh fill_with_tetrahedra(const TriangleMesh& mesh, float size) {
   if (crumbs > 0) out.notes.push_back(std::to_string(crumbs) + " tetrahedra of small pieces apart were left out");
   filling.fit_border();
   out.mesh = filling.result();
-  note_difference(mesh, out);
+  note_what_is_far(mesh, size, out);
   return out;
 }
 

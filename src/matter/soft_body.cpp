@@ -18,6 +18,8 @@ using Tetrahedron = std::array<int, 4>;
 /// A tetrahedron whose volume is below this share of the product of three edges is flat: its constraints would be zero.
 constexpr double least_volume = 1e-5;
 constexpr double largest_modulus = 1e15, largest_quantity = 1e12;
+/// Of compliances and dampings: over the square of a substep, a larger one would overflow.
+constexpr double largest_response = 1e26;
 
 struct Source {
   const TetrahedralMesh& mesh;
@@ -45,7 +47,7 @@ void require_options(const Source& from, const SoftBodyOptions& options) {
   const ElasticSolid& m = options.material;
   require(from, "material, density", m.density, 0, true, largest_quantity, "give more than 0 kg/m^3");
   require(from, "material, youngs_modulus", m.youngs_modulus, 0, true, largest_modulus, "give more than 0 Pa");
-  require(from, "material, poisson_ratio", m.poisson_ratio, 0, false, 0.495,
+  require(from, "material, poisson_ratio", m.poisson_ratio, 0, false, static_cast<double>(0.495f),
           "give 0 to 0.495: 0.5 would be incompressible");
   require(from, "material, damping", m.damping, 0, false, 1e6, "give 0 s or more");
   require(from, "material, kinetic_friction", m.kinetic_friction, 0, false, 1e6, "give 0 or more");
@@ -174,10 +176,10 @@ ConstraintGroup group_of(const char* type, const MeasuredTetrahedra& solid, doub
   for (std::size_t t = 0; t < solid.tetrahedra.size(); ++t) {
     group.particles.insert(group.particles.end(), solid.tetrahedra[t].begin(), solid.tetrahedra[t].end());
     const double energy = modulus * solid.volumes[t];
-    group.compliances.push_back(static_cast<float>(std::min(1 / energy, largest_quantity)));
+    group.compliances.push_back(static_cast<float>(std::min(1 / energy, largest_response)));
     stiffness += energy / static_cast<double>(solid.volumes.size());
   }
-  group.stiffness.damping = static_cast<float>(std::min(damping_time * stiffness, largest_quantity));
+  group.stiffness.damping = static_cast<float>(std::min(damping_time * stiffness, largest_response));
   return group;
 }
 

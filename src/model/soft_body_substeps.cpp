@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "constraints/tetrahedron_shear.h"
 
@@ -14,14 +15,16 @@ namespace {
 /// substeps yields more than its modulus says, by one to two times the square of this (docs/guide/soft_bodies.md).
 constexpr double edges_per_substep = 0.25;
 constexpr int fewest = 20, most = 1000;
+/// What a tetrahedron of a cube of side a, cut into six, has: sum of squared gradients of its four barycentric coordinates, times a^2; and
+/// the mean of its squared edges over a^2.
+constexpr double gradients_of_cube = 6, edges_of_cube = 5. / 3;
+/// The share of the tetrahedra for which substeps are short enough. Flat ones that are left are stiff in themselves: what is left to
+/// sweeps is that they move with their neighbours.
+constexpr double share_of_tetrahedra = 0.9;
 
-/// What the tetrahedra of an object are like on average.
-struct Averages {
-  double modulus_volume = 0;  ///< shear modulus times volume [J]
-  double volume = 0;          ///< [m^3]
-  double edge_squared = 0;    ///< [m^2]
-  double damping = 0;         ///< of the constraint on shear [J s]
-  std::size_t count = 0;
+/// A tetrahedron: its volume, its shear modulus, and 1 over the square of a length that a flat or a short one has small.
+struct Measured {
+  double volume, modulus, per_length_squared;
 };
 
 Vec3d at(const Object& object, int particle) {
@@ -29,29 +32,53 @@ Vec3d at(const Object& object, int particle) {
   return {p.x, p.y, p.z};
 }
 
-void add(const Object& object, const int* corners, Averages& to) {
+Measured measured(const Object& object, const int* corners, double compliance) {
   const Vec3d origin = at(object, corners[0]);
   const Vec3d a = at(object, corners[1]) - origin, b = at(object, corners[2]) - origin, c = at(object, corners[3]) - origin;
-  to.volume += std::fabs(dot(cross(a, b), c)) / 6;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      to.edge_squared += length_squared(at(object, corners[i]) - at(object, corners[k])) / 6;
-  ++to.count;
+  const Vec3d bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+  const double six = std::fabs(dot(ab, c));
+  const Vec3d rest = bc + ca + ab;
+  const double squares = length_squared(bc) + length_squared(ca) + length_squared(ab) + length_squared(rest);
+  return {six / 6, 6 / (compliance * six), squares / (six * six) / gradients_of_cube / edges_of_cube};
 }
 
-Averages averages_of(const Object& object) {
-  Averages sum;
+/// What the tetrahedra of an object are like.
+struct MeasuredSolid {
+  std::vector<Measured> tetrahedra;
+  double volume = 0, mass = 0;        ///< of all
+  double stiffness = 0, damping = 0;  ///< sums over the constraints on shear
+};
+
+MeasuredSolid solid_of(const Object& object) {
+  MeasuredSolid solid;
+  std::vector<bool> is_corner(object.positions.size(), false);
   for (const ConstraintGroup& group : object.constraints) {
     if (group.type != TetrahedronShear::name || group.stiffness.kind != Stiffness::Kind::compliance) continue;
     for (std::size_t t = 0; t < group.particles.size() / 4; ++t) {
       const double compliance = group.compliances.empty() ? group.stiffness.value : group.compliances[t];
-      if (!(compliance > 0)) continue;  // rigid: no number of substeps suffices
-      add(object, &group.particles[4 * t], sum);
-      sum.modulus_volume += 1 / compliance;
-      sum.damping += group.stiffness.damping;
+      const Measured one = measured(object, &group.particles[4 * t], compliance);
+      if (!(compliance > 0) || !(one.volume > 0)) continue;  // rigid: no number of substeps suffices
+      solid.tetrahedra.push_back(one);
+      solid.volume += one.volume;
+      solid.stiffness += 1 / compliance;
+      solid.damping += group.stiffness.damping;
+      for (std::size_t k = 0; k < 4; ++k) is_corner[static_cast<std::size_t>(group.particles[4 * t + k])] = true;
     }
   }
-  return sum;
+  for (std::size_t i = 0; i < is_corner.size(); ++i)  // not those of bodies that it is tied to
+    if (is_corner[i] && std::isfinite(object.masses[i])) solid.mass += static_cast<double>(object.masses[i]);
+  return solid;
+}
+
+/// The square of the rate at which a shear wave passes edges, of nearly all tetrahedra [1/s^2].
+double rate_squared(const MeasuredSolid& solid) {
+  std::vector<double> rates;
+  rates.reserve(solid.tetrahedra.size());
+  for (const Measured& one : solid.tetrahedra)
+    rates.push_back(one.modulus * one.per_length_squared * solid.volume / solid.mass);
+  const auto place = static_cast<std::size_t>(share_of_tetrahedra * static_cast<double>(rates.size() - 1));
+  std::nth_element(rates.begin(), rates.begin() + static_cast<std::ptrdiff_t>(place), rates.end());
+  return rates[place];
 }
 
 }  // namespace
@@ -61,17 +88,18 @@ bool is_soft_body(const Object& object) {
                      [](const ConstraintGroup& group) { return group.type == TetrahedronShear::name; });
 }
 
-int substeps_of_soft_body(const Object& object, double frame_time) {
-  const Averages all = averages_of(object);
-  double mass = 0;
-  for (const float one : object.masses)
-    if (std::isfinite(one)) mass += static_cast<double>(one);
-  if (all.count == 0 || !(mass > 0) || !(all.volume > 0)) return fewest;
-  const double rate_squared = all.modulus_volume / (mass * all.edge_squared / static_cast<double>(all.count));
-  const double time = all.damping / all.modulus_volume;
+double needed_substeps_of_soft_body(const Object& object, double frame_time) {
+  const MeasuredSolid solid = solid_of(object);
+  if (solid.tetrahedra.empty() || !(solid.mass > 0)) return fewest;
+  const double time = solid.damping / solid.stiffness;
   // h^2 (1 + time / h) rate^2 = edges^2: damping slows a sweep down by the bracket.
-  const double h = (std::sqrt(time * time + 4 * edges_per_substep * edges_per_substep / rate_squared) - time) / 2;
-  return std::clamp(static_cast<int>(std::ceil(std::min(frame_time / h, 1e4))), fewest, most);
+  const double squared = edges_per_substep * edges_per_substep / rate_squared(solid);
+  const double h = 2 * squared / (std::sqrt(time * time + 4 * squared) + time);
+  return std::max(frame_time / h, static_cast<double>(fewest));
+}
+
+int substeps_of_soft_body(const Object& object, double frame_time) {
+  return static_cast<int>(std::ceil(std::min(needed_substeps_of_soft_body(object, frame_time), static_cast<double>(most))));
 }
 
 }  // namespace pliant

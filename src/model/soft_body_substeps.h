@@ -9,7 +9,10 @@ namespace pliant {
 bool is_soft_body(const Object& object);
 
 /// The substeps with which one sweep holds a soft body about as stiffly as its modulus says: in each, a shear wave passes a quarter of
-/// an edge, or less where its constraints are damped. 20 to 1000.
+/// an edge of nine in ten of its tetrahedra, or less where its constraints are damped. At least 20.
+double needed_substeps_of_soft_body(const Object& object, double frame_time);
+
+/// The same, rounded up, at most 1000.
 int substeps_of_soft_body(const Object& object, double frame_time);
 
 }  // namespace pliant

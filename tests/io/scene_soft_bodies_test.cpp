@@ -44,6 +44,16 @@ TEST(SceneSoftBodies, OfAClosedMeshAreFilled) {
   for (const Vec3f& p : ball.positions) EXPECT_LT(length_squared(p - Vec3f{-24, 9, 1}), 1.05f);
 }
 
+TEST(SceneSoftBodies, OfThinMeshesAreFilledByDefault) {
+  for (const char* size : {"[10, 0.5, 0.5]", "[1, 0.1, 1]"}) {
+    const std::string text = std::string(R"({"objects": [{"soft_body": {"mesh": {"box": {"size": )") + size + "}}}}]}";
+    const Scene scene = parse_scene(text, "x.json", ".");
+    float mass = 0;
+    for (const float one : scene.objects[0].masses) mass += one;
+    EXPECT_NEAR(mass / (1000 * (size[1] == '1' && size[2] == '0' ? 2.5f : 0.1f)), 1, 0.15) << size;
+  }
+}
+
 TEST(SceneSoftBodies, ArePartsOfObjectsOfBodies) {
   const Scene scene = parse_scene(R"({"objects": [{
     "bodies": [{"name": "hub", "solids": [{"box": {"half_extents": [0.1, 0.1, 0.1]}}]}],
@@ -82,6 +92,7 @@ TEST(SceneSoftBodies, AreRefusedWithAReason) {
       {R"({"mesh": {"sphere": {"subdivisions": 1}}, "material": "jelly"})", "gelatine"},
       {R"({"mesh": {"sphere": {"subdivisions": 1}}, "material": {"poisson_ratio": 0.5}})", "0.495"},
       {R"({"tetrahedra": {"file": "no.ele"}})", "there is no file"},
+      {R"({"tetrahedra": {"box": {"size": [1, 1, 1], "cells": [200, 200, 200]}}})", "tetrahedra; use fewer cells"},
       {R"({"size": 1})", "/objects/0/soft_body"},
   };
   for (const auto& [body, expected] : cases) {

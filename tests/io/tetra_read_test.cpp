@@ -82,6 +82,10 @@ std::string binary_gmsh_2(bool swap) {
   return text + "\n$EndElements\n";
 }
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
 void expect_two(const std::string& path) {
   const TetrahedralMeshFile file = read_tetrahedral_mesh(path);
   EXPECT_EQ(file.mesh.positions.size(), 5u) << path;
@@ -105,6 +109,10 @@ TEST(TetrahedralFiles, OfEachFormatGiveTheSameMesh) {
   expect_two(write("other_order.msh", binary_gmsh_2(true)));
 }
 
+TEST(TetrahedralFiles, OfMmgHaveRequiredTetrahedra) {
+  expect_two(write("mmg.mesh", replaced(medit, "End", "RequiredTetrahedra 1\n2\nEnd")));
+}
+
 TEST(TetrahedralFiles, NameNodesThatNoTetrahedronUses) {
   EXPECT_EQ(read_tetrahedral_mesh(write("two.mesh", medit)).repairs[1], "1 node that no tetrahedron uses was left out");
 }
@@ -118,10 +126,6 @@ std::string message(const std::string& path) {
     return error.what();
   }
   return "accepted";
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
 }
 
 TEST(TetrahedralFiles, ThatAreDamagedAreRefusedWithTheirLine) {
@@ -148,8 +152,13 @@ TEST(TetrahedralFiles, ThatAreDamagedAreRefusedWithTheirLine) {
       {{"a.vtk", replaced(vtk, "4 0 1 2 4", "900000000 0 1 2 4")}, "a cell has 900000000 corners"},
       {{"a.vtk", replaced(vtk, "CELL_TYPES 3", "CELL_TYPES 2")}, "2 types for 3 cells"},
       {{"a.vtk", vtk.substr(0, vtk.find("CELL_TYPES"))}, "ends before its CELL_TYPES"},
+      {{"a.vtk", replaced(vtk_5, "0 4 8", "1 4 8")}, "offset 0 is 1"},
+      {{"a.vtk", replaced(vtk_5, "0 4 8", "0 4 9")}, "offset 2 is 9"},
+      {{"a.vtk", replaced(replaced(vtk, "CELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 0 1 2 4", "CELLS 0 0"),
+                          "CELL_TYPES 3\n5\n10\n10", "CELL_TYPES 0")},
+       "has no tetrahedron"},
       {{"a.vtk", "solid"}, "is no VTK file"},
-      {{"a.vtk", replaced(vtk_5, "0 4 8", "0 9 8")}, "'CELL_TYPES' is no integer"},
+      {{"a.vtk", replaced(vtk_5, "0 4 8", "0 9 8")}, "offset 2 is 8; offsets ascend from 0 to the number of corners, 8"},
       {{"a.msh", replaced(gmsh_2, "2.2", "4.0")}, ":2: has version '4.0' of the format"},
       {{"a.msh", replaced(gmsh_2, "2 4 2 0 1", "2 5 2 0 1")}, ":20: has elements of type 5"},
       {{"a.msh", replaced(gmsh_2, "2 4 2 0 1", "2 11 2 0 1")}, "Mesh.ElementOrder = 1"},

@@ -208,7 +208,7 @@ TEST(SoftBodyMotion, KeepsMomentum) {
   const Momentum after = momentum_of(world, masses);
   EXPECT_LT(length(after.linear - before.linear), 1e-4 * length(before.linear));
   // Implicit Euler takes h w^2 of angular momentum a second: 1 / 2400 * 3^2 = 0.4 %.
-  EXPECT_NEAR(after.angular.z / before.angular.z, 1, 0.02);
+  EXPECT_NEAR(after.angular.z / before.angular.z, 1, 0.01);
 }
 
 TEST(SoftBodyMotion, FindsItsShapeAgainFromRandomPlaces) {
@@ -276,6 +276,27 @@ TEST(SoftBodySubsteps, GrowWithTheWaveSpeedOverTheEdge) {
   EXPECT_GT(substeps_by_default(1e6f, 0.001f), some);
 }
 
+TEST(SoftBodySubsteps, AreThoseOfFlatTetrahedra) {
+  const auto of = [](const Vec3f& size) {
+    SoftBodyOptions options;
+    options.material = solid_of(1e6f, 0.3f);
+    return chosen_substeps(scene_of(make_soft_body(box_tetrahedra(size, {8, 4, 4}), options), 0))[0];
+  };
+  const int cubes = of({0.2f, 0.1f, 0.1f}), flat = of({0.2f, 0.01f, 0.1f});
+  EXPECT_NEAR(flat / static_cast<double>(cubes), std::sqrt((2. + 100) / 3),
+              0.3);  // gradients of 1 / 25 mm, one of them of 1 / 2.5 mm
+}
+
+TEST(SoftBodySubsteps, DoNotCountTheBodiesThatItIsTiedTo) {
+  SoftBodyOptions options;
+  options.material = solid_of(1e6f, 0.3f);
+  Object bar = make_soft_body(box_tetrahedra({0.4f, 0.1f, 0.1f}, {12, 3, 3}), options);
+  const int alone = chosen_substeps(scene_of(bar, 0))[0];
+  bar.positions.push_back({5, 0, 0});
+  bar.masses.push_back(1e6f);
+  EXPECT_EQ(chosen_substeps(scene_of(bar, 0))[0], alone);
+}
+
 TEST(SoftBodySubsteps, TooFewAreADoubt) {
   SoftBodyOptions options;
   options.material = solid_of(1e6f, 0.3f);
@@ -287,6 +308,47 @@ TEST(SoftBodySubsteps, TooFewAreADoubt) {
   };
   EXPECT_NE(doubts(20).find("modulus"), std::string::npos) << doubts(20);
   EXPECT_EQ(doubts(0).find("modulus"), std::string::npos) << doubts(0);
+}
+
+TEST(SoftBodySubsteps, TooFewAreADoubtAlsoByDefault) {
+  SoftBodyOptions options;
+  options.material = solid_of(1e10f, 0.3f);
+  Scene scene = scene_of(make_soft_body(box_tetrahedra({0.4f, 0.1f, 0.1f}, {12, 3, 3}), options), 0);
+  EXPECT_EQ(chosen_substeps(scene)[0], 1000);
+  std::string all;
+  for (const Finding& finding : inspect(scene)) all += finding.message + "; " + finding.advice + "\n";
+  EXPECT_NE(all.find("use larger tetrahedra"), std::string::npos) << all;
+}
+
+/// The root mean square of the height of the free end over the third quarter of a second, after it was let go.
+double swing(float damping) {
+  SoftBodyOptions options;
+  options.material = solid_of(2e5f, 0.3f);
+  options.material.damping = damping;
+  Object bar = make_soft_body(box_tetrahedra({0.4f, 0.1f, 0.1f}, {12, 3, 3}), options);
+  std::vector<int> held;
+  std::size_t tip = 0;
+  for (std::size_t i = 0; i < bar.positions.size(); ++i) {
+    if (bar.positions[i].x < -0.199f) held.push_back(static_cast<int>(i));
+    if (bar.positions[i].x > bar.positions[tip].x) tip = i;
+    bar.velocities.push_back({0, 0.3f * (bar.positions[i].x + 0.2f), 0});
+  }
+  Scene scene = scene_of(std::move(bar), 240);
+  scene.gravity = {};
+  scene.pin(0, held);
+  World world(scene);
+  double squares = 0;
+  for (int frame = 0; frame < 45; ++frame) {
+    world.step(1.f / 60);
+    const double y = static_cast<double>(positions_of(world)[tip].y - scene.objects[0].positions[tip].y);
+    if (frame >= 30) squares += y * y / 15;
+  }
+  return std::sqrt(squares);
+}
+
+TEST(SoftBodyMotion, DampingTakesEnergyFromASwing) {
+  // The first mode of the beam has 9 rad/s; a viscous stress of 10 ms takes exp(-0.01 9^2 t / 2) of its amplitude, 0.78 at 0.62 s.
+  EXPECT_NEAR(swing(0.01f) / swing(0), 0.78, 0.1);
 }
 
 }  // namespace

@@ -91,6 +91,19 @@ TEST(MakeSoftBody, WithoutPoissonsRatioHasNoVolumeConstraint) {
   EXPECT_EQ(make_soft_body(box_tetrahedra({1, 1, 1}, {1, 1, 1}), options).constraints.size(), 1u);
 }
 
+TEST(MakeSoftBody, TakesTheWholeRangeOfPoissonsRatio) {
+  SoftBodyOptions options;
+  options.material = solid_of(1e5f, 0.495f);
+  EXPECT_EQ(make_soft_body(box_tetrahedra({1, 1, 1}, {1, 1, 1}), options).constraints.size(), 2u);
+}
+
+TEST(MakeSoftBody, OfSoftGelIsAsSoftAtTheScaleOfCells) {
+  SoftBodyOptions options;
+  options.material = solid_of(100, 0.3f);
+  const Object tiny = make_soft_body(box_tetrahedra({1e-5f, 1e-5f, 1e-5f}, {1, 1, 1}), options);
+  EXPECT_NEAR(tiny.constraints[0].compliances[0] * (100 / 2.6) * 1e-15 / 6, 1, 1e-3);
+}
+
 TEST(MakeSoftBody, TurnsTetrahedraAndDropsCornersWithoutOne) {
   const TetrahedralMesh mesh{{{9, 9, 9}, {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}}, {{1, 2, 3, 4}}};
   const Object body = make_soft_body(mesh);
@@ -205,6 +218,22 @@ TEST(FillWithTetrahedra, SaysWhatItLeavesOut) {
   for (const auto& [a, b, c] : small.triangles) two.triangles.push_back({first + a, first + b, first + c});
   const FilledMesh filled = fill_with_tetrahedra(two, 0.25f);
   for (const Vec3f& p : filled.mesh.positions) EXPECT_LT(p.x, 2);
+  ASSERT_FALSE(filled.notes.empty());
+  EXPECT_NE(filled.notes.back().find("162 of 804 vertices of the mesh, the first 642, lie off the tetrahedra"),
+            std::string::npos)
+      << filled.notes.back();
+}
+
+TEST(FillWithTetrahedra, TakesAMeshThatOverlapsItself) {
+  TriangleMesh two = sphere_mesh(3);
+  const auto first = static_cast<int>(two.positions.size());
+  for (const Vec3f& p : sphere_mesh(3).positions) two.positions.push_back(p + Vec3f{0.7f, 0.1f, 0});
+  for (const auto& [a, b, c] : sphere_mesh(3).triangles) two.triangles.push_back({first + a, first + b, first + c});
+  const FilledMesh filled = fill_with_tetrahedra(two, 0.2f);
+  EXPECT_TRUE(filled.notes.empty()) << filled.notes.front();
+  const double distance = std::sqrt(0.5),
+               cap = 3.14159265 * (1 - distance / 2) * (1 - distance / 2) * (2 + distance / 2) / 3;
+  EXPECT_NEAR(sum(six_volumes(filled.mesh.positions, filled.mesh.tetrahedra)) / 6, 2 * (4.18879 - cap), 0.3);
 }
 
 TEST(FillWithTetrahedra, RefusesWhatEnclosesNothing) {
@@ -215,6 +244,9 @@ TEST(FillWithTetrahedra, RefusesWhatEnclosesNothing) {
   EXPECT_NE(refusal([] { fill_with_tetrahedra(sphere_mesh(2), 0); }).find("size"), std::string::npos);
   EXPECT_NE(refusal([] { fill_with_tetrahedra(sphere_mesh(2), 50); }).find("too large"), std::string::npos);
   EXPECT_NE(refusal([] { fill_with_tetrahedra(sphere_mesh(2), 1e-4f); }).find("larger size"), std::string::npos);
+  TriangleMesh far = sphere_mesh(2);
+  for (Vec3f& p : far.positions) p.x += 9e5f;
+  EXPECT_NE(refusal([&] { fill_with_tetrahedra(far, 0.25f); }).find("move the mesh to the origin"), std::string::npos);
 }
 
 }  // namespace
