@@ -11,7 +11,7 @@
 
 namespace pliant {
 
-/// A mesh of tetrahedra. Seen from its fourth corner, the first three corners of each run clockwise, so that its volume is
+/// A mesh of tetrahedra. Seen from its fourth corner, the first three corners run counter-clockwise, so that its volume is
 /// positive; make_soft_body turns those that are not.
 struct TetrahedralMesh {
   std::vector<Vec3f> positions;                ///< [m]

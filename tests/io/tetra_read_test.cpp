@@ -158,7 +158,7 @@ TEST(TetrahedralFiles, ThatAreDamagedAreRefusedWithTheirLine) {
                           "CELL_TYPES 3\n5\n10\n10", "CELL_TYPES 0")},
        "has no tetrahedron"},
       {{"a.vtk", "solid"}, "is no VTK file"},
-      {{"a.vtk", replaced(vtk_5, "0 4 8", "0 9 8")}, "offset 2 is 8; offsets ascend from 0 to the number of corners, 8"},
+      {{"a.vtk", replaced(vtk_5, "0 4 8", "0 9 8")}, "offset 1 is 9; offsets ascend from 0 to the number of corners, 8"},
       {{"a.msh", replaced(gmsh_2, "2.2", "4.0")}, ":2: has version '4.0' of the format"},
       {{"a.msh", replaced(gmsh_2, "2 4 2 0 1", "2 5 2 0 1")}, ":20: has elements of type 5"},
       {{"a.msh", replaced(gmsh_2, "2 4 2 0 1", "2 11 2 0 1")}, "Mesh.ElementOrder = 1"},
