@@ -195,7 +195,7 @@ void doubt_substeps_of_soft_bodies(Problems& problems, const Scene& scene) {
     problems.doubtful(
         "settings, substeps",
         "are " + std::to_string(all[o]) + ", so few that '" + scene.objects[o].name + "' will yield about " +
-            words(1 + excess_by_default * slack) + " times as much as its modulus says",
+            words(std::round(10 * (1 + excess_by_default * slack)) / 10) + " times as much as its modulus says",
         scene.settings.substeps > 0
             ? "give " + wanted + ", or leave substeps out"
             : "it needs " + wanted +
