@@ -1,6 +1,7 @@
 // The readers of tetrahedral meshes, one for each format. Each gets the bytes of a file, and its name for errors.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -15,9 +16,13 @@ struct NamedText {
 };
 TetrahedralMeshFile read_tetgen(const NamedText& nodes, const NamedText& elements);
 
-TetrahedralMeshFile read_gmsh(std::string_view bytes, const std::string& name);   ///< .msh 2.2 and 4.1, as text and binary
-TetrahedralMeshFile read_vtk(std::string_view bytes, const std::string& name);    ///< legacy .vtk, as text
-TetrahedralMeshFile read_medit(std::string_view bytes, const std::string& name);  ///< .mesh, as text
+TetrahedralMeshFile read_gmsh(std::string_view bytes, const std::string& name);  ///< .msh 2.2 and 4.1, as text and binary
+TetrahedralMeshFile read_vtk(std::string_view bytes, const std::string& name);   ///< legacy .vtk
+/// The same with numbers as bytes, big end first. `offset` is that of the line after "BINARY".
+TetrahedralMeshFile read_binary_vtk(std::string_view bytes, std::size_t offset, const std::string& name);
+constexpr std::int64_t vtk_tetrahedron = 10, vtk_highest_flat = 9;  ///< cell types; up to 9 are points, lines and polygons
+
+TetrahedralMeshFile read_medit(std::string_view bytes, const std::string& name);       ///< .mesh, as text
 TetrahedralMeshFile read_vertex_tet(std::string_view bytes, const std::string& name);  ///< lines "Vertex" and "Tet"
 
 }  // namespace pliant

@@ -1,10 +1,9 @@
 // Reads Gmsh .msh 2.2 and 4.1, as text and binary (Geuzaine and Remacle, Gmsh's reference manual, "MSH file format"): nodes and linear
 // tetrahedra. Points, lines, triangles and quadrangles are passed over, and so are all other sections.
 #include <algorithm>
-#include <cstring>
 
-#include "pliant/error.h"
 #include "tetra_builder.h"
+#include "tetra_bytes.h"
 #include "tetra_formats.h"
 #include "tetra_text.h"
 
@@ -23,7 +22,7 @@ constexpr ElementType types[] = {{15, 1}, {1, 2}, {2, 3}, {3, 4}, {tetrahedron, 
 /// Numbers of a file, as words or as bytes.
 class Source {
  public:
-  Source(std::string_view bytes, const std::string& name) : bytes_(bytes), words_(bytes, name), name_(name) {}
+  Source(std::string_view bytes, const std::string& name) : words_(bytes, name), bytes_(bytes, name) {}
 
   void read_format();
   bool is_version_2() const { return is_version_2_; }
@@ -41,75 +40,34 @@ class Source {
   [[noreturn]] void fail(const std::string& problem, const std::string& advice) const;
 
  private:
-  std::string_view take(std::size_t size, const char* what);
-  template <class T>
-  T value(const char* what);
-  std::string_view binary_line();
-
-  std::string_view bytes_;
   WordReader words_;
-  const std::string& name_;
-  std::size_t at_ = 0;  ///< of a binary file
-  bool is_binary_ = false, is_version_2_ = false, is_swapped_ = false;
+  ByteReader bytes_;
+  bool is_binary_ = false, is_version_2_ = false;
 };
 
 void Source::fail(const std::string& problem, const std::string& advice) const {
   if (!is_binary_) words_.fail(problem, advice);
-  throw Error({.file = name_, .element = "byte " + std::to_string(at_)}, problem, advice);
+  bytes_.fail(problem, advice);
 }
 
-std::string_view Source::take(std::size_t size, const char* what) {
-  if (size > bytes_.size() - at_)
-    fail(std::string("ends where ") + what + " should follow", "the file is cut off: export it again");
-  at_ += size;
-  return bytes_.substr(at_ - size, size);
-}
-
-template <class T>
-T Source::value(const char* what) {
-  const std::string_view from = take(sizeof(T), what);
-  char raw[sizeof(T)];
-  std::copy(from.begin(), from.end(), raw);
-  if (is_swapped_) std::reverse(raw, raw + sizeof raw);
-  T result{};
-  std::memcpy(&result, raw, sizeof raw);
-  return result;
-}
-
-std::int64_t Source::tag(const char* what) { return is_binary_ ? value<std::int32_t>(what) : words_.integer(what); }
+std::int64_t Source::tag(const char* what) { return is_binary_ ? bytes_.value<std::int32_t>(what) : words_.integer(what); }
 
 std::int64_t Source::index(const char* what) {
   if (!is_binary_) return words_.integer(what);
-  return is_version_2_ ? value<std::int32_t>(what) : value<std::int64_t>(what);
+  return is_version_2_ ? bytes_.value<std::int32_t>(what) : bytes_.value<std::int64_t>(what);
 }
 
-float Source::real(const char* what) {
-  if (!is_binary_) return words_.real(what);
-  const auto coordinate = static_cast<float>(value<double>(what));
-  if (!(coordinate - coordinate == 0)) fail(std::string(what) + " is not finite", "give finite coordinates");
-  return coordinate;
-}
+float Source::real(const char* what) { return is_binary_ ? bytes_.coordinate<double>(what) : words_.real(what); }
 
 std::int64_t Source::count(const char* what) {
   if (!is_binary_) return words_.count(what);
   std::int64_t number = -1;
   if (!is_version_2_) {
     number = index(what);
-  } else if (const std::string_view line = binary_line(); !parse_integer(line, number)) {  // text even in binary files
+  } else if (const std::string_view line = bytes_.line(); !parse_integer(line, number)) {  // text even in binary files
     fail(quoted(line) + " is no integer, but " + what + " should be here", "the file is damaged: export it again");
   }
-  if (number < 0 || static_cast<std::uint64_t>(number) > (bytes_.size() - at_) / 4)
-    fail(std::string(what) + " is " + std::to_string(number) + ", for which the file is too short",
-         "the file is damaged or cut off: export it again");
-  return number;
-}
-
-std::string_view Source::binary_line() {
-  const std::size_t end = std::min(bytes_.find('\n', at_), bytes_.size());
-  std::string_view line = bytes_.substr(at_, end - at_);
-  at_ = std::min(end + 1, bytes_.size());
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return line;
+  return bytes_.checked(number, sizeof(std::int32_t), what);
 }
 
 void Source::read_format() {
@@ -122,16 +80,16 @@ void Source::read_format() {
   if (words_.integer("the size of numbers") != 8)
     fail("has numbers of other than 8 bytes", "save it by a present version of Gmsh");
   if (!is_binary) return words_.expect("$EndMeshFormat");
-  at_ = words_.offset();
+  bytes_.go_to(words_.offset());
   is_binary_ = true;
-  const auto one = value<std::int32_t>("the number 1");
-  is_swapped_ = one != 1;
+  const auto one = bytes_.value<std::int32_t>("the number 1");
   if (one != 1 && one != 0x01000000) fail("has no number 1 after its format", "the file is damaged: export it again");
+  bytes_.swap_bytes(one != 1);
 }
 
 std::string Source::section() {
-  while (is_binary_ && at_ < bytes_.size()) {
-    const std::string_view line = binary_line();
+  while (is_binary_ && bytes_.remaining() > 0) {
+    const std::string_view line = bytes_.line();
     if (!line.empty() && line.front() == '$' && line.substr(0, 4) != "$End") return std::string(line.substr(1));
   }
   if (is_binary_) return {};

@@ -1,4 +1,4 @@
-// Reads legacy VTK unstructured grids as text (Kitware, "VTK file formats"): POINTS, CELLS and CELL_TYPES, in the layout of version 2 to 4
+// Reads legacy VTK unstructured grids; tetra_vtk_binary.cpp those whose numbers are bytes (Kitware, "VTK file formats"): POINTS, CELLS and CELL_TYPES, in the layout of version 2 to 4
 // and in that of 5.1. Data of points and cells, which follow, are not read.
 #include <vector>
 
@@ -9,8 +9,6 @@
 namespace pliant {
 
 namespace {
-
-constexpr std::int64_t tetrahedron = 10, highest_flat = 9;  // types up to 9 are points, lines and polygons
 
 struct Cells {
   std::vector<std::vector<std::int64_t>> corners;
@@ -28,13 +26,15 @@ std::string_view read_head(WordReader& words) {
   return words.word();
 }
 
-void read_format(WordReader& words) {
+/// True if numbers follow as bytes.
+bool read_format(WordReader& words) {
   std::string_view word = read_head(words);
-  if (word == "BINARY") words.fail("is binary", "write it as ASCII");
+  if (word == "BINARY") return true;
   if (word != "ASCII") words.fail(quoted(word) + " is where 'ASCII' should be", "the file is no legacy VTK file");
   words.expect("DATASET");
   word = words.word();
   if (word != "UNSTRUCTURED_GRID") words.fail(quoted(word) + " has no tetrahedra", "write an UNSTRUCTURED_GRID");
+  return false;
 }
 
 void read_points(WordReader& words, TetraBuilder& builder) {
@@ -100,8 +100,8 @@ void add_tetrahedra(WordReader& words, const Cells& cells, TetraBuilder& builder
                "the file is damaged");
   for (std::size_t i = 0; i < cells.corners.size(); ++i) {
     const std::int64_t type = words.integer("the type of a cell");
-    if (type >= 1 && type <= highest_flat) continue;
-    if (type != tetrahedron)
+    if (type >= 1 && type <= vtk_highest_flat) continue;
+    if (type != vtk_tetrahedron)
       words.fail(
           "cell " + std::to_string(i) + " has type " + std::to_string(type) + ", which is no linear tetrahedron (10)",
           "write linear tetrahedra alone");
@@ -119,7 +119,7 @@ TetrahedralMeshFile read_vtk(std::string_view bytes, const std::string& name) {
   WordReader words(bytes, name, 0);
   TetraBuilder builder(name);
   Cells cells;
-  read_format(words);
+  if (read_format(words)) return read_binary_vtk(bytes, words.offset(), name);
   for (;;) {
     const std::string_view keyword = words.word();
     if (keyword == "POINTS") {

@@ -67,6 +67,25 @@ void put(std::string& to, T value, bool swap) {
   to.append(raw, sizeof value);
 }
 
+std::string binary_vtk(bool has_offsets) {
+  const std::string head = "# vtk DataFile Version 4.2\ntitle\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 ";
+  std::string text = head + (has_offsets ? "double\n" : "float\n");
+  for (const int x : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -2, 9, 9, 9})
+    has_offsets ? put(text, static_cast<double>(x), true) : put(text, static_cast<float>(x), true);
+  if (has_offsets) {
+    text += "\nMETADATA\nINFORMATION 0\n\nCELLS 4 11\nOFFSETS vtktypeint64\n";
+    for (const std::int64_t one : {0, 3, 7, 11}) put(text, one, true);
+    text += "\nCONNECTIVITY vtktypeint64\n";
+    for (const std::int64_t one : {0, 1, 2, 0, 1, 2, 3, 0, 1, 2, 4}) put(text, one, true);
+  } else {
+    text += "\nCELLS 3 14\n";
+    for (const std::int32_t one : {3, 0, 1, 2, 4, 0, 1, 2, 3, 4, 0, 1, 2, 4}) put(text, one, true);
+  }
+  text += "\nCELL_TYPES 3\n";
+  for (const std::int32_t one : {5, 10, 10}) put(text, one, true);
+  return text + "\nPOINT_DATA 6\n";
+}
+
 std::string binary_gmsh_2(bool swap) {
   std::string text = "$MeshFormat\n2.2 1 8\n";
   const auto number = [&](std::int32_t value) { put(text, value, swap); };
@@ -96,6 +115,8 @@ void expect_two(const std::string& path) {
 }
 
 TEST(TetrahedralFiles, OfEachFormatGiveTheSameMesh) {
+  expect_two(write("binary.vtk", binary_vtk(false)));
+  expect_two(write("binary_5.vtk", binary_vtk(true)));
   expect_two(write("two.mesh", medit));
   expect_two(write("two.vtk", vtk));
   expect_two(write("five.vtk", vtk_5));
@@ -145,7 +166,11 @@ TEST(TetrahedralFiles, ThatAreDamagedAreRefusedWithTheirLine) {
       {{"a.mesh", replaced(medit, "Triangles", "Squares")}, "'Squares' is no keyword"},
       {{"a.mesh", medit.substr(0, medit.size() - 12)}, "ends where"},
       {{"a.mesh", medit.substr(0, medit.find("Tetra"))}, "has no tetrahedron; export the volume mesh"},
-      {{"a.vtk", replaced(vtk, "ASCII", "BINARY")}, "is binary; write it as ASCII"},
+      {{"a.vtk", binary_vtk(false).substr(0, 130)}, "byte"},
+      {{"a.vtk", binary_vtk(true).substr(0, 420)}, "byte"},
+      {{"a.vtk", replaced(binary_vtk(false), "POINTS 6", "POINTS 60000")}, "for which the file is too short"},
+      {{"a.vtk", replaced(binary_vtk(false), "UNSTRUCTURED_GRID", "POLYDATA")}, "is no UNSTRUCTURED_GRID"},
+      {{"a.vtk", replaced(binary_vtk(false), "float", "int")}, "points are of type 'int'"},
       {{"a.vtk", replaced(vtk, "UNSTRUCTURED_GRID", "POLYDATA")}, "'POLYDATA' has no tetrahedra"},
       {{"a.vtk", replaced(vtk, "10\n10", "10\n12")}, "cell 2 has type 12"},
       {{"a.vtk", replaced(vtk, "10\n10", "10\n24")}, "cell 2 has type 24"},
@@ -205,6 +230,8 @@ TEST(TetrahedralFiles, NeverCrash) {
                                    {"x2.msh", gmsh_2},
                                    {"x4.msh", gmsh_4},
                                    {"xb.msh", binary_gmsh_2(false)},
+                                   {"xb.vtk", binary_vtk(false)},
+                                   {"xb5.vtk", binary_vtk(true)},
                                    {"x.t", vertex_tet}}) {
     for (std::size_t i = 0; i < text.size(); i += 3) {
       std::string changed = text;
