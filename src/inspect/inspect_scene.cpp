@@ -181,6 +181,25 @@ void doubt_settings(Problems& problems, const Scene& scene) {
 }
 
 /// Warns of grains for which the named substeps are too few: those at the bottom yield, and heaps are flatter.
+/// Says which soft bodies have numbers that are probably in another unit.
+void doubt_soft_bodies(Problems& problems, const Scene& scene) {
+  constexpr double most_strain = 1, most_damping = 0.1;  // [-], [s]
+  for (const Object& object : scene.objects) {
+    if (!is_soft_body(object)) continue;
+    const SoftBodyNumbers found = numbers_of_soft_body(object, scene.gravity);
+    problems.at(object.name);
+    if (found.strain_by_weight > most_strain)
+      problems.doubtful("material, youngs_modulus",
+                        "is so low that the weight of the body presses its lowest layer to nothing: strain " +
+                            words(std::round(10 * found.strain_by_weight) / 10),
+                        "Young's modulus is in Pa, lengths are in metres, densities in kg/m^3");
+    if (found.damping_time > most_damping)
+      problems.doubtful("material, damping", "is " + words(found.damping_time) + " s: the body resists like tar",
+                        "it is a time, 0.002 s of gelatine; that of the object is a rate in 1/s");
+  }
+  problems.at("");
+}
+
 /// Says by how much too few substeps soften soft bodies: by up to the square of their length, over their iterations.
 void doubt_substeps_of_soft_bodies(Problems& problems, const Scene& scene) {
   constexpr double tolerated = 2, excess_by_default = 0.1;  // what the needed substeps leave
@@ -309,7 +328,10 @@ void look_through(Problems& problems, const Scene& scene) {
   doubt_settings(problems, scene);
   doubt_bounds(problems, scene);
   doubt_substeps_of_grains(problems, scene);
-  if (problems.grave_count() == 0) doubt_substeps_of_soft_bodies(problems, scene);
+  if (problems.grave_count() == 0) {
+    doubt_soft_bodies(problems, scene);
+    doubt_substeps_of_soft_bodies(problems, scene);
+  }
   doubt_tolerance(problems, scene);
   doubt_names(problems, scene);
   if (problems.grave_count() == 0) doubt_contact(problems, scene);

@@ -20,7 +20,7 @@ constexpr double most_nodes = 1 << 22;  // of up to six tetrahedra each
 /// Nodes up to this share of a cell outside of the mesh belong to the body; the border is then about as often outside as inside.
 constexpr float reach = 0.25f;
 /// Of a tetrahedron when a corner is moved: volume over that of a regular one with edges of the same root mean square.
-constexpr double least_quality = 0.15;
+constexpr double least_quality = 0.25;
 /// Pieces of fewer tetrahedra are dropped: two dozen share one edge of the lattice.
 constexpr int fewest_of_piece = 24;
 constexpr int passes = 4;
@@ -271,7 +271,7 @@ void note_what_is_far(const TriangleMesh& mesh, float size, FilledMesh& filled) 
     for (const int corner : triangle) is_used[static_cast<std::size_t>(corner)] = true;
   std::size_t far = 0, first = 0;
   for (std::size_t i = 0; i < is_used.size(); ++i) {
-    if (!is_used[i] || border.closest(mesh.positions[i], 0.75f * size).triangle >= 0) continue;
+    if (!is_used[i] || border.closest(mesh.positions[i], 0.5f * size).triangle >= 0) continue;
     if (border.is_inside(mesh.positions[i])) continue;  // as where the mesh overlaps itself
     if (far++ == 0) first = i;
   }

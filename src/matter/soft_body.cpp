@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <utility>
 
 #include "pliant/error.h"
@@ -167,20 +168,32 @@ std::vector<int> drop_unused(std::size_t corners, std::vector<Tetrahedron>& tetr
   return kept;
 }
 
-/// A group with one constraint for each tetrahedron, whose compliance is 1 / (modulus volume). The damping of a group is one
-/// number, so that of all is the mean of theirs.
-ConstraintGroup group_of(const char* type, const MeasuredTetrahedra& solid, double modulus, double damping_time) {
-  ConstraintGroup group;
-  group.type = type;
-  double stiffness = 0;
-  for (std::size_t t = 0; t < solid.tetrahedra.size(); ++t) {
-    group.particles.insert(group.particles.end(), solid.tetrahedra[t].begin(), solid.tetrahedra[t].end());
-    const double energy = modulus * solid.volumes[t];
-    group.compliances.push_back(static_cast<float>(std::min(1 / energy, largest_response)));
-    stiffness += energy / static_cast<double>(solid.volumes.size());
+/// Which tetrahedra are about as large: by powers of the square root of two.
+int size_class(double volume) {
+  int exponent = 0;
+  const double mantissa = std::frexp(volume, &exponent);
+  return 2 * exponent + (mantissa >= 0.70710678118654752 ? 1 : 0);
+}
+
+/// Adds a constraint for each tetrahedron, whose compliance is 1 / (modulus volume). All of a group have one damping, which is to be the
+/// damping time over the compliance; so with damping there is a group for each size. A large one's would stop a small one.
+void add_groups(const char* type, const MeasuredTetrahedra& solid, double modulus, double damping_time, Object& body) {
+  std::map<int, std::vector<std::size_t>> classes;
+  for (std::size_t t = 0; t < solid.tetrahedra.size(); ++t)
+    classes[damping_time > 0 ? size_class(solid.volumes[t]) : 0].push_back(t);
+  for (const auto& [size, members] : classes) {
+    ConstraintGroup group;
+    group.type = type;
+    double stiffness = 0;
+    for (const std::size_t t : members) {
+      group.particles.insert(group.particles.end(), solid.tetrahedra[t].begin(), solid.tetrahedra[t].end());
+      const double energy = modulus * solid.volumes[t];
+      group.compliances.push_back(static_cast<float>(std::min(1 / energy, largest_response)));
+      stiffness += energy / static_cast<double>(members.size());
+    }
+    group.stiffness.damping = static_cast<float>(std::min(damping_time * stiffness, largest_response));
+    body.constraints.push_back(std::move(group));
   }
-  group.stiffness.damping = static_cast<float>(std::min(damping_time * stiffness, largest_response));
-  return group;
 }
 
 void set_masses(const MeasuredTetrahedra& solid, double density, Object& body) {
@@ -234,13 +247,12 @@ Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& option
   if (!(options.velocity == Vec3f{})) body.velocities.assign(body.positions.size(), options.velocity);
   const Lame lame = lame_of(options.material);
   const double damping = options.material.damping;
-  body.constraints.push_back(group_of("tetrahedron_shear", solid, lame.mu, damping));
-  if (lame.lambda > 0) body.constraints.push_back(group_of("tetrahedron_volume", solid, lame.lambda, damping));
+  add_groups("tetrahedron_shear", solid, lame.mu, damping, body);
+  if (lame.lambda > 0) add_groups("tetrahedron_volume", solid, lame.lambda, damping, body);
   body.thickness = options.thickness;
   body.collides = true;
   body.static_friction = options.material.static_friction;
   body.kinetic_friction = options.material.kinetic_friction;
-  body.colour = {0.30f, 0.55f, 0.35f};
   return body;
 }
 

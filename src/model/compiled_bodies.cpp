@@ -4,6 +4,7 @@
 #include <map>
 
 #include "constraints/registry.h"
+#include "constraints/tetrahedron_shear.h"
 #include "geometry/convex_hull.h"
 #include "math/quat.h"
 #include "model/body_names.h"
@@ -96,16 +97,20 @@ void find_ties(const Object& object, const std::vector<int>& place, CompiledBodi
 /// The mean length of the edges at each attached particle, from the positions at the start.
 std::vector<double> edge_lengths_of(const Object& object, const std::vector<int>& place, const CompiledBodies& bodies) {
   std::vector<double> sums(bodies.is_centre.size(), 0), counts(bodies.is_centre.size(), 0);
-  for (const ConstraintGroup& group : object.constraints) {
-    if (bodies.attached.empty() || !is_length(group.type)) continue;
-    for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2) {
-      const auto a = static_cast<std::size_t>(group.particles[i]), b = static_cast<std::size_t>(group.particles[i + 1]);
-      const double edge = length(convert<double>(object.positions[b]) - convert<double>(object.positions[a]));
-      for (const std::size_t end : {a, b}) {
-        sums[static_cast<std::size_t>(place[end])] += edge;
-        counts[static_cast<std::size_t>(place[end])] += 1;
-      }
+  const auto add = [&](int a, int b) {
+    const double edge = length(convert<double>(object.positions[static_cast<std::size_t>(b)]) -
+                               convert<double>(object.positions[static_cast<std::size_t>(a)]));
+    for (const int end : {a, b}) {
+      sums[static_cast<std::size_t>(place[static_cast<std::size_t>(end)])] += edge;
+      counts[static_cast<std::size_t>(place[static_cast<std::size_t>(end)])] += 1;
     }
+  };
+  for (const ConstraintGroup& group : object.constraints) {
+    const std::size_t corners = is_length(group.type) ? 2 : group.type == TetrahedronShear::name ? 4 : 0;
+    if (bodies.attached.empty() || corners == 0) continue;
+    for (std::size_t first = 0; first + corners <= group.particles.size(); first += corners)
+      for (std::size_t i = 1; i < corners; ++i)
+        for (std::size_t k = 0; k < i; ++k) add(group.particles[first + i], group.particles[first + k]);
   }
   std::vector<double> lengths;
   for (const auto& [particle, body] : bodies.attached) {

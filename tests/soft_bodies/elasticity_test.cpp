@@ -310,6 +310,49 @@ TEST(SoftBodySubsteps, TooFewAreADoubt) {
   EXPECT_EQ(doubts(0).find("modulus"), std::string::npos) << doubts(0);
 }
 
+/// A bar with a thin layer: tetrahedra of a hundredth of the volume of their neighbours, as many meshers make.
+TetrahedralMesh graded_bar() {
+  constexpr std::array<float, 5> heights{-0.1f, -0.05f, -0.0495f, 0.05f, 0.1f};
+  TetrahedralMesh mesh = box_tetrahedra({0.6f, 0.2f, 0.2f}, {12, 4, 4});
+  for (Vec3f& p : mesh.positions) p.y = heights[static_cast<std::size_t>(std::lround(p.y / 0.05f) + 2)];
+  return mesh;
+}
+
+// One damping for all, the mean, threw corners of small tetrahedra metres away.
+TEST(SoftBodyMotion, DampingFitsEachTetrahedron) {
+  SoftBodyOptions options;
+  options.material = elastic_solid("gelatine");
+  const TetrahedralMesh mesh = graded_bar();
+  Scene scene = scene_of(make_soft_body(mesh, options), 0);
+  Collider floor;
+  floor.position = {0, -0.12f, 0};
+  scene.add(floor);
+  World world(scene);
+  run(world, 60);
+  const std::vector<Vec3f> positions = positions_of(world);
+  for (const auto& t : mesh.tetrahedra)
+    for (std::size_t i = 1; i < 4; ++i) {
+      const auto a = static_cast<std::size_t>(t[0]), b = static_cast<std::size_t>(t[i]);
+      EXPECT_LT(length(positions[a] - positions[b]), 3 * length(mesh.positions[a] - mesh.positions[b]));
+    }
+}
+
+TEST(SoftBodyDoubts, NameNumbersInOtherUnits) {
+  const auto doubts = [](float modulus, float damping) {
+    SoftBodyOptions options;
+    options.material = solid_of(modulus, 0.3f);
+    options.material.damping = damping;
+    std::string all;
+    for (const Finding& finding :
+         inspect(scene_of(make_soft_body(box_tetrahedra({0.1f, 0.1f, 0.1f}, {4, 4, 4}), options), 0)))
+      all += finding.message + "\n";
+    return all;
+  };
+  EXPECT_NE(doubts(1.5f, 0).find("youngs_modulus"), std::string::npos) << doubts(1.5f, 0);
+  EXPECT_NE(doubts(1e5f, 2).find("like tar"), std::string::npos) << doubts(1e5f, 2);
+  EXPECT_EQ(doubts(1e5f, 0.002f), "");
+}
+
 TEST(SoftBodySubsteps, TooFewAreADoubtAlsoByDefault) {
   SoftBodyOptions options;
   options.material = solid_of(1e10f, 0.3f);
