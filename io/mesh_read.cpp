@@ -23,6 +23,9 @@ enum class Format { unknown, obj, ply, stl };
 
 bool starts_with(std::string_view bytes, std::string_view start) { return bytes.substr(0, start.size()) == start; }
 
+constexpr const char* of_tetrahedra =
+    "give an OBJ, PLY or STL file; tetrahedra are read by the `soft_body` of a scene, and by read_tetrahedral_mesh";
+
 /// Throws an Error for known types of files that are often mistaken for meshes.
 void refuse_what_is_known(std::string_view bytes, const std::string& name) {
   if (bytes.empty()) fail(name, "is empty", "export the mesh again");
@@ -32,12 +35,12 @@ void refuse_what_is_known(std::string_view bytes, const std::string& name) {
   if (starts_with(bytes, "version https://git-lfs"))
     fail(name, "is a pointer of Git LFS, not the file itself", "fetch it with 'git lfs pull'");
   const std::pair<std::string_view, const char*> others[] = {
-      {"PK\x03\x04", "a zip archive"}, {"\x1f\x8b", "compressed by gzip"},
-      {"glTF", "a binary glTF file"},  {"OFF", "an OFF file"},
-      {"$MeshFormat", "a Gmsh file"},  {"# vtk", "a VTK file"},
-      {"<?xml", "an XML file"},        {"{", "a JSON file"},
+      {"PK\x03\x04", "a zip archive"}, {"\x1f\x8b", "compressed by gzip"}, {"glTF", "a binary glTF file"},
+      {"OFF", "an OFF file"},          {"<?xml", "an XML file"},           {"{", "a JSON file"},
       {"#usda", "a USD file"},         {"PXR-USDC", "a USD file"},
   };
+  if (starts_with(bytes, "$MeshFormat")) fail(name, "is a Gmsh file", of_tetrahedra);
+  if (starts_with(bytes, "# vtk")) fail(name, "is a VTK file", of_tetrahedra);
   for (const auto& [start, what] : others)
     if (starts_with(bytes, start)) fail(name, std::string("is ") + what, "give an OBJ, PLY or STL file");
 }
@@ -100,7 +103,9 @@ PolygonMesh parse(std::string_view bytes, const std::string& name) {
     case Format::unknown:
       break;
   }
-  fail(name, "has an unknown mesh format", "give an OBJ, PLY or STL file");
+  const std::string suffix = name.substr(std::min(name.rfind('.'), name.size()));
+  const bool may_be_tetrahedra = suffix == ".node" || suffix == ".ele" || suffix == ".mesh" || suffix == ".t";
+  fail(name, "has an unknown mesh format", may_be_tetrahedra ? of_tetrahedra : "give an OBJ, PLY or STL file");
 }
 
 }  // namespace

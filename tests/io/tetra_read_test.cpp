@@ -134,6 +134,17 @@ TEST(TetrahedralFiles, OfMmgHaveRequiredTetrahedra) {
   expect_two(write("mmg.mesh", replaced(medit, "End", "RequiredTetrahedra 1\n2\nEnd")));
 }
 
+TEST(TetrahedralFiles, AreNamedWhereASurfaceIsWanted) {
+  for (const auto& [name, text] : {std::pair<std::string, std::string>{"a.msh", gmsh_2}, {"a.vtk", vtk}, {"a.ele", ele}}) {
+    try {
+      read_mesh(write(name, text));
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_NE(error.advice().find("soft_body"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(TetrahedralFiles, NameNodesThatNoTetrahedronUses) {
   EXPECT_EQ(read_tetrahedral_mesh(write("two.mesh", medit)).repairs[1], "1 node that no tetrahedron uses was left out");
 }
