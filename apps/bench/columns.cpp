@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "apps/bench/timing.h"
 #include "pliant/error.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
@@ -15,8 +15,6 @@ namespace {
 
 constexpr float frame_time = 1.f / 60;
 constexpr int width = 8, measured = 60;  // particles across; frames of the last second
-
-double processor_ms() { return 1000. * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Scene column(float depth, float spacing, int substeps, int iterations) {
   const float side = static_cast<float>(width) * spacing;

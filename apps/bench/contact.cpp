@@ -6,6 +6,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "apps/bench/timing.h"
 #include "pliant/error.h"
 #include "pliant/world.h"
 
@@ -49,12 +50,6 @@ double milliseconds(World& world, Report& report) {
   const std::clock_t start = std::clock();
   report = world.step(frame_time);
   return static_cast<double>(std::clock() - start) * 1e3 / CLOCKS_PER_SEC;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 ContactRow measure(int size, int frames) {

@@ -1,13 +1,12 @@
 #include "apps/bench/liquid.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "apps/bench/memory.h"
+#include "apps/bench/timing.h"
 #include "pliant/error.h"
 #include "pliant/liquid.h"
 #include "pliant/surface.h"
@@ -19,18 +18,6 @@ namespace {
 
 constexpr float spacing = 0.05f, step_time = 0.005f, frame_time = 1.f / 60;
 constexpr int most_for_plain_loop = 400000;
-
-double processor_ms() { return 1000. * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-double wall_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double median(std::vector<double> of) {
-  if (of.empty()) return 0;
-  std::nth_element(of.begin(), of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2), of.end());
-  return of[of.size() / 2];
-}
 
 /// A block about 1.26 times as high as it is wide.
 Scene splash(int particles, bool has_stray) {

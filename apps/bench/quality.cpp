@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/bench/cloth.h"
+#include "apps/bench/timing.h"
 #include "pliant/world.h"
 
 namespace pliant::bench {
@@ -22,12 +23,6 @@ struct Contender {
   bool tethers;
   int first, limit;
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Object cloth_of(const QualityWorkload& workload, int size) {
   if (workload.kind == QualityWorkload::Kind::hung) return make_w1_object(size, true);
