@@ -1,7 +1,6 @@
 // The readers of tetrahedral meshes, one for each format. Each gets the bytes of a file, and its name for errors.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -20,7 +19,6 @@ TetrahedralMeshFile read_gmsh(std::string_view bytes, const std::string& name); 
 TetrahedralMeshFile read_vtk(std::string_view bytes, const std::string& name);   ///< legacy .vtk
 /// The same with numbers as bytes, big end first. `offset` is that of the line after "BINARY".
 TetrahedralMeshFile read_binary_vtk(std::string_view bytes, std::size_t offset, const std::string& name);
-constexpr std::int64_t vtk_tetrahedron = 10, vtk_highest_flat = 9;  ///< cell types; up to 9 are points, lines and polygons
 
 TetrahedralMeshFile read_medit(std::string_view bytes, const std::string& name);       ///< .mesh, as text
 TetrahedralMeshFile read_vertex_tet(std::string_view bytes, const std::string& name);  ///< lines "Vertex" and "Tet"

@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-/// The nodes of an element type; 0 of one that has no place in a mesh of linear tetrahedra.
+/// An element type that may stand in a mesh of linear tetrahedra, and how many nodes it has.
 struct ElementType {
   std::int64_t number;
   int nodes;

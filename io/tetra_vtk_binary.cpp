@@ -4,6 +4,7 @@
 #include "tetra_builder.h"
 #include "tetra_bytes.h"
 #include "tetra_formats.h"
+#include "tetra_vtk.h"
 #include "text_lines.h"
 
 namespace pliant {
@@ -30,7 +31,7 @@ class BinaryVtk {
 
   ByteReader from_;
   TetraBuilder builder_;
-  std::vector<std::vector<std::int64_t>> cells_;
+  VtkCells cells_;
 };
 
 std::int64_t BinaryVtk::integer(std::string_view& rest, const char* what) {
@@ -64,19 +65,15 @@ std::int64_t BinaryVtk::of_type(std::string_view type, const char* what) {
 void BinaryVtk::offset_cells(std::int64_t offsets, std::int64_t size, std::string_view type) {
   from_.checked(offsets, 4, "the number of offsets");
   std::vector<std::int64_t> at;
-  for (std::int64_t i = 0; i < offsets; ++i) {
-    at.push_back(of_type(type, "an offset"));
-    if (at.front() != 0 || at.back() < (i == 0 ? 0 : at[at.size() - 2]) || at.back() > size)
-      from_.fail("offset " + std::to_string(i) + " is " + std::to_string(at.back()),
-                 "offsets ascend from 0 to the number of corners, " + std::to_string(size));
-  }
+  for (std::int64_t i = 0; i < offsets; ++i) add_vtk_offset(from_, of_type(type, "an offset"), size, at);
   std::string_view line = from_.line();
   while (line.empty() && from_.remaining() > 0) line = from_.line();
   if (take_word(line) != "CONNECTIVITY") from_.fail("has no CONNECTIVITY after its offsets", "the file is damaged");
   const std::string_view corners = take_word(line);
   for (std::size_t i = 1; i < at.size(); ++i) {
-    cells_.emplace_back();
-    for (std::int64_t k = at[i - 1]; k < at[i]; ++k) cells_.back().push_back(of_type(corners, "a corner"));
+    std::vector<std::int64_t> cell;
+    for (std::int64_t k = at[i - 1]; k < at[i]; ++k) cell.push_back(of_type(corners, "a corner"));
+    cells_.add(std::move(cell), 0);
   }
 }
 
@@ -84,8 +81,9 @@ void BinaryVtk::counted_cells(std::int64_t count) {
   from_.checked(count, 4, "the number of cells");
   for (std::int64_t i = 0; i < count; ++i) {
     const std::int64_t corners = from_.checked(from_.value<std::int32_t>("a number of corners"), 4, "a number of corners");
-    cells_.emplace_back();
-    for (std::int64_t k = 0; k < corners; ++k) cells_.back().push_back(from_.value<std::int32_t>("a corner"));
+    std::vector<std::int64_t> cell;
+    for (std::int64_t k = 0; k < corners; ++k) cell.push_back(from_.value<std::int32_t>("a corner"));
+    cells_.add(std::move(cell), 0);
   }
 }
 
@@ -103,18 +101,8 @@ void BinaryVtk::cells(std::string_view rest) {
 
 void BinaryVtk::types(std::string_view rest) {
   const std::int64_t count = integer(rest, "the number of cell types");
-  if (static_cast<std::size_t>(count) != cells_.size())
-    from_.fail(std::to_string(count) + " types for " + std::to_string(cells_.size()) + " cells", "the file is damaged");
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const std::int64_t type = from_.value<std::int32_t>("the type of a cell");
-    if (type >= 1 && type <= vtk_highest_flat) continue;
-    const std::vector<std::int64_t>& c = cells_[i];
-    if (type != vtk_tetrahedron || c.size() != 4)
-      from_.fail("cell " + std::to_string(i) + " has type " + std::to_string(type) + " and " + std::to_string(c.size()) +
-                     " corners, which is no linear tetrahedron (10)",
-                 "write linear tetrahedra alone");
-    builder_.add_tetrahedron({c[0], c[1], c[2], c[3]}, 0);
-  }
+  add_vtk_tetrahedra(
+      from_, cells_, count, [&] { return from_.value<std::int32_t>("the type of a cell"); }, builder_);
 }
 
 TetrahedralMeshFile BinaryVtk::read() {

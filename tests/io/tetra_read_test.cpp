@@ -258,26 +258,22 @@ TEST(TetrahedralFiles, NeverCrash) {
   }
 }
 
-TEST(TetrahedralFiles, OfResearchCodesAreReadOrRefusedWithAReason) {
+/// Every real mesh is read. Where the meshes are not there, this says so; the tests above hold without them.
+TEST(TetrahedralFiles, OfResearchCodesAreRead) {
   const fs::path folder = fs::path(PLIANT_SOURCE_DIR) / ".." / "shared" / "data" / "tet";
   if (!fs::exists(folder)) GTEST_SKIP() << "the meshes are not there";
-  int read = 0, refused = 0;
+  int read = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string suffix = entry.path().extension().string();
     if (!entry.is_regular_file() || suffix.empty() || suffix == ".md" || suffix == ".txt") continue;
     try {
-      const TetrahedralMeshFile file = read_tetrahedral_mesh(entry.path().string());
-      EXPECT_GT(volume_of(file.mesh), 0) << entry.path();
+      EXPECT_GT(volume_of(read_tetrahedral_mesh(entry.path().string()).mesh), 0) << entry.path();
       ++read;
     } catch (const Error& error) {
-      ++refused;
-      EXPECT_FALSE(error.advice().empty()) << error.what();
       ADD_FAILURE() << error.what();
     }
   }
   EXPECT_GT(read, 40);
-  RecordProperty("read", read);
-  RecordProperty("refused", refused);
 }
 
 }  // namespace
