@@ -77,12 +77,8 @@ std::vector<Vec3f> places_in_mesh(const Filling& by, const JsonValue& fill) {
   for (const std::string& repair : surface.repairs) by.repairs.push_back("object '" + by.name + "', " + repair);
   float clearance = 0;
   set(fill, "clearance", clearance);
-  Vec3f low = surface.mesh.positions.front(), high = low;
-  for (const Vec3f& p : surface.mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  limit_particles(by, fill, low, high);
+  const MeshBounds bounds = bounds_of(surface.mesh.positions);
+  limit_particles(by, fill, bounds.low, bounds.high);
   return fill_mesh(surface.mesh, by.spacing, clearance);
 }
 

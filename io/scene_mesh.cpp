@@ -142,13 +142,9 @@ TriangleMesh heightfield_of(const JsonDocument& document, const JsonValue& at, S
 /// lowest point at y = 0.
 void fit(const std::vector<Vec3f>& positions, float size, Placement& placement) {
   if (positions.empty()) return;
-  Vec3f low = positions.front(), high = low;
-  for (const Vec3f& p : positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const Vec3f sides = high - low;
-  const float longest = std::max({sides.x, sides.y, sides.z});
+  const MeshBounds bounds = bounds_of(positions);
+  const Vec3f &low = bounds.low, &high = bounds.high;
+  const float longest = bounds.longest_side();
   if (longest > 0) placement.fit = size / longest;
   placement.fit_offset = -placement.fit * Vec3f{0.5f * (low.x + high.x), low.y, 0.5f * (low.z + high.z)};
 }
@@ -204,6 +200,17 @@ void fill(const JsonDocument& document, const JsonValue& at, const MeshFolder& f
 }
 
 }  // namespace
+
+float MeshBounds::longest_side() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z}); }
+
+MeshBounds bounds_of(const std::vector<Vec3f>& positions) {
+  MeshBounds box{positions.front(), positions.front()};
+  for (const Vec3f& p : positions) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
 
 Vec3f Placement::place(const Vec3f& p) const {
   Vec3f q = fit == 1 && fit_offset == Vec3f{} ? p : fit * p + fit_offset;

@@ -33,6 +33,15 @@ struct Placement {
   Vec3f place(const Vec3f& p) const;
 };
 
+/// The smallest box along the axes about some positions.
+struct MeshBounds {
+  Vec3f low{}, high{};
+
+  float longest_side() const;
+};
+/// Of one position or more.
+MeshBounds bounds_of(const std::vector<Vec3f>& positions);
+
 /// A mesh at its place in the scene, with the data that selections need.
 struct SceneMesh {
   TriangleMesh mesh;

@@ -70,16 +70,12 @@ TetrahedralMesh tetrahedra_of(const JsonDocument& document, const JsonValue& at,
 /// An eighth of the longest side, and less where the body is thinner than that: of a plate, three quarters of its thickness. But never
 /// less than a 64th.
 float default_size(const TriangleMesh& mesh) {
-  Vec3f low = mesh.positions.front(), high = low;
-  for (const Vec3f& p : mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const float longest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  const MeshBounds bounds = bounds_of(mesh.positions);
+  const float longest = bounds.longest_side();
   double six_volumes = 0, two_areas = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const auto from_low = [&](int corner) {
-      const Vec3f p = mesh.positions[static_cast<std::size_t>(corner)] - low;
+      const Vec3f p = mesh.positions[static_cast<std::size_t>(corner)] - bounds.low;
       return Vec3d{p.x, p.y, p.z};
     };
     six_volumes += dot(cross(from_low(a), from_low(b)), from_low(c));
