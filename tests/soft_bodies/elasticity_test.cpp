@@ -166,19 +166,7 @@ TEST(Elasticity, AnAffineBorderGivesAnAffineInside) {
   Object body = make_soft_body(mesh, options);
   const std::vector<Vec3f> rest = body.positions;
   const auto mapped = [](const Vec3f& p) { return Vec3f{1.1f * p.x + 0.1f * p.y, 0.95f * p.y, p.z - 0.05f * p.x}; };
-  for (ConstraintGroup& group : body.constraints)
-    for (std::size_t t = 0; t < group.particles.size() / 4; ++t) {
-      Vec3d x[4];
-      for (std::size_t k = 0; k < 4; ++k)
-        x[k] = convert<double>(rest[static_cast<std::size_t>(group.particles[4 * t + k])]);
-      if (group.type == TetrahedronVolume::name) {
-        group.rest.push_back(static_cast<float>(TetrahedronVolume::measure<double>(x).rest_volume));
-      } else {
-        const auto d = TetrahedronShear::measure<double>(x);
-        for (const double one : {d.d00, d.d01, d.d02, d.d10, d.d11, d.d12, d.d20, d.d21, d.d22})
-          group.rest.push_back(static_cast<float>(one));
-      }
-    }
+  keep_rest_shape(body);
   for (std::size_t i = 0; i < rest.size(); ++i)
     if (is_border[i]) body.positions[i] = mapped(rest[i]);
   body.damping = 10;
@@ -217,19 +205,7 @@ TEST(SoftBodyMotion, FindsItsShapeAgainFromRandomPlaces) {
   const TetrahedralMesh mesh = box_tetrahedra({0.4f, 0.2f, 0.2f}, {8, 4, 4});
   Object body = make_soft_body(mesh, options);
   const std::vector<Vec3f> rest = body.positions;
-  for (ConstraintGroup& group : body.constraints) {
-    const bool is_volume = group.type == TetrahedronVolume::name;
-    for (std::size_t t = 0; t < group.particles.size() / 4; ++t) {
-      Vec3d x[4];
-      for (std::size_t k = 0; k < 4; ++k)
-        x[k] = convert<double>(rest[static_cast<std::size_t>(group.particles[4 * t + k])]);
-      const auto d = TetrahedronShear::measure<double>(x);
-      if (is_volume) group.rest.push_back(static_cast<float>(TetrahedronVolume::measure<double>(x).rest_volume));
-      if (is_volume) continue;
-      for (const double one : {d.d00, d.d01, d.d02, d.d10, d.d11, d.d12, d.d20, d.d21, d.d22})
-        group.rest.push_back(static_cast<float>(one));
-    }
-  }
+  keep_rest_shape(body);
   std::mt19937 random(11);
   const auto anywhere = [&] { return 0.4f * (static_cast<float>(random()) / 4294967296.f - 0.5f); };
   for (Vec3f& p : body.positions) p = {anywhere(), anywhere(), anywhere()};

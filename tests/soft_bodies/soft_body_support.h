@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "constraints/tetrahedron_shear.h"
+#include "constraints/tetrahedron_volume.h"
 #include "math/vector.h"
 #include "pliant/soft_body.h"
 #include "pliant/world.h"
@@ -34,6 +36,23 @@ inline std::vector<double> six_volumes(const std::vector<Vec3f>& positions,
   const auto at = [&](int i) { return convert<double>(positions[static_cast<std::size_t>(i)]); };
   for (const auto& [a, b, c, d] : tetrahedra) out.push_back(six_volumes(at(a), at(b), at(c), at(d)));
   return out;
+}
+
+/// Writes the rest data that a World would measure, so that the positions may change before it does.
+inline void keep_rest_shape(Object& body) {
+  for (ConstraintGroup& group : body.constraints)
+    for (std::size_t t = 0; t < group.particles.size() / 4; ++t) {
+      Vec3d x[4];
+      for (std::size_t k = 0; k < 4; ++k)
+        x[k] = convert<double>(body.positions[static_cast<std::size_t>(group.particles[4 * t + k])]);
+      if (group.type == TetrahedronVolume::name) {
+        group.rest.push_back(static_cast<float>(TetrahedronVolume::measure<double>(x).rest_volume));
+        continue;
+      }
+      const auto d = TetrahedronShear::measure<double>(x);
+      for (const double one : {d.d00, d.d01, d.d02, d.d10, d.d11, d.d12, d.d20, d.d21, d.d22})
+        group.rest.push_back(static_cast<float>(one));
+    }
 }
 
 /// A scene with one soft body, one thread and this many substeps; 0: those by default.
