@@ -53,7 +53,7 @@ struct SoftBodyOptions {
 Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& options = {});
 
 /// The triangles that belong to one tetrahedron alone, counter-clockwise seen from outside. Throws an Error that names a
-/// triangle of three or more tetrahedra.
+/// tetrahedron that shares a face with two others.
 std::vector<std::array<int, 3>> border_triangles(const TetrahedralMesh& mesh);
 
 /// A box about the origin of `cells` cubes along each axis, each cut into six tetrahedra about one diagonal (Kuhn 1960), so that
