@@ -102,6 +102,19 @@ Json flow_json(const Scene& scene, const FlowReport& flow) {
           {"refused", flow.refused}, {"blocked", flow.blocked}, {"present", flow.present}};
 }
 
+/// The tetrahedra of soft bodies at the end, and in their worst frame; null without any.
+Json tetrahedra_json(const World& world, const TetrahedraMeasure& worst, std::int64_t frame) {
+  const TetrahedraMeasure last = world.measure().tetrahedra();
+  if (last.tetrahedra == 0) return nullptr;
+  return {{"count", last.tetrahedra},
+          {"inverted", last.inverted},
+          {"least_ratio", last.least_ratio},
+          {"volume_ratio", last.volume_ratio},
+          {"worst_inverted", worst.inverted},
+          {"worst_least_ratio", worst.least_ratio},
+          {"frame_of_worst", frame}};
+}
+
 std::size_t body_count(const Scene& scene) {
   std::size_t count = 0;
   for (const Object& object : scene.objects) count += object.bodies.size();
@@ -154,6 +167,7 @@ void RunReport::add(const Report& report, const World& world) {
     frame_of_tie_ = report.frame;
   }
   add(report.compression, report.frame);
+  add(world.measure().tetrahedra(), report.frame);
   flow_.emitted += report.flow.emitted;
   flow_.drained += report.flow.drained;
   flow_.expired += report.flow.expired;
@@ -180,6 +194,13 @@ void RunReport::add(const Compression& compression, std::int64_t frame) {
   }
 }
 
+void RunReport::add(const TetrahedraMeasure& tetrahedra, std::int64_t frame) {
+  const auto rank = [](const TetrahedraMeasure& of) { return std::pair{-of.inverted, of.least_ratio}; };
+  if (frame_of_tetrahedra_ > 0 && rank(tetrahedra) >= rank(worst_tetrahedra_)) return;
+  worst_tetrahedra_ = tetrahedra;
+  frame_of_tetrahedra_ = frame;
+}
+
 std::vector<std::string> RunReport::warnings() const {
   constexpr double tolerated = 0.01;
   std::vector<std::string> lines = warnings_.lines();
@@ -188,6 +209,9 @@ std::vector<std::string> RunReport::warnings() const {
         "in frame {}, liquids were {:.2g} % denser than at rest on average; use more substeps, which compress a liquid by "
         "the square of their length, or a higher speed_of_sound if it has one",
         frame_of_mean_, 100 * worst_compression_.mean));
+  if (worst_tetrahedra_.inverted > 0)
+    lines.push_back(fmt::format("in frame {}, {} of {} tetrahedra were turned inside out; use more substeps", frame_of_tetrahedra_,
+                                worst_tetrahedra_.inverted, worst_tetrahedra_.tetrahedra));
   return lines;
 }
 
@@ -242,6 +266,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["widest_tie"] = tie_json(world, widest_tie_, frame_of_tie_);
   json["flow"] = flow_json(scene, flow_);
   json["compression"] = compression_json(scene, last_.compression, worst_compression_, frame_of_mean_, frame_of_largest_);
+  json["tetrahedra"] = tetrahedra_json(world, worst_tetrahedra_, frame_of_tetrahedra_);
   json["nonfinite"] = nonfinite_json(last_);
   json["warnings"] = warnings();
   json["advice"] = advice(world);

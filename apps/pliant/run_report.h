@@ -32,11 +32,12 @@ class RunReport {
   std::size_t frames() const { return milliseconds_.size(); }  ///< number of frames simulated in this run
   const Report& last() const { return last_; }
   /// For each kind of warning the first one, with its frame. Warnings that differ only in numbers are of one kind.
-  /// A last one is of liquids that were compressed by more than 1 % on average.
+  /// The last ones are of liquids that were compressed by more than 1 % on average, and of tetrahedra turned inside out.
   std::vector<std::string> warnings() const;
 
  private:
   void add(const Compression& compression, std::int64_t frame);
+  void add(const TetrahedraMeasure& tetrahedra, std::int64_t frame);
 
   bool hash_frames_;
   Report last_;
@@ -48,6 +49,8 @@ class RunReport {
   FlowReport flow_;                ///< sums over frames; `present` of the last frame
   Compression worst_compression_;  ///< the largest mean and the largest maximum of any frame
   std::int64_t frame_of_mean_ = 0, frame_of_largest_ = 0;
+  TetrahedraMeasure worst_tetrahedra_;  ///< of the frame with the most inverted ones, or with the smallest
+  std::int64_t frame_of_tetrahedra_ = 0;
   PairReport pairs_;  ///< candidates, contacts and intersections of the last frame; other counts summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;

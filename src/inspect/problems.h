@@ -78,6 +78,8 @@ void check_clusters(Problems& problems, const Object& object);
 void check_object(Problems& problems, const Object& object);
 /// Reports doubtful settings of an object that has no grave findings.
 void doubt_object(Problems& problems, const Object& object, const Scene& scene);
+/// Warns of joints that are probably not as intended.
+void doubt_joints(Problems& problems, const Object& object);
 
 /// Reports as grave everything for which a World rejects a mesh collider.
 void check_mesh_collider(Problems& problems, const MeshCollider& collider);

@@ -1,8 +1,13 @@
 // Measures a World between steps, and describes what falls short.
 #include <algorithm>
+#include <cmath>
+#include <string_view>
 
 #include "matter/advice_settings.h"
 #include "world/advice.h"
+#include "constraints/registry.h"
+#include "constraints/tetrahedron_volume.h"
+#include "solver/visit.h"
 #include "world/groups.h"
 
 namespace pliant {
@@ -23,6 +28,38 @@ bool is_present(const Overstretch& found, const CompiledObject& object) {
 std::string of_unknown(const Overstretch& found) {
   return "an object that was removed or edited stretched " + percent(found.largest) + " too far";
 }
+
+/// Six times the signed volume of a tetrahedron.
+double six_volumes(const Record* positions, const std::int32_t* corners) {
+  Vec3d x[4];
+  for (int i = 0; i < 4; ++i) {
+    const Record& p = positions[corners[i]];
+    x[i] = {p.x, p.y, p.z};
+  }
+  return dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]);
+}
+
+/// Sums of a TetrahedraMeasure while objects are added.
+struct TetrahedraSum {
+  TetrahedraMeasure measure;
+  double volume = 0, at_rest = 0;  ///< [m^3]
+
+  void add(const CompiledObject& object, ObjectId id, const Record* positions, int type) {
+    for_constraints(object, type, [&](const ConstraintPlace& at, const std::int32_t* corners) {
+      const auto rest = static_cast<double>(at.value(0));
+      if (rest == 0) return;
+      const double now = six_volumes(positions, corners) / 6, ratio = now / rest;
+      ++measure.tetrahedra;
+      measure.inverted += ratio < 0 ? 1 : 0;
+      volume += std::copysign(now, ratio);
+      at_rest += std::fabs(rest);
+      if (measure.particles[0] >= 0 && ratio >= measure.least_ratio) return;
+      measure.least_ratio = ratio;
+      measure.object = id;
+      for (std::size_t i = 0; i < 4; ++i) measure.particles[i] = object.order[static_cast<std::size_t>(corners[i])];
+    });
+  }
+};
 
 }  // namespace
 
@@ -71,6 +108,18 @@ Overstretch Measurements::overstretch() const {
   OverstretchMeter meter;  // of its own and on this thread, because calls may be concurrent
   return with_slot(*world_,
                    meter.measure({world_->model, world_->state, world_->workspace, world_->kernels.lengths}, nullptr));
+}
+
+TetrahedraMeasure Measurements::tetrahedra() const {
+  TetrahedraSum sum;
+  for (int type = 0; type < constraint_type_count(); ++type) {
+    if (constraint_type(type).name != std::string_view(TetrahedronVolume::name)) continue;
+    for (std::size_t o = 0; o < world_->model.objects.size(); ++o)
+      sum.add(world_->model.objects[o], world_->ids.objects.id_of(static_cast<int>(o)),
+              world_->state.positions.data() + world_->model.first[o], type);
+  }
+  if (sum.at_rest > 0) sum.measure.volume_ratio = sum.volume / sum.at_rest;
+  return sum.measure;
 }
 
 std::string Measurements::describe(const Overstretch& found) const {

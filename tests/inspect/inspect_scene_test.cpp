@@ -126,6 +126,35 @@ TEST(InspectScene, NamesBodiesThatShareAName) {
   EXPECT_NE(text.find("object 'ball', body 3 'ball': has the name of body 0"), std::string::npos) << text;
 }
 
+/// A ball of 0.1 m that hangs on a hinge from the world.
+Scene hung(const Vec3f& anchor) {
+  Scene scene;
+  Object object = make_body({{Sphere{0.1f}}}, {.name = "bob"});
+  add_joint(object, HingeJoint{.b = 0, .anchor = anchor, .options = {.name = "pivot"}});
+  scene.add(object);
+  return scene;
+}
+
+TEST(InspectScene, NamesAnAnchorFarFromWhatItHolds) {
+  EXPECT_EQ(finding(hung({0, 5, 0}), "anchor"), "") << "a long pendulum is none";
+  const std::string text = finding(hung({0, 50, 0}), "anchor");
+  EXPECT_NE(text.find("joint 'pivot': has its anchor 50 m from the centre of body 'bob'"), std::string::npos) << text;
+}
+
+TEST(InspectScene, NamesGearsWithoutBearings) {
+  Scene scene;
+  Object object = make_body({{Sphere{0.1f}}}, {.name = "sun"});
+  const int planet = add_body(object, {{Sphere{0.1f}}}, {.name = "planet", .position = {0.2f, 0, 0}});
+  add_joint(object, GearJoint{.a = 0, .b = planet});
+  add_joint(object, HingeJoint{.b = 0, .anchor = {}});
+  scene.add(object);
+  const std::string text = finding(scene, "no other joint guides");
+  EXPECT_NE(text.find("'planet'"), std::string::npos) << text;
+  EXPECT_EQ(text.find("'sun'"), std::string::npos) << text;
+  add_joint(scene.objects[0], HingeJoint{.b = planet, .anchor = {0.2f, 0, 0}});
+  EXPECT_EQ(finding(scene, "no other joint guides"), "");
+}
+
 /// Water of 1 m depth, 30 cm wide.
 Scene water() {
   Scene scene;

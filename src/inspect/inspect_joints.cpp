@@ -1,0 +1,90 @@
+// Warnings about the joints of an object: anchors far from what they hold, and gears whose bodies nothing else guides.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "inspect/problems.h"
+#include "math/quat.h"
+
+namespace pliant {
+
+namespace {
+
+/// Radii of gyration from a body's centre to an anchor above which units are probably wrong.
+constexpr double far_anchor = 100;
+
+/// A body of a joint, with what its anchors are compared to.
+struct JointedBody {
+  const Object& object;
+  const ObjectBody& body;
+
+  const ObjectFrame& frame() const { return object.frames[static_cast<std::size_t>(body.frame)]; }
+  double mass() const { return static_cast<double>(object.masses[static_cast<std::size_t>(body.particle)]); }
+  bool is_fixed() const { return std::isinf(mass()); }
+  Vec3f place() const { return object.positions[static_cast<std::size_t>(body.particle)]; }
+  /// Root of the largest moment of inertia that is not locked over the mass; 0 if there is none [m].
+  double radius_of_gyration() const {
+    double most = 0;
+    for (const float moment : {frame().inertia.x, frame().inertia.y, frame().inertia.z})
+      if (std::isfinite(moment)) most = std::max(most, static_cast<double>(moment));
+    return is_fixed() ? 0 : std::sqrt(most / mass());
+  }
+};
+
+JointedBody jointed(const Object& object, int body) { return {object, object.bodies[static_cast<std::size_t>(body)]}; }
+
+bool joins_angles(const ObjectJoint& joint) { return joint.kind == "gear" || joint.kind == "rack"; }
+
+/// True of joints with two anchors, of which ObjectJoint has only that of body b.
+bool has_two_anchors(const ObjectJoint& joint) {
+  return joint.kind == "distance" || joint.kind == "spring" || joint.kind == "pulley";
+}
+
+/// How far the anchor is from a body, in its radii of gyration; infinity for a body that can't be compared to.
+double remoteness(const Vec3f& anchor, const JointedBody& body) {
+  const double radius = body.radius_of_gyration();
+  const double distance = std::sqrt(static_cast<double>(length_squared(anchor - body.place())));
+  return radius > 0 ? distance / radius : std::numeric_limits<double>::infinity();
+}
+
+void doubt_anchor(Problems& problems, const Object& object, const ObjectJoint& joint) {
+  const JointedBody a = jointed(object, joint.a), b = jointed(object, joint.b);
+  const Vec3f anchor = b.place() + rotate(b.frame().orientation, joint.anchor);
+  double nearest = remoteness(anchor, b);
+  if (!has_two_anchors(joint)) nearest = std::min(nearest, remoteness(anchor, a));
+  if (!std::isfinite(nearest) || nearest <= far_anchor) return;
+  const JointedBody& near = remoteness(anchor, b) == nearest ? b : a;
+  const double distance = nearest * near.radius_of_gyration();
+  problems.doubtful("joint '" + joint.name + "'",
+                    "has its anchor " + words(distance) + " m from the centre of body '" + near.body.name + "', " +
+                        words(std::round(nearest)) + " times its radius of gyration",
+                    "anchors are in world coordinates at time 0, in metres");
+}
+
+/// A gear or a rack couples motions, but holds no body in its place.
+void doubt_bearings(Problems& problems, const Object& object, const ObjectJoint& joint) {
+  for (const int body : {joint.a, joint.b}) {
+    const auto guides = [&](const ObjectJoint& other) {
+      return !joins_angles(other) && (other.a == body || other.b == body);
+    };
+    if (jointed(object, body).is_fixed() || std::any_of(object.joints.begin(), object.joints.end(), guides)) continue;
+    problems.doubtful("joint '" + joint.name + "'",
+                      "couples body '" + jointed(object, body).body.name + "', which no other joint guides",
+                      joint.kind == "gear" || body == joint.a ? "add the hinge on which it turns"
+                                                              : "add the slider along which it moves");
+  }
+}
+
+}  // namespace
+
+void doubt_joints(Problems& problems, const Object& object) {
+  for (const ObjectJoint& joint : object.joints) {
+    if (joins_angles(joint))
+      doubt_bearings(problems, object, joint);
+    else
+      doubt_anchor(problems, object, joint);
+  }
+}
+
+}  // namespace pliant
