@@ -85,19 +85,6 @@ void doubt_pins(const Doubts& d) {
   d.problems.doubtful(twice, "particle", "is pinned more than once", "only the last motion has an effect: pin it once");
 }
 
-/// A pin moves a body's centre of mass; nothing turns its frame.
-void doubt_turned_bodies(const Doubts& d) {
-  const auto turns = [](const Keyframe& key) { return key.rotation.x != 0 || key.rotation.y != 0 || key.rotation.z != 0; };
-  Tally turned;
-  for (std::size_t i = 0; i < d.object.bodies.size(); ++i)
-    for (const Pin& pin : d.object.pins)
-      if (pin.particle == d.object.bodies[i].particle &&
-          std::any_of(pin.motion.keyframes.begin(), pin.motion.keyframes.end(), turns))
-        turned.add(static_cast<std::int64_t>(i));
-  d.problems.doubtful(turned, "body", "follows a pin that turns, but only its centre of mass does: it does not turn",
-                      "use a collider with a motion, or a hinge with a motor");
-}
-
 void doubt_references(const Doubts& d) {
   if (d.object.fluid || d.object.grains || d.object.tracers) return;  // whose particles are in no constraint of their own
   std::vector<bool> used = d.fixed;
@@ -291,7 +278,6 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   const Doubts doubts{problems, object, scene, fixed_particles(object)};
   doubt_masses(doubts);
   doubt_pins(doubts);
-  doubt_turned_bodies(doubts);
   doubt_joints(problems, object);
   doubt_references(doubts);
   doubt_places(doubts);

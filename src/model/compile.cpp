@@ -82,6 +82,10 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   number_particles(positions, lists, largest_tile, tile, out);
   fill_frames(object, out.frames);
   out.bodies = compile_bodies(object, out.place, out.particles);
+  for (const DrivenFrame& driven : out.bodies.driven) {  // nothing else turns them
+    out.frames.inverse_inertias[static_cast<std::size_t>(driven.frame)] = {};
+    out.frames.angular_velocities[static_cast<std::size_t>(driven.frame)] = {};
+  }
   fill_kinematics(object, out);
   schedule(lists, tile, in_given_order, has_tethers(options) || options.sweep == Sweep::multigrid, out);
   fill_particles(object, positions, out);

@@ -120,6 +120,25 @@ std::vector<double> edge_lengths_of(const Object& object, const std::vector<int>
   return lengths;
 }
 
+bool turns(const Motion& motion) {
+  return std::any_of(motion.keyframes.begin(), motion.keyframes.end(), [](const Keyframe& key) {
+    return key.rotation.x != 0 || key.rotation.y != 0 || key.rotation.z != 0;
+  });
+}
+
+/// Of two pins of a body the later one wins, as for its particle.
+void find_driven(const Object& object, CompiledBodies& out) {
+  std::map<int, const Pin*> pin_of;
+  for (const Pin& pin : object.pins) pin_of[pin.particle] = &pin;
+  for (const ObjectBody& body : object.bodies) {
+    const auto found = pin_of.find(body.particle);
+    const Pin* const pin = found == pin_of.end() ? nullptr : found->second;
+    if (pin == nullptr || !turns(pin->motion)) continue;
+    const Quatf rest = object.frames[static_cast<std::size_t>(body.frame)].orientation;
+    out.driven.push_back({body.frame, normalise(convert<double>(rest)), pin->motion});
+  }
+}
+
 }  // namespace
 
 std::string words_of_body(const CompiledBodies& bodies, int body, const std::string& object) {
@@ -156,6 +175,7 @@ CompiledBodies compile_bodies(const Object& object, const std::vector<int>& plac
       if (const Box* box = std::get_if<Box>(&solid.shape)) out.solids.back().half_extents = box->half_extents;
     }
   }
+  find_driven(object, out);
   find_ties(object, place, out);
   out.edge_lengths = edge_lengths_of(object, place, out);
   out.polyhedra = std::move(polyhedra);

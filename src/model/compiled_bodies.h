@@ -19,6 +19,13 @@ struct CompiledSolid {
   Vec3f half_extents{};  ///< of a box; zero for other shapes [m]
 };
 
+/// The orientation of a body whose pin turns.
+struct DrivenFrame {
+  int frame = 0;  ///< index among the object's frames
+  Quatd rest{};   ///< at time 0, without the motion
+  Motion motion;
+};
+
 struct CompiledBodies {
   struct Body {
     int particle = 0;  ///< storage index of the centre of mass
@@ -37,6 +44,7 @@ struct CompiledBodies {
   std::vector<std::pair<int, int>> attached;  ///< particles and the bodies to which a constraint ties them; likewise
   std::vector<double>
       edge_lengths;  ///< [attached] mean length at the start of the edges at the particle; 0: it has none [m]
+  std::vector<DrivenFrame> driven;  ///< of bodies whose pin turns, by pin
   std::shared_ptr<const std::vector<Polyhedron>> polyhedra;  ///< what shapes point to; each different one once
 
   bool empty() const { return bodies.empty(); }

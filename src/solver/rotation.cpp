@@ -2,7 +2,9 @@
 
 #include <atomic>
 
+#include "math/motion.h"
 #include "parallel/ranges.h"
+#include "solver/bodies/body_math.h"
 #include "solver/bodies/body_solver.h"
 #include "solver/motion_kernels.h"
 
@@ -26,6 +28,27 @@ void for_frames(Substep& s, const char* name, FunctionRef<void(int, int)> body) 
   });
 }
 
+/// Turns a frame to `after` at the end of a substep, by the shorter way.
+void drive_frame(const FrameArrays& a, int frame, Quatf after, float h) {
+  const Quatf before = bodies::quaternion(a.starts[frame]);
+  if (before.x * after.x + before.y * after.y + before.z * after.z + before.w * after.w < 0)
+    after = {-after.x, -after.y, -after.z, -after.w};
+  const Vec3f turn = bodies::turn_between(before, after), spin = rotate(conjugate(after), turn) * (1 / h);
+  a.orientations[frame] = {after.x, after.y, after.z, after.w};
+  a.angular_velocities[frame] = {spin.x, spin.y, spin.z, 0};
+  a.predicted[frame] = {turn.x, turn.y, turn.z, 0};
+}
+
+/// Turns bodies whose pins turn to where they are at the substep's end.
+void drive_frames(const Substep& s, const FrameArrays& arrays) {
+  for_objects(s, [&](int o) {
+    for (const DrivenFrame& driven : s.model.objects[o].bodies.driven) {
+      const Quatd after = multiply(pose_at(driven.motion, s.time_after).rotation, driven.rest);
+      drive_frame(arrays, s.model.first_frame[o] + driven.frame, convert<float>(normalise(after)), s.h);
+    }
+  });
+}
+
 }  // namespace
 
 FrameArrays frame_arrays(const Substep& s) {
@@ -40,6 +63,7 @@ void predict_frames(Substep& s) {
   const FrameArrays arrays = frame_arrays(s);
   for_frames(s, "predict: frames",
              [&](int first, int last) { s.kernels.motions.predict_frames(arrays, first, last, s.h); });
+  drive_frames(s, arrays);
 }
 
 void update_frames(Substep& s) {

@@ -196,6 +196,14 @@ void forget_control(WorldData& world, int number) {
   world.workspace.control.meshes.erase(number);
 }
 
+/// Turns bodies whose pins turn to where they are at a time.
+void turn_to_present(const CompiledObject& object, double time, Record* orientations) {
+  for (const DrivenFrame& driven : object.bodies.driven) {
+    const Quatf q = convert<float>(normalise(multiply(pose_at(driven.motion, time).rotation, driven.rest)));
+    orientations[driven.frame] = {q.x, q.y, q.z, q.w};
+  }
+}
+
 }  // namespace
 
 void move_to_present(const CompiledObject& object, double time, Record* positions) {
@@ -243,8 +251,11 @@ void place_object(WorldData& world, int number) {
   put_at_start(world.model, number, world.state);
   if (number < static_cast<int>(world.state.substeps.size())) world.state.substeps[number] = 0;  // of an earlier object
   fit_state(world);
-  if (world.state.time != 0)
-    move_to_present(world.model.objects[number], world.state.time, &world.state.positions[world.model.first[number]]);
+  if (world.state.time != 0) {
+    const CompiledObject& object = world.model.objects[number];
+    move_to_present(object, world.state.time, &world.state.positions[world.model.first[number]]);
+    turn_to_present(object, world.state.time, world.state.frames.orientations.data() + world.model.first_frame[number]);
+  }
   prepare_object(world, number);
   note_surfaces(world, number);
 }

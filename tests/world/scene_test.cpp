@@ -262,10 +262,6 @@ TEST(InspectScene, DoubtfulParticles) {
     for (int i = 0; i < 30; ++i) s.objects[0].pins.push_back({i, {}});
   });
   expect_doubt("pinned more than once", [](Scene& s) { s.pin(0, {5}); });
-  expect_doubt("follows a pin that turns", [](Scene& s) {
-    s.add(make_body({{Box{}}}));
-    s.objects.back().pins.push_back({0, {{{0}, {1, {}, {0, 1, 0, 0}}}}});
-  });
   expect_doubt("particle 30: is in no", [](Scene& s) {
     s.objects[0].positions.push_back({5, 0, 0}), s.objects[0].masses.push_back(1);
   });
