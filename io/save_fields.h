@@ -27,9 +27,14 @@ void fields(A& a, Is<ConstraintGroup> auto& of) {
   a(type, particles, rest, stiffness, compliances);
 }
 template <class A>
+void fields(A& a, Is<PressureKeyframe> auto& of) {
+  auto& [time, pressure] = of;
+  a(time, pressure);
+}
+template <class A>
 void fields(A& a, Is<Volume> auto& of) {
-  auto& [pressure, stiffness, lift] = of;
-  a(pressure, stiffness, lift);
+  auto& [pressure, stiffness, lift, keyframes, leak] = of;
+  a(pressure, stiffness, lift, keyframes, leak);
 }
 template <class A>
 void fields(A& a, Is<Keyframe> auto& of) {

@@ -64,6 +64,19 @@ const Record& motion_record() {
   return result;
 }
 
+namespace {
+
+const Record& pressure_record() {
+  static const Record result{"pressure keyframe",
+                             "The pressure of a volume at a time.",
+                             {needed("time", number("s", 0, 1e9), "Time; times increase."),
+                              needed("pressure", number("-", 0, 1000), "The pressure then.")},
+                             {}};
+  return result;
+}
+
+}  // namespace
+
 const Record& volume_record() {
   static const Record result{
       "volume",
@@ -74,7 +87,11 @@ const Record& volume_record() {
        field("lift", number("kg/m^3", -1e6, 1e6), Volume{}.lift,
              "By how much the air outside is denser than the gas inside, which bears the surface up by this times g times "
              "the "
-             "volume: 1.04 for helium.")},
+             "volume: 1.04 for helium."),
+       field("keyframes", list(record(pressure_record()), 1), "none",
+             "The pressure follows them instead of `pressure`, linear between."),
+       field("leak", number("1/s", 0, 1000), Volume{}.leak,
+             "The share of what the pressure is above 1 that leaks out in a second: exp(-leak t) of it is left.")},
       {}};
   return result;
 }

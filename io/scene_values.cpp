@@ -109,6 +109,15 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, st
   set(*value, "pressure", target->pressure);
   set(document, *value, "stiffness", target->stiffness);
   set(*value, "lift", target->lift);
+  set(*value, "leak", target->leak);
+  for (const JsonValue& item : elements(*value, "keyframes")) {
+    PressureKeyframe key;
+    set(item, "time", key.time);
+    set(item, "pressure", key.pressure);
+    if (!target->keyframes.empty() && !(key.time > target->keyframes.back().time))
+      document.fail(*item.find("time"), "this time is not after the previous one", "times must increase");
+    target->keyframes.push_back(key);
+  }
   return true;
 }
 

@@ -47,6 +47,12 @@ struct ConstraintType {
 /// All constraint types that a ConstraintGroup may name: built-in ones, then registered ones (pliant/constraint.h).
 const std::vector<ConstraintType>& constraint_types();
 
+/// The pressure of a Volume at a time.
+struct PressureKeyframe {
+  float time = 0;      ///< [s]
+  float pressure = 1;  ///< as Volume::pressure [-]
+};
+
 /// The volume of a closed mesh, held at `pressure` times its rest volume: C = sum (x1 x x2) . x3 - pressure * 6 V0.
 /// Mueller et al. 2007, section 4.4.2.
 struct Volume {
@@ -55,6 +61,13 @@ struct Volume {
   /// By how much the air outside is denser than the gas inside [kg/m^3]. The difference of their pressures grows with height and bears the
   /// surface up, in all by this times g V. The gas has no inertia. filled_with of pliant/gas.h sets it.
   float lift = 0;
+  /// If there are any, the pressure follows them instead of `pressure`: linear between, constant before the first and after the last. Their
+  /// times increase. It changes once a frame.
+  std::vector<PressureKeyframe> keyframes{};
+  /// The share of what the pressure is above 1 that leaks out in a second: exp(-leak t) of it is left at the time t, 0..1000 [1/s].
+  float leak = 0;
+
+  bool changes() const { return !keyframes.empty() || leak > 0; }
 };
 
 /// Particles that keep their shape (Mueller, Heidelberger, Teschner, Gross 2005): each is pulled to its place in the rest shape, moved,

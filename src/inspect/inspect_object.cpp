@@ -229,9 +229,21 @@ void check_closed(Problems& problems, const Object& object) {
     problems.grave("volume", "is 0 at rest", "remove the volume, or start from a shape with volume");
 }
 
+void check_pressures(Problems& problems, const Volume& volume) {
+  for (std::size_t i = 0; i < volume.keyframes.size(); ++i) {
+    const std::string element = "volume, keyframe " + std::to_string(i);
+    require_range(problems, element + ", time", static_cast<double>(volume.keyframes[i].time), 0, largest_place);
+    require_range(problems, element + ", pressure", static_cast<double>(volume.keyframes[i].pressure), 0, largest_place);
+    if (i > 0 && !(volume.keyframes[i].time > volume.keyframes[i - 1].time))
+      problems.grave(element, "is not after the previous one", "give times that increase");
+  }
+  require_range(problems, "volume, leak", static_cast<double>(volume.leak), 0, 1000);
+}
+
 void check_volume(Problems& problems, const Object& object, bool triangles_are_sound) {
   if (!object.volume) return;
   require_range(problems, "volume, pressure", object.volume->pressure, 0, largest_place);
+  check_pressures(problems, *object.volume);
   check_stiffness(problems, "volume", object.volume->stiffness);
   require_range(problems, "volume, lift", object.volume->lift, -1e6, 1e6);
   if (triangles_are_sound) check_closed(problems, object);

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "constraints/registry.h"
+#include "math/functions.h"
 #include "model/stiffness.h"
 #include "topology/boundary.h"
 
@@ -40,6 +41,32 @@ void fill_corners(CompiledObject& out) {
   }
 }
 
+double pressure_at(const Volume& volume, double time) {
+  const std::vector<PressureKeyframe>& keys = volume.keyframes;
+  double pressure = static_cast<double>(volume.pressure);
+  if (!keys.empty()) {
+    const auto after = std::find_if(keys.begin(), keys.end(),
+                                    [&](const PressureKeyframe& key) { return static_cast<double>(key.time) > time; });
+    const PressureKeyframe &a = after == keys.begin() ? keys.front() : *(after - 1),
+                           &b = after == keys.end() ? keys.back() : *after;
+    const auto from = static_cast<double>(a.time), to = static_cast<double>(b.time);
+    const double share = to > from ? (time - from) / (to - from) : 0;
+    pressure = static_cast<double>(a.pressure) +
+               share * (static_cast<double>(b.pressure) - static_cast<double>(a.pressure));
+  }
+  if (!(volume.leak > 0 && pressure > 1)) return pressure;
+  return 1 + (pressure - 1) * exp(-static_cast<double>(volume.leak) * time);
+}
+
+double largest_pressure(const Volume& volume) {
+  if (volume.keyframes.empty()) return static_cast<double>(volume.pressure);
+  const auto largest = std::max_element(volume.keyframes.begin(), volume.keyframes.end(),
+                                        [](const auto& a, const auto& b) { return a.pressure < b.pressure; });
+  return static_cast<double>(largest->pressure);
+}
+
+double CompiledVolume::target_at(double time) const { return pressure_at(described, time) * at_rest; }
+
 void fill_volume(const Object& object, int passes, CompiledObject& out) {
   if (!object.volume) return;
   double six_volumes = 0;
@@ -52,7 +79,9 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
   const Stiffness& stiffness = object.volume->stiffness;
   const bool pbd = stiffness.kind == Stiffness::Kind::pbd;
   out.has_volume = true;
-  out.volume.target = object.volume->pressure * six_volumes;
+  out.volume.at_rest = six_volumes;
+  out.volume.described = *object.volume;
+  out.volume.target = object.volume->changes() ? out.volume.target_at(0) : object.volume->pressure * six_volumes;
   out.volume.law = pbd ? Law::pbd : stiffness.damping > 0 ? Law::damped : Law::compliant;
   out.volume.response = pbd ? static_cast<float>(stiffness_per_projection(stiffness.value, passes)) : stiffness.value;
   out.volume.damping = stiffness.damping;
@@ -61,7 +90,7 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
     const bool is_free = out.positions[p].w > 0 && out.surface.corner_begin[p] < out.surface.corner_begin[p + 1];
     out.volume.mass += is_free ? 1.0 / out.positions[p].w : 0;
   }
-  out.volume.keeps_momentum = object.volume->pressure > 1 && is_one_free_surface(object, out);
+  out.volume.keeps_momentum = largest_pressure(*object.volume) > 1 && is_one_free_surface(object, out);
 }
 
 std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector<int>& place) {

@@ -13,6 +13,11 @@ void fill_triangles(const Object& object, CompiledObject& out);
 /// Lists the triangles around each particle, after fill_triangles.
 void fill_corners(CompiledObject& out);
 
+/// The pressure of a volume at a time [s].
+double pressure_at(const Volume& volume, double time);
+/// The largest pressure that a volume ever has.
+double largest_pressure(const Volume& volume);
+
 /// Sets the constraint of volume, after fill_particles and fill_corners. `passes` is that of CompileOptions.
 void fill_volume(const Object& object, int passes, CompiledObject& out);
 

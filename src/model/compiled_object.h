@@ -69,7 +69,9 @@ struct Surface {
 
 /// The global volume constraint of one object.
 struct CompiledVolume {
-  double target = 0;  ///< pressure times six rest volumes [m^3]
+  double target = 0;     ///< pressure times six rest volumes [m^3]
+  double at_rest = 0;    ///< six rest volumes [m^3]
+  Volume described;      ///< whose pressure may change
   double mass = 0;    ///< total mass of the surface's dynamic particles [kg]
   Law law = Law::compliant;
   float response = 0;  ///< compliance alpha or PBD stiffness k'
@@ -77,6 +79,9 @@ struct CompiledVolume {
   float lift = 0;  ///< Volume::lift [kg/m^3]
   bool keeps_momentum =
       false;  ///< true: its own constraints may not turn or move the object as a whole (solver/momentum.h)
+
+  /// The target at a time [s].
+  double target_at(double time) const;
 };
 
 /// A range of segments, some of which hold distance constraints: a task of loops that only measure these.

@@ -12,6 +12,7 @@
 #include "math/functions.h"
 #include "math/vector.h"
 #include "model/attachments.h"
+#include "model/compile_surface.h"
 #include "model/soft_body_substeps.h"
 
 namespace pliant {
@@ -200,8 +201,8 @@ bool blows(const Wind& wind, const std::vector<ForceField>& forces) {
 }
 
 double strain_of_inflated(const Object& object) {
-  if (!object.volume || !(object.volume->pressure > 1)) return 0;
-  return pow(static_cast<double>(object.volume->pressure), 1.0 / 3) - 1;
+  if (!object.volume || !(largest_pressure(*object.volume) > 1)) return 0;
+  return pow(largest_pressure(*object.volume), 1.0 / 3) - 1;
 }
 
 double overstretch_of_inflated(const Object& object, double substep) {

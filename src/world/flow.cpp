@@ -261,6 +261,11 @@ void let_flow(WorldData& world, double dt, FlowReport& report) {
   if (report.emitted > 0) world.workspace.look_for_tangles = true;  // lists of surfaces hold while nothing jumps
 }
 
+void follow_pressures(WorldData& world, double time) {
+  for (CompiledObject& object : world.model.objects)
+    if (object.has_volume && object.volume.described.changes()) object.volume.target = object.volume.target_at(time);
+}
+
 std::int64_t count_present(const WorldData& world) {
   std::int64_t count = 0;
   if (world.state.births.empty()) return count;

@@ -305,6 +305,7 @@ void World::restore(const State& state) {
   data_->state = state;
   break_joints_of_state(*data_);
   set_motors_of_state(*data_);
+  follow_pressures(*data_, state.time);
   forget_multipliers(*data_, false);
   data_->workspace.look_for_tangles = true;
   data_->stopped = false;

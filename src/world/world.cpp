@@ -122,6 +122,7 @@ Report World::step(float dt) {
     return report;
   }
   let_flow(*data_, static_cast<double>(dt), report.flow);
+  follow_pressures(*data_, data_->state.time + static_cast<double>(dt));
   begin_control(*data_, dt);
   const std::vector<GroupFrame> groups = plan_frame(*data_, dt, report);
   data_->stopped = true;  // if the step throws (a user's force field may), it stays true

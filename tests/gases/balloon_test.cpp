@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "pliant/error.h"
 #include "pliant/gas.h"
@@ -114,6 +115,64 @@ TEST(Balloon, WithoutLiftFalls) {
   World world(scene);
   for (int i = 0; i < 30; ++i) world.step(frame_time);
   EXPECT_NEAR(momentum(world, object).y, -9.81 * 0.5 * mass_of(object), 1e-3 * mass_of(object));
+}
+
+/// A ball of rubber without gravity whose pressure is to change.
+World blown_up(const Volume& volume) {
+  Object object = make_cloth(ball(0.2f), {.material = skin(100), .volume = volume});
+  object.damping = 5;
+  Scene scene;
+  scene.gravity = {};
+  scene.add(object);
+  scene.settings.threads = 1;
+  return World(scene);
+}
+
+void run(World& world, int frames) {
+  for (int i = 0; i < frames; ++i) ASSERT_TRUE(world.step(frame_time).ok());
+}
+
+TEST(Balloon, FollowsTheKeyframesOfItsPressure) {
+  Volume volume;
+  volume.keyframes = {{0.5f, 1}, {1, 1.4f}, {2, 0.8f}};
+  World world = blown_up(volume);
+  const double rest = volume_of(ball(0.2f));
+  run(world, 30);
+  EXPECT_NEAR(world.object(0).enclosed_volume(), rest, 1e-3 * rest);
+  run(world, 15);
+  EXPECT_NEAR(world.object(0).enclosed_volume(), 1.2 * rest, 0.01 * rest);
+  run(world, 15);
+  EXPECT_NEAR(world.object(0).enclosed_volume(), 1.4 * rest, 0.01 * rest);
+  World other = blown_up(volume);
+  other.restore(world.state());
+  run(other, 90);
+  run(world, 90);
+  EXPECT_NEAR(world.object(0).enclosed_volume(), 0.8 * rest, 0.005 * rest);
+  EXPECT_EQ(other.state_hash(), world.state_hash());
+}
+
+TEST(Balloon, LeaksByAnExponential) {
+  Volume volume;
+  volume.pressure = 1.4f;
+  volume.leak = 1;
+  World world = blown_up(volume);
+  const double rest = volume_of(ball(0.2f));
+  run(world, 60);
+  EXPECT_NEAR(world.object(0).enclosed_volume(), (1 + 0.4 * std::exp(-1.0)) * rest, 0.005 * rest);
+  run(world, 240);
+  EXPECT_NEAR(world.object(0).enclosed_volume(), (1 + 0.4 * std::exp(-5.0)) * rest, 0.002 * rest);
+}
+
+TEST(Balloon, RefusesPressuresOutOfOrder) {
+  Volume volume;
+  volume.keyframes = {{1, 1}, {1, 1.4f}};
+  try {
+    blown_up(volume);
+    FAIL() << "taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("volume, keyframe 1: is not after the previous one"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace
