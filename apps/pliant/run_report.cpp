@@ -106,12 +106,9 @@ Json flow_json(const Scene& scene, const FlowReport& flow) {
 Json tetrahedra_json(const World& world, const TetrahedraMeasure& worst, std::int64_t frame) {
   const TetrahedraMeasure last = world.measure().tetrahedra();
   if (last.tetrahedra == 0) return nullptr;
-  return {{"count", last.tetrahedra},
-          {"inverted", last.inverted},
-          {"least_ratio", last.least_ratio},
-          {"volume_ratio", last.volume_ratio},
-          {"worst_inverted", worst.inverted},
-          {"worst_least_ratio", worst.least_ratio},
+  return {{"count", last.tetrahedra},         {"inverted", last.inverted},
+          {"least_ratio", last.least_ratio},  {"volume_ratio", last.volume_ratio},
+          {"worst_inverted", worst.inverted}, {"worst_least_ratio", worst.least_ratio},
           {"frame_of_worst", frame}};
 }
 
@@ -210,8 +207,8 @@ std::vector<std::string> RunReport::warnings() const {
         "the square of their length, or a higher speed_of_sound if it has one",
         frame_of_mean_, 100 * worst_compression_.mean));
   if (worst_tetrahedra_.inverted > 0)
-    lines.push_back(fmt::format("in frame {}, {} of {} tetrahedra were turned inside out; use more substeps", frame_of_tetrahedra_,
-                                worst_tetrahedra_.inverted, worst_tetrahedra_.tetrahedra));
+    lines.push_back(fmt::format("in frame {}, {} of {} tetrahedra were turned inside out; use more substeps",
+                                frame_of_tetrahedra_, worst_tetrahedra_.inverted, worst_tetrahedra_.tetrahedra));
   return lines;
 }
 

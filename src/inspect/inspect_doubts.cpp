@@ -200,8 +200,8 @@ void doubt_volume(const Doubts& d) {
       strain_of_inflated(d.object) > tolerated_p99;  // less is within the bounds even if no edge yields
   if (is_rigid && is_strained && !can_follow_volume(d.object, frame / substeps_of_volumes))
     d.problems.doubtful("volume",
-                        "has a pressure of " + words(largest_pressure(*d.object.volume)) + ", for which edges must become " +
-                            words(std::round(1000 * strain_of_inflated(d.object)) / 10) +
+                        "has a pressure of " + words(largest_pressure(*d.object.volume)) +
+                            ", for which edges must become " + words(std::round(1000 * strain_of_inflated(d.object)) / 10) +
                             " % longer, but they are too stiff for that",
                         "lower the pressure, or give the distances more compliance");
 }

@@ -51,8 +51,8 @@ double pressure_at(const Volume& volume, double time) {
                            &b = after == keys.end() ? keys.back() : *after;
     const auto from = static_cast<double>(a.time), to = static_cast<double>(b.time);
     const double share = to > from ? (time - from) / (to - from) : 0;
-    pressure = static_cast<double>(a.pressure) +
-               share * (static_cast<double>(b.pressure) - static_cast<double>(a.pressure));
+    pressure =
+        static_cast<double>(a.pressure) + share * (static_cast<double>(b.pressure) - static_cast<double>(a.pressure));
   }
   if (!(volume.leak > 0 && pressure > 1)) return pressure;
   return 1 + (pressure - 1) * exp(-static_cast<double>(volume.leak) * time);

@@ -121,9 +121,8 @@ std::vector<double> edge_lengths_of(const Object& object, const std::vector<int>
 }
 
 bool turns(const Motion& motion) {
-  return std::any_of(motion.keyframes.begin(), motion.keyframes.end(), [](const Keyframe& key) {
-    return key.rotation.x != 0 || key.rotation.y != 0 || key.rotation.z != 0;
-  });
+  return std::any_of(motion.keyframes.begin(), motion.keyframes.end(),
+                     [](const Keyframe& key) { return key.rotation.x != 0 || key.rotation.y != 0 || key.rotation.z != 0; });
 }
 
 /// Of two pins of a body the later one wins, as for its particle.

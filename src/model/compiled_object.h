@@ -69,10 +69,10 @@ struct Surface {
 
 /// The global volume constraint of one object.
 struct CompiledVolume {
-  double target = 0;     ///< pressure times six rest volumes [m^3]
-  double at_rest = 0;    ///< six rest volumes [m^3]
-  Volume described;      ///< whose pressure may change
-  double mass = 0;    ///< total mass of the surface's dynamic particles [kg]
+  double target = 0;   ///< pressure times six rest volumes [m^3]
+  double at_rest = 0;  ///< six rest volumes [m^3]
+  Volume described;    ///< whose pressure may change
+  double mass = 0;     ///< total mass of the surface's dynamic particles [kg]
   Law law = Law::compliant;
   float response = 0;  ///< compliance alpha or PBD stiffness k'
   float damping = 0;

@@ -174,16 +174,21 @@ struct Turned {
   Vec3<R> round;
   Quat<R> twist;  ///< of the turn from start to now, what is about the axes about which the body is round
   IsRound is_round;
+  bool any_is_round;  ///< in some lane
 
   PLIANT_HD Turned(const Quat<R>& at_start, const Quat<R>& present, const Vec3<R>& round_axes)
       : start(at_start), now(present), round(round_axes) {
+    const R axes = (round.x + round.y) + round.z;
+    is_round = axes > R(0.f);
+    any_is_round = !all_zero(axes);
+    twist = {R(0.f), R(0.f), R(0.f), R(1.f)};
+    if (!any_is_round) return;
     const Quat<R> turn = multiply(conjugate(start), now);
     twist = normalise(Quat<R>{turn.x * round.x, turn.y * round.y, turn.z * round.z, turn.w});
-    is_round = (round.x + round.y) + round.z > R(0.f);
   }
   /// From the body's axes to those in which contacts are, and back.
-  PLIANT_HD Vec3<R> from_body(const Vec3<R>& v) const { return select(is_round, rotate(twist, v), v); }
-  PLIANT_HD Vec3<R> to_body(const Vec3<R>& v) const { return select(is_round, local(twist, v), v); }
+  PLIANT_HD Vec3<R> from_body(const Vec3<R>& v) const { return any_is_round ? select(is_round, rotate(twist, v), v) : v; }
+  PLIANT_HD Vec3<R> to_body(const Vec3<R>& v) const { return any_is_round ? select(is_round, local(twist, v), v) : v; }
   /// The turn from start to now without the twist, in the body's axes [rad].
   PLIANT_HD Vec3<R> swing() const {
     const Quat<R> rest = multiply(multiply(conjugate(start), now), conjugate(twist));

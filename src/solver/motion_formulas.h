@@ -111,8 +111,8 @@ PLIANT_HD void load_velocities(const BodyArrays& a, const BodyLanes<R, lanes>& a
   const Vec3<R> moved =
       (x.xyz - at.body.vector(a.start_positions)) + (at.particle.vector(a.remainders) - at.body.vector(a.start_remainders));
   const Vec3<R> turn = at.frame.vector(a.of_frames.predicted) + at.frame.vector(a.of_frames.corrections);
-  const Vec3<R> turned = select(body.is_round, rotate(body.start, body.swing()),
-                                at.motion.vector(at.row(a, rotation)) + rotate(body.start, body.from_world(turn)));
+  const Vec3<R> summed = at.motion.vector(at.row(a, rotation)) + rotate(body.start, body.from_world(turn));
+  const Vec3<R> turned = body.any_is_round ? select(body.is_round, rotate(body.start, body.swing()), summed) : summed;
   at.motion.store(at.row(a, displacement), moved, zero);
   at.motion.store(at.row(a, rotation), turned, zero);
   const Vec3<R> g{R(gravity.x), R(gravity.y), R(gravity.z)};

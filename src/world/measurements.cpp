@@ -3,11 +3,11 @@
 #include <cmath>
 #include <string_view>
 
-#include "matter/advice_settings.h"
-#include "world/advice.h"
 #include "constraints/registry.h"
 #include "constraints/tetrahedron_volume.h"
+#include "matter/advice_settings.h"
 #include "solver/visit.h"
+#include "world/advice.h"
 #include "world/groups.h"
 
 namespace pliant {

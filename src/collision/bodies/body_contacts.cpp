@@ -25,8 +25,15 @@ constexpr double still_share = 0.04, straight = 0.9999;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// The pose of b in the frame of a, whose rotation is a unit quaternion up to rounding.
+Posed relative_to(const Posed& a, const Posed& b) {
+  return {to_local(a, b.position), multiply(conjugate(a.rotation), b.rotation)};
+}
+
 Posed relative_pose(const Posed& a, const Posed& b) {
-  return {to_local(a, b.position), normalise(multiply(conjugate(a.rotation), b.rotation))};
+  Posed relative = relative_to(a, b);
+  relative.rotation = normalise(relative.rotation);
+  return relative;
 }
 
 /// Where two bodies are in one place, no direction separates them. They count as a little apart, each pair in a direction of its own.
@@ -52,10 +59,14 @@ bool hardly_turned(const Quatd& now, const BodyContact& contact) {
   return std::fabs(dot(now, convert<double>(contact.turned))) > straight;
 }
 
+/// The gaps along the normal, which is turned into the axes of both bodies once for all points.
 void renew_gaps(const Posed& a, const Posed& b, BodyContact& c) {
+  const Vec3d normal = convert<double>(c.normal);
+  const Vec3d in_a = rotate(conjugate(a.rotation), normal), in_b = rotate(conjugate(b.rotation), normal);
+  const double between = dot(normal, b.position - a.position);
   for (std::size_t i = 0; i < at(c.count); ++i)
-    c.gap[i] = static_cast<float>(dot(convert<double>(c.normal), to_world(b, convert<double>(c.anchor_b[i])) -
-                                                                     to_world(a, convert<double>(c.anchor_a[i]))));
+    c.gap[i] = static_cast<float>(between +
+                                  (dot(in_b, convert<double>(c.anchor_b[i])) - dot(in_a, convert<double>(c.anchor_a[i]))));
 }
 
 /// Contact points of two parts in the frame of body a.
@@ -281,7 +292,7 @@ struct BodyContacts::Task {
     const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
     if (old.empty() && ((!is_renewed(one.body) && !is_renewed(other.body)) || is_out_of_reach(pair, one, other))) return;
     const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
-    const Posed relative = relative_pose(a.pose, b.pose);
+    Posed relative = relative_to(a.pose, b.pose);
     const double size = size_of(pair);
     const auto note_depth = [&](const BodyContact& contact) {
       const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
@@ -294,6 +305,7 @@ struct BodyContacts::Task {
       std::for_each(old.begin(), old.end(), note_depth);
       return;
     }
+    relative.rotation = normalise(relative.rotation);
     const Vec3f velocity = a.velocity - b.velocity;
     const auto is_close = [&](const BodyContact& contact) {
       const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);

@@ -241,15 +241,16 @@ std::pair<Posed, Posed> ContactBodies::poses_of_collider(const Substep& s, int i
 }
 
 BodyState ContactBodies::state_at_start(const Substep& s, int index) {
-  const BodyPlace& place = places_[at(index)];
-  if (!place.is_body()) return collider_at_start(s, place);
-  const Record& x = s.state.positions[at(place.particle)];
-  const Quatf q = quaternion(s.state.frames.orientations[at(place.frame)]);
-  const Vec3f inverse = xyz(s.state.frames.inverse_inertias[at(place.frame)]);
+  const BodyPlace& place_of = places_[at(index)];
+  if (!place_of.is_body()) return collider_at_start(s, place_of);
+  const Record& x = s.state.positions[at(place_of.particle)];
+  const Quatf q = quaternion(s.state.frames.orientations[at(place_of.frame)]);
+  const Vec3f inverse = xyz(s.state.frames.inverse_inertias[at(place_of.frame)]);
   const bool is_fixed = x.w == 0 && inverse.x == 0 && inverse.y == 0 && inverse.z == 0;
-  const Vec3f spin = xyz(s.state.frames.angular_velocities[at(place.frame)]);
-  return {{convert<double>(xyz(x)), convert<double>(q)},
-          xyz(s.state.velocities[at(place.particle)]),
+  const Vec3f spin = xyz(s.state.frames.angular_velocities[at(place_of.frame)]);
+  const Vec3d place = convert<double>(xyz(x)) + convert<double>(xyz(s.state.remainders[at(place_of.particle)]));
+  return {{place, convert<double>(q)},
+          xyz(s.state.velocities[at(place_of.particle)]),
           rotate(q, is_fixed ? spin : without(round_[at(index)], spin)),  // a fixed disc carries what lies on it round
           is_fixed};
 }

@@ -132,8 +132,12 @@ bool FrameContacts::are_outdated(const BodyMotions& motions, bool some_bounce) c
   const auto turned = [&](int body) {
     return body < bodies_->dynamic() && turned_[at(body)] + motions.turned(body) > far_turned;
   };
-  for (const auto& [a, b] : finder_.bodies())
-    if (turned(a) || turned(b)) return true;
+  bool any = false;  // bodies first: they are fewer than contacts
+  for (int body = 0; body < bodies_->dynamic() && !any; ++body) any = turned(body);
+  const auto& pairs = finder_.bodies();
+  if (any &&
+      std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return turned(pair.first) || turned(pair.second); }))
+    return true;
   return some_bounce && any_moved_far(motions, [](int, int) { return true; });
 }
 

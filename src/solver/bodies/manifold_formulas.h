@@ -342,6 +342,29 @@ PLIANT_HD auto bounce(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const 
   return closes;
 }
 
+/// The mean distance of the touching points (touching_points) from their centre [m].
+template <class R, int lanes>
+PLIANT_HD R mean_radius(const ManifoldRows<lanes>& m) {
+  R nearest = get<R>(m.gap[0]), x = get<R>(m.x[0]), y = get<R>(m.y[0]), sum(0.f), count(0.f);
+  PLIANT_UNROLL
+  for (int i = 1; i < 4; ++i) {
+    const R gap = get<R>(m.gap[i]);
+    const auto is_nearer = gap < nearest;
+    x = select(is_nearer, get<R>(m.x[i]), x);
+    y = select(is_nearer, get<R>(m.y[i]), y);
+    nearest = select(is_nearer, gap, nearest);
+  }
+  PLIANT_UNROLL
+  for (int i = 0; i < 4; ++i) {  // the square of the gap of a point that does not exist is infinite
+    const R u = get<R>(m.x[i]), v = get<R>(m.y[i]), above = get<R>(m.gap[i]) - nearest;
+    const R along = (u - x) * (u - x) + (v - y) * (v - y);
+    const auto touches = above * above <= R(touching_slope * touching_slope) * along;
+    sum += select(touches, sqrt(u * u + v * v), R(0.f));
+    count += select(touches, R(1.f), R(0.f));
+  }
+  return sum * (R(1.f) / count);
+}
+
 /// K = J M^-1 J^T of normal force and moments about tangents, and the masses that follow.
 template <class R, int lanes>
 PLIANT_HD void prepare(ManifoldRows<lanes>& m, const Motion<R>& a, const Motion<R>& b) {
@@ -359,7 +382,7 @@ PLIANT_HD void prepare(ManifoldRows<lanes>& m, const Motion<R>& a, const Motion<
   for (int i = 0; i < 4; ++i) {
     store_row(m.mass[i], one / max(at_point(m, i, answer(m, mobility, i)), least));
   }
-  store_row(m.twist_arm, get<R>(m.friction) * get<R>(m.radius) + get<R>(m.spinning));
+  store_row(m.twist_arm, get<R>(m.friction) * mean_radius<R>(m) + get<R>(m.spinning));
   store_row(m.twist_mass, one / max(dot(normal, turned(a, normal) + turned(b, normal)), least));
   const Vec3<R> ua = cross(arm_a, first), ub = cross(arm_b, first), va = cross(arm_a, second), vb = cross(arm_b, second);
   const Vec3<R> of_va = turned(a, va), of_vb = turned(b, vb);

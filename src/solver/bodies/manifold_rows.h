@@ -26,7 +26,6 @@ struct ManifoldRows {
   float gap_now[4][lanes];
   float gap[4][lanes];
   float restitution[lanes], bounced[lanes];
-  float radius[lanes];  ///< mean distance of touching points from the centre [m]
   float spinning[lanes];
   float rolling[lanes], rolling_impulse[2][lanes];  ///< used only where some manifold of the block has rolling friction
 };
@@ -43,18 +42,6 @@ struct alignas(64) ManifoldBlock {
   std::int32_t bounces;            ///< 1: some manifold has restitution
   std::int32_t rolls;              ///< 1: some manifold has rolling friction
 };
-
-/// The mean distance of the touching points from their centre [m].
-inline float mean_radius(const Manifold& m) {
-  const std::array<bool, 4> touches = touching_points({m.count, m.x, m.y, m.gap});
-  float sum = 0, count = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (!touches[i]) continue;
-    sum += sqrt(m.x[i] * m.x[i] + m.y[i] * m.y[i]);
-    ++count;
-  }
-  return sum * (1 / count);
-}
 
 /// Sets lane `lane` to manifold `m` as prepare needs it, without what prepare computes.
 template <int lanes>
@@ -88,7 +75,6 @@ void put_manifold(const Manifold& m, ManifoldRows<lanes>& rows, int lane) {
   rows.sliding[lane] = m.sliding;
   rows.restitution[lane] = m.restitution;
   rows.bounced[lane] = m.bounced;
-  rows.radius[lane] = mean_radius(m);
 }
 
 /// Copies what the passes change, impulses and present gaps, back to a manifold.
