@@ -1,4 +1,5 @@
 // The table of the scene format: what objects are made of. Liquids and grains share how they fill and flow.
+#include "pliant/grains.h"
 #include "pliant/liquid.h"
 #include "pliant/scene.h"
 #include "scene_grammar_parts.h"

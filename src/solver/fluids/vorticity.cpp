@@ -95,14 +95,8 @@ Vec3f FluidVorticity::surplus() const {
   return all.magnitude > 0 ? convert<float>(all.momentum * (1 / all.magnitude)) : Vec3f{};
 }
 
-void FluidVorticity::respond(Substep& s, const FluidPool& pool, FunctionRef<Vec3f(int)> gravity) {
-  if (!has_any_) return;
-  seconds_ += s.h;
-  if (++substeps_ < longest_pause && !s.is_last() && !ends_quarter(s)) return;  // a frame may stop where a quarter ends
-  load(s, pool, gravity);
-  for_groups(s.context.executor, "respond: vorticity", pool.neighbours, [&](int, int first, int last) {
-    for (int slot = first; slot < last; ++slot) measure(pool, slot);
-  });
+/// The gain of each particle, and the momentum of each group.
+void FluidVorticity::find_gains(Substep& s, const FluidPool& pool) {
   for_groups(s.context.executor, "respond: vorticity", pool.neighbours, [&](int group, int first, int last) {
     Part part;
     for (int slot = first; slot < last; ++slot) {
@@ -111,11 +105,23 @@ void FluidVorticity::respond(Substep& s, const FluidPool& pool, FunctionRef<Vec3
       const float size = length(by);
       gains_[at(slot)] = {by.x, by.y, by.z, size};
       if (!(size > 0)) continue;
-      part.momentum += convert<double>(by) * (1 / static_cast<double>(inverse));
-      part.magnitude += static_cast<double>(size) / static_cast<double>(inverse);
+      const double mass = 1 / static_cast<double>(inverse);
+      part.momentum += convert<double>(by) * mass;
+      part.magnitude += static_cast<double>(size) * mass;
     }
     parts_[at(group)] = part;
   });
+}
+
+void FluidVorticity::respond(Substep& s, const FluidPool& pool, FunctionRef<Vec3f(int)> gravity) {
+  if (!has_any_) return;
+  seconds_ += s.h;
+  if (++substeps_ < longest_pause && !s.is_last() && !ends_quarter(s)) return;  // a frame may stop where a quarter ends
+  load(s, pool, gravity);
+  for_groups(s.context.executor, "respond: vorticity", pool.neighbours, [&](int, int first, int last) {
+    for (int slot = first; slot < last; ++slot) measure(pool, slot);
+  });
+  find_gains(s, pool);
   const Vec3f back = surplus();
   for_groups(s.context.executor, "respond: vorticity", pool.neighbours, [&](int, int first, int last) {
     for (std::size_t slot = at(first); slot < at(last); ++slot) {

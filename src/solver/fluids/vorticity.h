@@ -36,6 +36,7 @@ class FluidVorticity {
   void load(Substep& s, const FluidPool& pool, FunctionRef<Vec3f(int)> gravity);
   void measure(const FluidPool& pool, int slot);
   Vec3f gain(const FluidPool& pool, int slot) const;
+  void find_gains(Substep& s, const FluidPool& pool);
   Vec3f surplus() const;
 
   bool has_any_ = false;
