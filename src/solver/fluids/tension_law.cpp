@@ -43,13 +43,20 @@ double energy_of_plane() {
   return sum * reach / steps;
 }
 
-/// The energy of layers of a lattice at a wall that counts as a share of a liquid, per area, as energy_of_plane() has it.
+/// Calls body(W) for the layers of a lattice at a wall, of which the first is half a spacing from it.
+template <class Body>
+void for_layers(const Body& body) {
+  constexpr int layers = 3;
+  for (int layer = 0; layer < layers; ++layer) body(share_beyond_plane((layer + 0.5) / reach));
+}
+
+/// The energy of a lattice at a wall that counts as a share of a liquid, per area, as energy_of_plane() has it.
 double energy_at_wall(double count) {
   double sum = 0;
-  for (double layer = 0.5; layer < reach; ++layer) {
-    const double lack = std::max(full - 1 + (1 - count) * share_beyond_plane(layer / reach), 0.0);
+  for_layers([&](double share) {
+    const double lack = std::max(full - 1 + (1 - count) * share, 0.0);
     sum += lack * lack / 2;
-  }
+  });
   return sum;
 }
 
@@ -63,10 +70,10 @@ double count_of_wall(double share) {
   return high;
 }
 
-/// Sum of W over the layers of a lattice at a wall.
+/// Sum of W over these layers.
 double shares_of_layers() {
   double sum = 0;
-  for (double layer = 0.5; layer < reach; ++layer) sum += share_beyond_plane(layer / reach);
+  for_layers([&](double share) { sum += share; });
   return sum;
 }
 
