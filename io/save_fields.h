@@ -113,13 +113,13 @@ void fields(A& a, Is<WorldLayout> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Fluid> auto& of) {
-  auto& [spacing, density, speed_of_sound, viscosity, surface_tension] = of;
-  a(spacing, density, speed_of_sound, viscosity, surface_tension);
+  auto& [spacing, density, speed_of_sound, viscosity, surface_tension, contact_angle, vorticity] = of;
+  a(spacing, density, speed_of_sound, viscosity, surface_tension, contact_angle, vorticity);
 }
 template <class A>
 void fields(A& a, Is<Grains> auto& of) {
-  auto& [radius, density, friction] = of;
-  a(radius, density, friction);
+  auto& [radius, density, friction, cohesion] = of;
+  a(radius, density, friction, cohesion);
 }
 template <class A>
 void fields(A& a, Is<Region> auto& of) {

@@ -1,4 +1,5 @@
 // The table of the scene format: what objects are made of. Liquids and grains share how they fill and flow.
+#include "pliant/grains.h"
 #include "pliant/liquid.h"
 #include "pliant/scene.h"
 #include "scene_grammar_parts.h"
@@ -157,6 +158,12 @@ std::vector<std::string> liquid_names() {
   return names;
 }
 
+std::vector<std::string> grain_names() {
+  std::vector<std::string> names;
+  for (const GrainKind& one : grain_kinds()) names.push_back(one.name);
+  return names;
+}
+
 }  // namespace
 
 const Record& liquid_record() {
@@ -177,6 +184,10 @@ const Record& liquid_record() {
        field("surface_tension", number("N/m", 0, 1e6), 0.f,
              "Surface tension towards air: water 0.072, oil 0.03. 0: none. It needs substeps of at most about 0.05 "
              "sqrt(density spacing^3 / surface_tension)."),
+       field("contact_angle", number("degrees", 0, 180), Fluid{}.contact_angle,
+             "Contact angle on colliders and rigid bodies, if there is surface tension. 180: no adhesion."),
+       field("vorticity", number("m/s", 0, 1e6), Fluid{}.vorticity,
+             "Vorticity confinement: accelerates by this times N x omega, so that swirls last. 0: none."),
        field("capacity", integer(1, 1 << 26), "those at the start", "Most particles that are there at a time."),
        field("emitters", list(record(emitter_record())), "none", "What adds particles; needs a `capacity`."),
        field("drains", list(record(drain_record())), "none", "Solids that take particles away, as each frame begins."),
@@ -193,10 +204,16 @@ const Record& grains_record() {
        field("positions", list(place(), 1), "none",
              "Instead of `fill`: centres of the grains at the start, a diameter or more apart."),
        field("radius", positive("m", largest_place), Grains{}.radius, "Radius of each grain."),
-       field("density", positive("kg/m^3"), Grains{}.density, "Density of the solid, not of the bulk with its voids."),
-       field("friction", number("-", 0, 1000), Grains{}.friction,
+       field("kind", choice(grain_names()), "none",
+             "A real material, whose density, friction and cohesion are the defaults."),
+       field("density", positive("kg/m^3"), "that of `kind`, else 2650",
+             "Density of the solid, not of the bulk with its voids."),
+       field("friction", number("-", 0, 1000), "that of `kind`, else 0.6",
              "Coefficient of friction of the bulk: tangent of the angle of repose. It is also the default friction with "
              "colliders."),
+       field("cohesion", number("Pa", 0, 1e9), "that of `kind`, else 0",
+             "Tensile stress at which the bulk parts: each contact of two grains bears a pull of 0.87 diameter^2 times "
+             "this."),
        field("capacity", integer(1, 1 << 26), "those at the start", "Most particles that are there at a time."),
        field("emitters", list(record(emitter_record())), "none", "What adds particles; needs a `capacity`."),
        field("drains", list(record(drain_record())), "none", "Solids that take particles away, as each frame begins."),

@@ -128,6 +128,8 @@ BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const s
   set(at, "speed_of_sound", options.fluid.speed_of_sound);
   set(at, "viscosity", options.fluid.viscosity);
   set(at, "surface_tension", options.fluid.surface_tension);
+  set(at, "contact_angle", options.fluid.contact_angle);
+  set(at, "vorticity", options.fluid.vorticity);
   set_flow(document, at, options);
   return {make_liquid(places_of({document, folder, name, repairs, options.fluid.spacing}, at), options)};
 }
@@ -136,9 +138,16 @@ BuiltObject grains_of(const JsonDocument& document, const JsonValue& at, const s
                       std::vector<std::string>& repairs) {
   GrainsOptions options;
   options.name = name;
+  if (const JsonValue* kind = at.find("kind")) {
+    const GrainKind& of = grain_kind(kind->text);
+    options.grains.density = of.density;
+    options.grains.friction = of.friction;
+    options.grains.cohesion = of.cohesion;
+  }
   set(at, "radius", options.grains.radius);
   set(at, "density", options.grains.density);
   set(at, "friction", options.grains.friction);
+  set(at, "cohesion", options.grains.cohesion);
   set_flow(document, at, options);
   return {make_grains(places_of({document, folder, name, repairs, 2 * options.grains.radius}, at), options)};
 }

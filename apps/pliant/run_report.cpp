@@ -165,12 +165,7 @@ void RunReport::add(const Report& report, const World& world) {
   }
   add(report.compression, report.frame);
   add(world.measure().tetrahedra(), report.frame);
-  flow_.emitted += report.flow.emitted;
-  flow_.drained += report.flow.drained;
-  flow_.expired += report.flow.expired;
-  flow_.refused += report.flow.refused;
-  flow_.blocked += report.flow.blocked;
-  flow_.present = report.flow.present;
+  flow_.add(report.flow);
   iterations_.mean += report.iterations.mean;
   milliseconds_.push_back(report.milliseconds);
   most_substeps_ = std::max(most_substeps_, report.substeps);

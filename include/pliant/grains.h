@@ -2,11 +2,27 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pliant/scene.h"
 
 namespace pliant {
+
+/// What a real granular material is like.
+struct GrainKind {
+  std::string name;
+  float density = 2650;   ///< of the solid [kg/m^3]
+  float friction = 0.6f;  ///< of the bulk: tangent of the angle of repose [-]
+  float cohesion = 0;     ///< of the bulk: tensile stress at which it parts [Pa]
+  std::string source;     ///< where the numbers come from
+};
+
+/// Returns a built-in material: "dry sand", "wet sand" or "gravel". For any other name throws an Error that lists the names.
+const GrainKind& grain_kind(std::string_view name);
+
+/// All built-in materials of grains.
+const std::vector<GrainKind>& grain_kinds();
 
 /// Options of make_grains.
 struct GrainsOptions {

@@ -51,6 +51,12 @@ struct Fluid {
   float speed_of_sound = 0;   ///< by which it yields to pressure p: by p / (density c^2); 0: it does not yield [m/s]
   float viscosity = 0;        ///< dynamic: water 0.001, honey 10; 0: none; at most 1e6 [Pa s]
   float surface_tension = 0;  ///< towards air: water 0.072; 0: none; at most 1e6 [N/m]
+  /// On colliders and rigid bodies, measured through the liquid: Young's law, with `surface_tension`. Water on clean glass has 20 or less, on
+  /// paraffin wax 105 to 110; 180: no adhesion, so that the liquid beads [degrees]
+  float contact_angle = 180;
+  /// Confinement: accelerates by this times N x omega (Macklin and Mueller 2013, eq. 15 and 16), so that swirls last; 0: none, at most 1e6
+  /// [m/s]. A gas has Gas::vorticity instead.
+  float vorticity = 0;
 };
 
 /// Makes the particles of an object grains: spheres that press on one another with friction, and do not turn. Grains whose objects meet by
@@ -59,6 +65,9 @@ struct Grains {
   float radius = 0.01f;   ///< of each sphere [m]
   float density = 2650;   ///< of the solid, not of the bulk with its voids [kg/m^3]
   float friction = 0.6f;  ///< of the bulk: tangent of the angle of repose [-]
+  /// Of the bulk: the tensile stress at which it parts; wet sand some 1000 [Pa]. A contact of two grains of diameter d bears a pull of 0.87 d^2
+  /// times this (Rumpf 1962, for 0.6 of the volume filled and six contacts a grain). Grains do not stick to anything else.
+  float cohesion = 0;
 };
 
 /// An axis-aligned box, or a ball.

@@ -89,6 +89,16 @@ struct FlowReport {
   std::int64_t refused = 0;  ///< not emitted, because all particles of the object were there
   std::int64_t blocked = 0;  ///< not emitted, because a particle of the object was in the way
   std::int64_t present = 0;  ///< particles that are there at the step's end, of objects whose particles come or go
+
+  /// Adds a later step: sums what came and went, and takes over who is present.
+  void add(const FlowReport& later) {
+    emitted += later.emitted;
+    drained += later.drained;
+    expired += later.expired;
+    refused += later.refused;
+    blocked += later.blocked;
+    present = later.present;
+  }
 };
 
 /// Statistics of contact between surfaces, including mesh colliders.

@@ -8,6 +8,7 @@
 #include "constraints/registry.h"
 #include "geometry/shapes.h"
 #include "inspect/problems.h"
+#include "model/cohesion.h"
 #include "model/compile_surface.h"
 #include "model/object_sets.h"
 #include "pliant/report.h"
@@ -250,6 +251,20 @@ void doubt_tension(const Doubts& d) {
                       "use " + std::to_string(needed) + ", or leave substeps out");
 }
 
+/// Says so where a contact angle or a cohesion has no effect, or not all of it.
+void doubt_adhesion(const Doubts& d) {
+  const Settings& settings = d.scene.settings;
+  if (d.object.fluid && d.object.fluid->contact_angle < 180 && !(d.object.fluid->surface_tension > 0))
+    d.problems.doubtful("contact_angle", "has no effect without surface tension", "give a surface_tension too");
+  if (!d.object.grains || settings.substeps <= 0) return;
+  const double frame_time = static_cast<double>(d.scene.frame_time);
+  const double share = acting_cohesion(d.object, frame_time, settings.substeps);
+  if (share == 1) return;
+  d.problems.doubtful("settings, substeps",
+                      "are so few that only about " + words(100 * share) + " % of the cohesion can act",
+                      "use " + std::to_string(substeps_of_cohesion(d.object, frame_time)) + ", or leave substeps out");
+}
+
 void doubt_air(const Doubts& d) {
   const Wind& wind = d.scene.wind;
   if (length_squared(wind.velocity) > 0 && wind.air_density > 0 && (d.object.fluid || d.object.grains) && !d.object.gas)
@@ -292,6 +307,7 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   doubt_air(doubts);
   doubt_compression(doubts);
   doubt_tension(doubts);
+  doubt_adhesion(doubts);
   doubt_tracers(doubts);
 }
 

@@ -280,6 +280,10 @@ void check_fluid(Problems& problems, const Object& object) {
   require_range(problems, "fluid, speed_of_sound", object.fluid->speed_of_sound, 0, largest_place);
   require_range(problems, "fluid, viscosity", object.fluid->viscosity, 0, 1e6);
   require_range(problems, "fluid, surface_tension", object.fluid->surface_tension, 0, 1e6);
+  require_range(problems, "fluid, contact_angle", object.fluid->contact_angle, 0, 180);
+  require_range(problems, "fluid, vorticity", object.fluid->vorticity, 0, 1e6);
+  if (object.gas && object.fluid->vorticity > 0)
+    problems.grave("fluid, vorticity", "is given for a gas", "give gas.vorticity instead");
 }
 
 void check_grains(Problems& problems, const Object& object) {
@@ -288,6 +292,7 @@ void check_grains(Problems& problems, const Object& object) {
   require_range(problems, "grains, radius", object.grains->radius, least, largest_place);
   require_range(problems, "grains, density", object.grains->density, least, 1e12);
   require_range(problems, "grains, friction", object.grains->friction, 0, 1000);
+  require_range(problems, "grains, cohesion", object.grains->cohesion, 0, 1e9);
   if (object.fluid) problems.grave("grains", "are a liquid too", "give grains or fluid, in two objects if both are wanted");
 }
 

@@ -26,6 +26,7 @@ Object make_grains(const std::vector<Vec3f>& positions, const GrainsOptions& opt
   require(grains.radius > 0, options.name, "radius", grains.radius, "positive, finite radius [m]");
   require(grains.density > 0, options.name, "density", grains.density, "positive, finite density [kg/m^3]");
   require(grains.friction >= 0, options.name, "friction", grains.friction, "finite coefficient of 0 or more [-]");
+  require(grains.cohesion >= 0, options.name, "cohesion", grains.cohesion, "finite tensile stress of 0 or more [Pa]");
   Object object;
   object.name = options.name;
   object.positions = positions;

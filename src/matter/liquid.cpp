@@ -36,6 +36,12 @@ Object make_liquid(const std::vector<Vec3f>& positions, const LiquidOptions& opt
   if (!(fluid.surface_tension >= 0) || !std::isfinite(fluid.surface_tension))
     throw Error({.object = options.name, .element = "surface_tension"}, "is " + std::to_string(fluid.surface_tension),
                 "give a positive tension [N/m], or 0 for none");
+  if (!(fluid.contact_angle >= 0) || !(fluid.contact_angle <= 180))
+    throw Error({.object = options.name, .element = "contact_angle"}, "is " + std::to_string(fluid.contact_angle),
+                "give an angle from 0 to 180 [degrees]; 180 is no adhesion");
+  if (!(fluid.vorticity >= 0) || !std::isfinite(fluid.vorticity))
+    throw Error({.object = options.name, .element = "vorticity"}, "is " + std::to_string(fluid.vorticity),
+                "give a positive coefficient of confinement [m/s], or 0 for none");
   Object liquid;
   liquid.name = options.name;
   liquid.positions = positions;

@@ -12,6 +12,7 @@
 #include "math/functions.h"
 #include "math/vector.h"
 #include "model/attachments.h"
+#include "model/cohesion.h"
 #include "model/compile_surface.h"
 #include "model/soft_body_substeps.h"
 
@@ -297,7 +298,9 @@ int substeps_of_tension(const Object& object, double frame_time) {
 int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_time) {
   if (object.tracers) return 1;
   if (object.fluid) return std::max(substeps_of_fluid(object, frame_time), substeps_of_tension(object, frame_time));
-  if (object.grains) return substeps_of_grains(heights_of_grains(object, frame_time), depth_of(object));
+  if (object.grains)
+    return std::max(substeps_of_grains(heights_of_grains(object, frame_time), depth_of(object)),
+                    substeps_of_cohesion(object, frame_time));
   if (is_soft_body(object)) return substeps_of_soft_body(object, frame_time);
   const bool is_of_bodies = !object.bodies.empty() && object.bodies.size() == object.positions.size();
   if (is_of_bodies && !has_converted(object)) return substeps_of_bodies;

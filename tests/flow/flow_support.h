@@ -39,12 +39,7 @@ inline FlowReport run(World& world, int frames) {
   for (int i = 0; i < frames; ++i) {
     const Report report = world.step(frame);
     EXPECT_TRUE(report.ok()) << report.explain();
-    sum.emitted += report.flow.emitted;
-    sum.drained += report.flow.drained;
-    sum.expired += report.flow.expired;
-    sum.refused += report.flow.refused;
-    sum.blocked += report.flow.blocked;
-    sum.present = report.flow.present;
+    sum.add(report.flow);
   }
   return sum;
 }

@@ -197,6 +197,8 @@ TEST_F(FullScene, HasItsLiquids) {
   EXPECT_EQ(oil.fluid->spacing, 0.25f);
   EXPECT_EQ(oil.fluid->density, 920);
   EXPECT_EQ(oil.fluid->speed_of_sound, 12.5f);
+  EXPECT_EQ(oil.fluid->contact_angle, 60);
+  EXPECT_EQ(oil.fluid->vorticity, 0.25f);
   EXPECT_EQ(oil.positions.size(), 16U);
   EXPECT_EQ(oil.positions.at(1), (Vec3f{-7.625f, 4.125f, 1.125f}));
   EXPECT_EQ(oil.masses.at(0), 14.375f);
@@ -263,6 +265,7 @@ TEST_F(FullScene, HasItsGrains) {
   EXPECT_EQ(sand.grains->radius, 0.125f);
   EXPECT_EQ(sand.grains->density, 1500);
   EXPECT_EQ(sand.grains->friction, 0.75f);
+  EXPECT_EQ(sand.grains->cohesion, 500);
   EXPECT_EQ(sand.positions.size(), 16U);
   EXPECT_EQ(sand.positions.at(1), (Vec3f{-7.625f, 10.125f, 1.125f}));
   EXPECT_NEAR(sand.masses.at(0), 1500 * 3.14159265 / 6 / 64, 1e-4);

@@ -72,6 +72,7 @@ void FluidSolver::list_points(const Model& model, const State& state, FluidPool&
   p.lightness_of_point.clear();
   p.viscosity.clear();
   p.tension.clear();
+  p.vorticity.clear();
   for (const int o : p.objects) {
     const CompiledObject& object = model.objects[at(o)];
     least = std::min(least, object.fluid->density);
@@ -81,9 +82,9 @@ void FluidSolver::list_points(const Model& model, const State& state, FluidPool&
     const std::size_t before = p.lightness_of_point.size();
     p.lightness_of_point.resize(p.points.size(), object.fluid->density);
     const int added = static_cast<int>(p.points.size() - before);
-    const float spacing = object.fluid->spacing;
     p.viscosity.add(object.fluid->viscosity, added);
-    p.tension.add(object.fluid->surface_tension, object.fluid->density * spacing * spacing * spacing, added);
+    p.tension.add(*object.fluid, added);
+    p.vorticity.add(object.fluid->vorticity, added);
     p.ends.push_back(static_cast<std::int32_t>(p.points.size()));
   }
   for (float& of : p.lightness_of_point) of = least / of;
@@ -95,6 +96,7 @@ void FluidSolver::begin_frame(const Substep& s) {
     pool->age = -1;
     pool->viscosity.begin_frame();
     pool->tension.begin_frame();
+    pool->vorticity.begin_frame();
     if (!s.state.births.empty()) list_points(s.model, s.state, *pool);
   }
 }
@@ -188,6 +190,10 @@ void FluidSolver::project(Substep& s, bool is_first) {
     project(s, *pool, is_first);
     pool->viscosity.solve(s, *pool, is_first);
   }
+}
+
+void FluidSolver::respond(Substep& s, FunctionRef<Vec3f(int)> gravity) {
+  for (auto& pool : pools_) pool->vorticity.respond(s, *pool, gravity);
 }
 
 ViscositySolves FluidSolver::viscosity() const {

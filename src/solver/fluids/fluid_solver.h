@@ -13,6 +13,7 @@
 #include "solver/fluids/fluid_walls.h"
 #include "solver/fluids/tension.h"
 #include "solver/fluids/viscosity.h"
+#include "solver/fluids/vorticity.h"
 
 namespace pliant {
 
@@ -31,6 +32,7 @@ struct FluidPool {
   FluidBodies bodies;
   FluidViscosity viscosity;
   FluidTension tension;
+  FluidVorticity vorticity;
   float mass = 0;                             ///< of a particle of the lightest liquid [kg]; 0 if all are fixed
   std::vector<float> squares;                 ///< by slot: what bodies add to the squared gradients [1/m^2]
   std::vector<float> lightness_of_point;      ///< the least density over that of each point; empty if all have one
@@ -54,6 +56,8 @@ class FluidSolver {
   void collide(Substep& s);
   /// Projects all density constraints once.
   void project(Substep& s, bool is_first);
+  /// After the update: vorticity confinement. `gravity(object)` is the part of gravity that velocities do not include yet [m/s].
+  void respond(Substep& s, FunctionRef<Vec3f(int)> gravity);
   /// Of the last projection.
   Compression compression() const;
   /// Of all pools in this frame.

@@ -16,16 +16,18 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-void FluidTension::add(float tension, float mass, int particles) {
-  has_any_ = has_any_ || tension > 0;
-  of_point_.resize(of_point_.size() + at(particles), tension);
-  masses_.resize(masses_.size() + at(particles), mass);
+void FluidTension::add(const Fluid& fluid, int particles) {
+  has_any_ = has_any_ || fluid.surface_tension > 0;
+  of_point_.resize(of_point_.size() + at(particles), fluid.surface_tension);
+  masses_.resize(masses_.size() + at(particles), fluid.density * fluid.spacing * fluid.spacing * fluid.spacing);
+  wetting_.add(fluid, particles);
 }
 
 void FluidTension::clear() {
   has_any_ = false;
   of_point_.clear();
   masses_.clear();
+  wetting_.clear();
 }
 
 void FluidTension::find_neighbours(Substep& s, const FluidPool& pool, const Records& by_point) {
@@ -37,6 +39,7 @@ void FluidTension::find_neighbours(Substep& s, const FluidPool& pool, const Reco
   lacking_.assign(padded, {nowhere, nowhere, nowhere, 0});
   forces_.resize(padded);
   tensions_.assign(padded, 0);
+  if (wetting_.has_any()) wetting_.find(s, pool.objects.front(), neighbours_, by_point, law_.reach);
 }
 
 /// Predicted places, and the tension that acts on each: as much as is stable.
@@ -59,16 +62,25 @@ void FluidTension::gather(Substep& s, const FluidPool& pool) {
 void FluidTension::act(Substep& s, const FluidPool& pool) {
   if (!has_any_) return;
   gather(s, pool);
+  if (wetting_.has_any()) wetting_.measure(s, neighbours_, places_);
   TensionArrays a{law_};
   a.places = places_.data();
   a.tensions = tensions_.data();
+  a.walls = wetting_.has_any() ? wetting_.counts().data() : nullptr;
   a.lacking = lacking_.data();
   a.forces = forces_.data();
   for_groups(s.context.executor, "surface tension", neighbours_,
              [&](int g, int, int) { s.kernels.tension.count(a, neighbours_.group(g), g); });
+  for_groups(s.context.executor, "surface tension", neighbours_,
+             [&](int g, int, int) { s.kernels.tension.pull(a, neighbours_.group(g), g); });
+  if (wetting_.has_any()) wetting_.pull(s, neighbours_, lacking_, tensions_, forces_);
+  move(s, pool);
+}
+
+/// Moves particles by the forces of a substep.
+void FluidTension::move(Substep& s, const FluidPool& pool) {
   const std::vector<std::int32_t>& order = neighbours_.order().points();
-  for_groups(s.context.executor, "surface tension", neighbours_, [&](int g, int first, int last) {
-    s.kernels.tension.pull(a, neighbours_.group(g), g);
+  for_groups(s.context.executor, "surface tension", neighbours_, [&](int, int first, int last) {
     for (std::size_t slot = at(first); slot < at(last); ++slot) {
       const std::size_t particle = at(pool.points[at(order[slot])]);
       const float by = s.h * s.h * s.state.positions[particle].w;

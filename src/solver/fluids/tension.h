@@ -1,6 +1,6 @@
 // Surface tension of the liquids of a pool: forces that are minus the gradient of a surface energy (tension_law.h), at predicted places. That
 // takes hardly any energy from oscillations of drops, but damps the fast ones, which forces at the places where a substep starts would feed:
-// with those, drops burst. Where a substep is too long even so, less tension acts.
+// with those, drops burst. Where a substep is too long even so, less tension acts. Walls attract by wetting.h.
 #pragma once
 
 #include <vector>
@@ -8,6 +8,7 @@
 #include "collision/neighbours/neighbour_lists.h"
 #include "pliant/report.h"
 #include "solver/fluids/tension_kernels.h"
+#include "solver/fluids/wetting.h"
 
 namespace pliant {
 
@@ -16,8 +17,8 @@ struct Substep;
 
 class FluidTension {
  public:
-  /// Adds particles with a surface tension [N/m] and a mass at rest [kg], in the order of FluidPool::points.
-  void add(float tension, float mass, int particles);
+  /// Adds particles of a liquid, in the order of FluidPool::points.
+  void add(const Fluid& fluid, int particles);
   /// Forgets all particles.
   void clear();
   bool has_any() const { return has_any_; }
@@ -31,6 +32,7 @@ class FluidTension {
 
  private:
   void gather(Substep& s, const FluidPool& pool);
+  void move(Substep& s, const FluidPool& pool);
 
   TensionLaw law_{};
   std::vector<float> of_point_, masses_;  ///< [N/m], [kg]
@@ -39,6 +41,7 @@ class FluidTension {
   NeighbourLists neighbours_;
   Records places_, lacking_, forces_;  ///< by slot
   std::vector<float> tensions_;        ///< by slot
+  FluidWetting wetting_;
 };
 
 }  // namespace pliant

@@ -16,6 +16,7 @@ struct TensionArrays {
   TensionLaw law;
   const Record* places = nullptr;   ///< [m]
   const float* tensions = nullptr;  ///< [N/m]
+  const float* walls = nullptr;     ///< what walls add to the count [-]; null: nothing
   Record* lacking = nullptr;        ///< places, and in w how much the energy falls with the count [J]
   Record* forces = nullptr;         ///< on each particle [N]
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "math/functions.h"
+
 namespace pliant {
 
 namespace {
@@ -30,8 +32,54 @@ double count_of_lattice() {
   return sum;
 }
 
-/// The share of the integral of (1 - r^2)^2 over the unit ball beyond a plane at distance t from its centre.
-double beyond_plane(double t) {
+/// The energy of a plane surface per area, of particles with energy (full - c)^2 / 2 and a volume of 1, with lengths over the spacing.
+double energy_of_plane() {
+  constexpr int steps = 1024;
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double lack = std::max(full - 1 + share_beyond_plane((i + 0.5) / steps), 0.0);
+    sum += lack * lack / 2;
+  }
+  return sum * reach / steps;
+}
+
+/// Calls body(W) for the layers of a lattice at a wall, of which the first is half a spacing from it.
+template <class Body>
+void for_layers(const Body& body) {
+  constexpr int layers = 3;
+  for (int layer = 0; layer < layers; ++layer) body(share_beyond_plane((layer + 0.5) / reach));
+}
+
+/// The energy of a lattice at a wall that counts as a share of a liquid, per area, as energy_of_plane() has it.
+double energy_at_wall(double count) {
+  double sum = 0;
+  for_layers([&](double share) {
+    const double lack = std::max(full - 1 + (1 - count) * share, 0.0);
+    sum += lack * lack / 2;
+  });
+  return sum;
+}
+
+/// The share of a liquid with which a wall has this share of a surface's energy.
+double count_of_wall(double share) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (low + high) / 2;
+    (energy_at_wall(middle) > share * energy_at_wall(0) ? low : high) = middle;
+  }
+  return high;
+}
+
+/// Sum of W over these layers.
+double shares_of_layers() {
+  double sum = 0;
+  for_layers([&](double share) { sum += share; });
+  return sum;
+}
+
+}  // namespace
+
+double share_beyond_plane(double t) {
   // The slab at z has pi (1 - z^2)^3 / 3; the whole is 32 pi / 105.
   const auto primitive = [](double z) {
     const double z2 = z * z, z3 = z2 * z;
@@ -40,18 +88,18 @@ double beyond_plane(double t) {
   return 35. / 32 * (primitive(1) - primitive(t));
 }
 
-/// The energy of a plane surface per area, of particles with energy (full - c)^2 / 2 and a volume of 1, with lengths over the spacing.
-double energy_of_plane() {
-  constexpr int steps = 1024;
-  double sum = 0;
-  for (int i = 0; i < steps; ++i) {
-    const double lack = std::max(full - 1 + beyond_plane((i + 0.5) / steps), 0.0);
-    sum += lack * lack / 2;
-  }
-  return sum * reach / steps;
+double slope_beyond_plane(double t) {
+  const double rest = 1 - t * t;
+  return -35. / 32 * rest * rest * rest;
 }
 
-}  // namespace
+WettingLaw wetting_law(float spacing, float contact_angle) {
+  const double s = static_cast<double>(spacing);
+  const double cosine = sine_cosine_of_degrees(static_cast<double>(contact_angle)).cosine;
+  if (!(contact_angle < 180)) return {};
+  if (cosine < 0) return {static_cast<float>(count_of_wall(-cosine)), 0};
+  return {1, static_cast<float>(cosine * s * s / shares_of_layers())};
+}
 
 TensionLaw tension_law(float spacing) {
   const double s = static_cast<double>(spacing), count = count_of_lattice();

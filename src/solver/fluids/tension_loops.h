@@ -33,7 +33,9 @@ struct Loops {
         const R u = nearness(a.law, place - Lanes::load(a.places, group.slots + k * neighbour_lanes + lane).position);
         sum = sum + u * u;
       }
-      const R lack = max(R(a.law.full) - (R(a.law.own) + R(a.law.count_scale) * sum), R(0.f));
+      R found = R(a.law.own) + R(a.law.count_scale) * sum;
+      if (a.walls != nullptr) found = found + Lanes::load(a.walls + slot);
+      const R lack = max(R(a.law.full) - found, R(0.f));
       Lanes::store_own(a.lacking + slot, place, R(a.law.energy) * Lanes::load(a.tensions + slot) * lack);
     }
   }

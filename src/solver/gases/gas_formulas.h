@@ -2,19 +2,13 @@
 #pragma once
 
 #include "math/functions.h"
-#include "math/inverse_root.h"
 #include "math/vector.h"
 #include "pliant/material.h"
-#include "solver/fluids/fluid_law.h"
+#include "solver/fluids/vorticity_formulas.h"
 
 namespace pliant::gas_formulas {
 
-/// The kernel's gradient at d from a neighbour, over -d, times the volume of a particle at rest [1/m^2].
-inline float gradient_factor(const FluidLaw& law, const Vec3f& d) {
-  const float r2 = max(length_squared(d), 1e-12f), inverse = inverse_root(r2);
-  const float q = max(law.reach - r2 * inverse, 0.f);
-  return law.gradient_scale * (q * q) * inverse;
-}
+using vorticity_formulas::gradient_factor;
 
 inline bool contains(const Region& region, const Vec3f& p) {
   const Vec3f d = p - region.centre;

@@ -73,7 +73,6 @@ GasChange measure(const GasPass& pass, int slot) {
 
 /// The acceleration by vorticity confinement, for a coefficient of 1 m/s.
 Vec3f confinement(const GasPass& pass, int slot) {
-  constexpr float small = 0.1f;  // where vorticity varies less than this over the kernel's reach, no direction is preferred
   const FluidLaw& law = pass.pool->law;
   const GasPoint& own = pass.points[at(slot)];
   const GasChange& change = pass.changes[at(slot)];
@@ -82,8 +81,7 @@ Vec3f confinement(const GasPass& pass, int slot) {
     const Vec3f d = own.place - pass.points[at(other)].place;
     slope += d * (gas_formulas::gradient_factor(law, d) * (change.vorticity_size - pass.changes[at(other)].vorticity_size));
   });
-  const float size = length(slope) + small * change.vorticity_size / law.reach;
-  return size > 0 ? cross(slope, change.vorticity) * (1 / size) : Vec3f{};
+  return vorticity_formulas::confinement(law, slope, change.vorticity, change.vorticity_size);
 }
 
 }  // namespace

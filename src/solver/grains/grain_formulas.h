@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/vector.h"
+#include "model/cohesion.h"
 #include "model/object_sets.h"
 #include "solver/grains/grain_solver.h"
 
@@ -17,6 +18,15 @@ inline constexpr float stiffness = stiffness_of_grains, damping = 0.05f, slip_st
 
 /// Of two kinds of grains, those with less friction decide.
 inline float common_friction(float a, float b) { return std::min(a, b); }
+
+/// The most that cohesion pulls two grains together in a substep of `h` seconds, in all [m]. Of two kinds, those with less cohesion decide, and
+/// the diameter is the harmonic mean.
+inline float most_pull(const GrainTraits& a, const GrainTraits& b, float h) {
+  const float cohesion = std::min(a.cohesion, b.cohesion), reach = a.radius + b.radius;
+  if (!(cohesion > 0)) return 0;
+  const float force = pull_of_contact(4 * (a.radius * b.radius) / reach, cohesion);
+  return std::min(force * (h * h) * (a.inverse_mass + b.inverse_mass), stiffness * longest_bond * reach);
+}
 
 /// From the neighbour to the grain. Grains in one place part along y.
 inline Vec3f normal_of(const Vec3f& between, bool is_first) {
@@ -33,13 +43,13 @@ inline Vec3f at_most(const Vec3f& v, float most) {
   return squared > most * most ? (most / std::sqrt(squared)) * v : v;
 }
 
-/// How far a grain and its neighbour move apart, in all. `gap` is negative [m]; `move` is that of the grain, over that of its neighbour, in the
+/// How far a grain and its neighbour move apart, in all. `gap` is negative without cohesion [m]; `move` is that of the grain, over that of its neighbour, in the
 /// substep [m].
 inline Vec3f project(float gap, const Vec3f& normal, const Vec3f& move, float friction, GrainNeighbour& n) {
   const float along = dot(move, normal);
-  const float push = std::max(n.push - stiffness * gap - damping * along, 0.f);
+  const float push = std::max(n.push - stiffness * gap - damping * along, 0.f - n.pull);
   const Vec3f sliding = move - along * normal, slip = tangential(n.slip, normal) + sliding;
-  const Vec3f held = at_most(n.friction - slip_stiffness * slip - slip_damping * sliding, friction * push);
+  const Vec3f held = at_most(n.friction - slip_stiffness * slip - slip_damping * sliding, friction * (push + n.pull));
   const Vec3f by = (push - n.push) * normal + (held - n.friction);
   n.push = push;
   n.friction = held;

@@ -69,9 +69,15 @@ void GrainSolver::list_points(const Model& model, const State& state) {
   traits_.clear();
   for (const int o : objects_) {
     const CompiledObject& object = model.objects[at(o)];
-    const GrainTraits traits{
-        object.grains->radius, contact_friction(object.grains->friction), 0, o, object.groups, object.mask};
+    const GrainTraits traits{object.grains->radius,
+                             contact_friction(object.grains->friction),
+                             object.grains->cohesion,
+                             0,
+                             o,
+                             object.groups,
+                             object.mask};
     largest_radius_ = std::max(largest_radius_, traits.radius);
+    has_cohesion_ = has_cohesion_ || traits.cohesion > 0;
     for (int p = model.first[at(o)]; p < model.end_of(o); ++p) {
       if (!is_there(state, at(p))) continue;
       points_.push_back(p);
@@ -88,7 +94,8 @@ void GrainSolver::begin_frame(const Substep& s) {
 void GrainSolver::find_neighbours(Substep& s, const std::vector<GrainContact>& known) {
   Records by_point(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) by_point[i] = predicted(s, points_[i]);
-  lists_.find(s.context.executor, s.kernels.neighbours, by_point, (2 + skin) * largest_radius_);
+  const float beyond = has_cohesion_ ? skin + 2 * longest_bond : skin;
+  lists_.find(s.context.executor, s.kernels.neighbours, by_point, (2 + beyond) * largest_radius_);
   const std::vector<std::int32_t>& order = lists_.order().points();
   of_slot_.resize(order.size());
   of_grain_.resize(order.size());
@@ -146,7 +153,7 @@ bool GrainSolver::are_neighbours_known(Substep& s) {
   return largest < most * most;
 }
 
-/// Adds the last substep's motion to the slip of a slot's contacts. What does not press, or exceeds the friction, slides.
+/// Adds the last substep's motion to the slip of a slot's contacts. What is not pressed together, or exceeds the friction, slides.
 void GrainSolver::slide(const State& state, int slot) {
   const auto move = [&](std::int32_t of) {
     const Record &x = state.positions[at(of_slot_[at(of)])], &r = state.remainders[at(of_slot_[at(of)])];
@@ -156,13 +163,13 @@ void GrainSolver::slide(const State& state, int slot) {
   const Vec3f own_move = move(slot), own = place(slot);
   for (std::int32_t k = first_[at(slot)]; k < first_[at(slot) + 1]; ++k) {
     GrainNeighbour& n = neighbours_[at(k)];
-    if (!(n.push > 0)) {
+    if (!(n.push + n.pull > 0)) {
       n.slip = {};
       continue;
     }
     const float friction = grain_formulas::common_friction(of_grain_[at(slot)].friction, of_grain_[at(n.slot)].friction);
     const Vec3f normal = grain_formulas::normal_of(own - place(n.slot), of_slot_[at(slot)] < of_slot_[at(n.slot)]);
-    n.slip = grain_formulas::after_motion(n.slip, own_move - move(n.slot), normal, friction * n.push);
+    n.slip = grain_formulas::after_motion(n.slip, own_move - move(n.slot), normal, friction * (n.push + n.pull));
   }
 }
 
@@ -204,14 +211,16 @@ void GrainSolver::project_grain(Substep& s, int slot, bool is_first) {
     GrainNeighbour& n = neighbours_[at(k)];
     const GrainTraits& other = of_grain_[at(n.slot)];
     if (is_first) {
-      n.push = 0;
+      n.push = n.pull = 0;
       n.friction = {};
     }
     const Vec3f between = place - vector_of(places_[at(n.slot)]);
-    const float reach = own.radius + other.radius;
-    if (!(dot(between, between) < reach * reach) || !can_touch(own, other)) continue;
+    const float pull = has_cohesion_ ? grain_formulas::most_pull(own, other, s.h) : 0;
+    const float reach = own.radius + other.radius, farthest = reach + pull / grain_formulas::stiffness;
+    if (!(dot(between, between) < farthest * farthest) || !can_touch(own, other)) continue;
     const float inverse_mass = own.inverse_mass + other.inverse_mass;
     if (!(inverse_mass > 0)) continue;
+    n.pull = pull;
     const Vec3f normal = grain_formulas::normal_of(between, of_slot_[at(slot)] < of_slot_[at(n.slot)]);
     const float gap = dot(between, normal) - reach;
     const float friction = grain_formulas::common_friction(own.friction, other.friction);
@@ -227,7 +236,7 @@ void GrainSolver::list_contacts(std::vector<GrainContact>& to) const {
     for (std::int32_t k = first_[at(slot)]; k < first_[at(slot) + 1]; ++k) {
       const GrainNeighbour& n = neighbours_[at(k)];
       const std::int32_t a = of_slot_[at(slot)], b = of_slot_[at(n.slot)];
-      if (n.push > 0 && a < b) to.push_back({a, b, n.slip});
+      if (n.push + n.pull > 0 && a < b) to.push_back({a, b, n.slip});
     }
 }
 

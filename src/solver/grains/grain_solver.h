@@ -3,6 +3,9 @@
 // A contact yields: an iteration removes a fixed share of its overlap, and a fixed share of the slip since the two grains stuck, up to the
 // Coulomb bound (the tangential spring of Cundall and Strack 1979). Force is thus a function of overlap and slip, which last over substeps,
 // and not of how far an iteration has converged. Slip is kept in State::grain_contacts.
+//
+// With cohesion the spring of the overlap goes on beyond contact and pulls, up to the pull that a contact bears (model/cohesion.h). Friction is
+// then that of the push plus this pull, which presses the grains together (Derjaguin, Muller and Toporov 1975).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +21,8 @@ struct Substep;
 /// A neighbour of a grain, as seen from that grain.
 struct GrainNeighbour {
   std::int32_t slot = 0;  ///< of the neighbour
-  float push = 0;         ///< sum of normal corrections in the substep [m]
+  float push = 0;         ///< sum of normal corrections in the substep; negative: cohesion pulls [m]
+  float pull = 0;         ///< the most that cohesion may pull in the substep; 0: none, or they do not touch [m]
   Vec3f slip{};           ///< of the grain over the neighbour since they stuck, up to the substep's start [m]
   Vec3f friction{};       ///< sum of tangential corrections in the substep [m]
 };
@@ -27,6 +31,7 @@ struct GrainNeighbour {
 struct GrainTraits {
   float radius = 0;        ///< [m]
   float friction = 0;      ///< coefficient of a contact [-]
+  float cohesion = 0;      ///< [Pa]
   float inverse_mass = 0;  ///< 0: fixed [1/kg]
   int object = 0;
   std::uint32_t groups = 0, mask = 0;
@@ -72,6 +77,7 @@ class GrainSolver {
   std::vector<std::int32_t> points_;  ///< all particles that are there, as in the State
   std::vector<GrainTraits> traits_;   ///< of each of `points_`
   float largest_radius_ = 0;          ///< [m]
+  bool has_cohesion_ = false;
 
   NeighbourLists lists_;
   std::vector<std::int32_t> of_slot_;       ///< the particle of each slot

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "solver/bodies/body_solver.h"
+#include "solver/fluids/fluid_solver.h"
 #include "solver/gases/gas_solver.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
@@ -69,6 +70,7 @@ void respond(Substep& s) {
   if (s.bodies != nullptr) s.bodies->respond(s, gravity);
   if (s.bodies != nullptr && s.work.contact_log != nullptr) s.bodies->log_contacts(s, *s.work.contact_log);
   respond_to_shapes(s, slow, gravity);
+  if (s.fluids != nullptr) s.fluids->respond(s, gravity);
   if (s.gases != nullptr) s.gases->respond(s, gravity);
   if (!s.has_pairs()) return;
   Record* velocities = s.state.velocities.data();

@@ -1,0 +1,225 @@
+// Wetting: drops take the shape of a spherical cap with the contact angle of Young's law, and pull bodies as these pull them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "pliant/body.h"
+#include "pliant/error.h"
+#include "pliant/liquid.h"
+#include "pliant/world.h"
+
+namespace pliant {
+namespace {
+
+constexpr float density = 1000, spacing = 0.005f, tension = 0.0728f;
+constexpr double pi = 3.14159265358979;
+
+/// The time of capillary waves of the spacing [s].
+float capillary_time() { return std::sqrt(density * spacing * spacing * spacing / tension); }
+
+Object liquid_of(const std::vector<Vec3f>& places, float angle, float viscosity = 0) {
+  return make_liquid(places, {.fluid = {.spacing = spacing,
+                                        .density = density,
+                                        .viscosity = viscosity,
+                                        .surface_tension = tension,
+                                        .contact_angle = angle}});
+}
+
+/// Places in a half ball on the ground.
+std::vector<Vec3f> half_ball(float radius) {
+  std::vector<Vec3f> inside;
+  for (const Vec3f& p : fill_box({-radius, 0, -radius}, {radius, radius, radius}, spacing))
+    if (length_squared(p) < radius * radius) inside.push_back(p);
+  return inside;
+}
+
+Scene scene_of(const Object& object) {
+  Scene scene;
+  scene.gravity = {};
+  scene.settings.threads = 1;
+  scene.settings.substeps = 1;
+  scene.add(object);
+  return scene;
+}
+
+/// The height of the centre of mass of a spherical cap, over the cube root of its volume.
+double height_of_cap(double angle) {
+  const double cosine = std::cos(angle * pi / 180), h = 1 - cosine;  // of a ball of radius 1
+  const double volume = pi * h * h * (3 - h) / 3;
+  return h * (4 - h) / (4 * (3 - h)) / std::cbrt(volume);
+}
+
+/// The contact angle of a cap by its centre of mass [degrees].
+double angle_of_cap(double height) {
+  double low = 1, high = 179;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (low + high) / 2;
+    (height_of_cap(middle) < height ? low : high) = middle;
+  }
+  return low;
+}
+
+double angle_of(const World& world) {
+  const std::vector<Vec3f> x = world.object(0).positions();
+  double height = 0;
+  for (const Vec3f& p : x) height += static_cast<double>(p.y) / static_cast<double>(x.size());
+  const double side = static_cast<double>(spacing) * std::cbrt(static_cast<double>(x.size()));
+  return angle_of_cap(height / side);
+}
+
+/// The contact angle at which a drop on a plate comes to rest, without gravity [degrees].
+double angle_at_rest(float wanted) {
+  Scene scene = scene_of(liquid_of(half_ball(8.3f * spacing), wanted, 0.2f));
+  scene.add(Collider{});
+  World world(scene);
+  const float h = 0.05f * capillary_time();
+  double sum = 0;
+  constexpr int steps = 6000, measured = 1000;
+  for (int i = 0; i < steps; ++i) {
+    world.step(h);
+    if (i >= steps - measured) sum += angle_of(world) / measured;
+  }
+  return sum;
+}
+
+TEST(Wetting, HoldsTheContactAngle) {
+  for (const float angle : {60.f, 90.f, 120.f}) EXPECT_NEAR(angle_at_rest(angle), static_cast<double>(angle), 4);
+}
+
+struct Momentum {
+  Vec3d linear{}, angular{};
+};
+
+/// Of a liquid and a body behind it.
+Momentum momentum_of(const Scene& scene, const World& world) {
+  Momentum sum;
+  for (int o = 0; o < 2; ++o) {
+    const std::vector<Vec3f> x = world.object(ObjectId{o}).positions(), v = world.object(ObjectId{o}).velocities();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double mass = static_cast<double>(scene.objects[static_cast<std::size_t>(o)].masses[i]);
+      const Vec3d p = Vec3d{v[i].x, v[i].y, v[i].z} * mass;
+      sum.linear += p;
+      sum.angular += cross(Vec3d{x[i].x, x[i].y, x[i].z}, p);
+    }
+  }
+  return sum;
+}
+
+/// A drop beside a free plate.
+Scene drop_and_plate(float angle) {
+  std::vector<Vec3f> places = half_ball(5.3f * spacing);
+  for (Vec3f& p : places) p.y += 0.2f * spacing;
+  Scene scene = scene_of(liquid_of(places, angle));
+  Solid plate;
+  plate.shape = Box{{0.06f, 0.005f, 0.06f}};
+  plate.density = 500;
+  scene.add(make_body({plate}, {.name = "plate", .position = {0, -0.005f, 0}}));
+  return scene;
+}
+
+TEST(Wetting, KeepsTheMomentumOfADropAndABody) {
+  const Scene scene = drop_and_plate(60);
+  World world(scene);
+  double fastest = 0;
+  for (int i = 0; i < 400; ++i) {
+    ASSERT_TRUE(world.step(0.05f * capillary_time()).ok());
+    fastest = std::max(fastest, static_cast<double>(world.object(ObjectId{1}).velocities()[0].y));
+  }
+  const double mass = static_cast<double>(scene.objects[1].masses[0]);
+  EXPECT_GT(fastest, 1e-4) << "the plate is not pulled";
+  EXPECT_LT(std::sqrt(length_squared(momentum_of(scene, world).linear)), 1e-4 * mass * fastest);
+}
+
+// At 180 degrees there is no work of adhesion (Young and Dupre).
+TEST(Wetting, HoldsADropUnderACeiling) {
+  const auto lowest = [](float angle) {
+    std::vector<Vec3f> places = half_ball(5.3f * spacing);
+    for (Vec3f& p : places) p.y = -p.y;
+    Scene scene = scene_of(liquid_of(places, angle));
+    scene.gravity = {0, -0.1f, 0};
+    Collider ceiling;
+    ceiling.rotation = {1, 0, 0, 0};
+    scene.add(ceiling);
+    World world(scene);
+    for (int i = 0; i < 1500; ++i) world.step(0.05f * capillary_time());
+    float low = 0;
+    for (const Vec3f& p : world.object(0).positions()) low = std::min(low, p.y);
+    return low;
+  };
+  EXPECT_GT(lowest(60), -8 * spacing);
+  EXPECT_LT(lowest(180), -20 * spacing);
+}
+
+std::string hash_after(const Scene& scene, int threads, const char* isa) {
+  Settings settings = scene.settings;
+  settings.threads = threads;
+  settings.isa = isa;
+  World world(scene, settings);
+  for (int i = 0; i < 20; ++i) world.step(0.05f * capillary_time());
+  return hash(world.state());
+}
+
+/// Drops of two angles that mix, on a ground and a body.
+Scene two_angles() {
+  Scene scene = drop_and_plate(60);
+  Object other = liquid_of(half_ball(6 * spacing), 120);
+  other.name = "other";
+  for (Vec3f& p : other.positions) p.x += 0.055f;
+  scene.add(other);
+  Collider wall;
+  wall.shape = Sphere{0.03f};
+  wall.position = {-0.06f, 0.02f, 0};
+  scene.add(wall);
+  return scene;
+}
+
+TEST(Wetting, HasTheSameBitsOnAnyThreadsAndLevels) {
+  const Scene scene = two_angles();
+  const std::string expected = hash_after(scene, 1, "sequential");
+  EXPECT_EQ(hash_after(scene, 1, ""), expected);
+  EXPECT_EQ(hash_after(scene, 3, ""), expected);
+  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+}
+
+TEST(Wetting, GoesOnFromARestoredStateWithTheSameBits) {
+  const Scene scene = two_angles();
+  World world(scene), other(scene);
+  for (int i = 0; i < 4; ++i) world.step(0.01f);
+  other.restore(world.state());
+  for (int i = 0; i < 4; ++i) world.step(0.01f), other.step(0.01f);
+  EXPECT_EQ(hash(other.state()), hash(world.state()));
+}
+
+TEST(Wetting, IsSaidToHaveNoEffectWithoutTension) {
+  Scene scene = scene_of(make_liquid({{}}, {.fluid = {.contact_angle = 60}}));
+  const std::vector<Finding> findings = inspect(scene);
+  EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.message.find("no effect without surface tension") != std::string::npos;
+  }));
+}
+
+TEST(Wetting, OutOfRangeIsNamed) {
+  for (const float angle : {-1.f, 181.f, NAN}) {
+    try {
+      make_liquid({{}}, {.fluid = {.contact_angle = angle}});
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("contact_angle"), std::string::npos);
+    }
+  }
+  Scene scene = scene_of(make_liquid({{}}, {.name = "dew"}));
+  scene.objects[0].fluid->contact_angle = 200;
+  try {
+    const World world(scene);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("dew"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("contact_angle"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace pliant
