@@ -64,7 +64,7 @@ struct Volume {
   /// If there are any, the pressure follows them instead of `pressure`: linear between, constant before the first and after the last. Their
   /// times increase. It changes once a frame.
   std::vector<PressureKeyframe> keyframes{};
-  /// The share of what the pressure is above 1 that leaks out in a second: exp(-leak t) of it is left at the time t, 0..1000 [1/s].
+  /// The share of what the pressure is above 1 that leaks out in a second: exp(-leak t) of it is left at the World's time t, 0..1000 [1/s].
   float leak = 0;
 
   bool changes() const { return !keyframes.empty() || leak > 0; }
@@ -85,7 +85,7 @@ struct Cluster {
   Stiffness stiffness{};
 };
 
-/// A kinematic particle: it has infinite mass and follows `motion` from its rest position.
+/// A kinematic particle: it has infinite mass and follows `motion` from its rest position. If that turns, so does a body with this particle.
 struct Pin {
   int particle = 0;
   Motion motion{};

@@ -32,7 +32,20 @@ struct JointedBody {
   }
 };
 
+bool exists(const Object& object, int body) { return body >= 0 && static_cast<std::size_t>(body) < object.bodies.size(); }
+
+/// True if keyframes move or turn a body.
+bool is_driven(const Object& object, const ObjectBody& body) {
+  return std::any_of(object.pins.begin(), object.pins.end(),
+                     [&](const Pin& pin) { return pin.particle == body.particle && pin.motion.moves(); });
+}
+
 JointedBody jointed(const Object& object, int body) { return {object, object.bodies[static_cast<std::size_t>(body)]}; }
+
+/// True of joints whose anchor may lie anywhere on an axis or in a plane.
+bool slides(const ObjectJoint& joint) {
+  return joint.kind == "slider" || joint.kind == "cylindrical" || joint.kind == "planar";
+}
 
 bool joins_angles(const ObjectJoint& joint) { return joint.kind == "gear" || joint.kind == "rack"; }
 
@@ -68,7 +81,9 @@ void doubt_bearings(Problems& problems, const Object& object, const ObjectJoint&
     const auto guides = [&](const ObjectJoint& other) {
       return !joins_angles(other) && (other.a == body || other.b == body);
     };
-    if (jointed(object, body).is_fixed() || std::any_of(object.joints.begin(), object.joints.end(), guides)) continue;
+    if (jointed(object, body).is_fixed() || is_driven(object, object.bodies[static_cast<std::size_t>(body)]) ||
+        std::any_of(object.joints.begin(), object.joints.end(), guides))
+      continue;
     problems.doubtful("joint '" + joint.name + "'",
                       "couples body '" + jointed(object, body).body.name + "', which no other joint guides",
                       joint.kind == "gear" || body == joint.a ? "add the hinge on which it turns"
@@ -80,9 +95,10 @@ void doubt_bearings(Problems& problems, const Object& object, const ObjectJoint&
 
 void doubt_joints(Problems& problems, const Object& object) {
   for (const ObjectJoint& joint : object.joints) {
+    if (!exists(object, joint.a) || !exists(object, joint.b)) continue;
     if (joins_angles(joint))
       doubt_bearings(problems, object, joint);
-    else
+    else if (!slides(joint))
       doubt_anchor(problems, object, joint);
   }
 }

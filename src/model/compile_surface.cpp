@@ -55,7 +55,7 @@ double pressure_at(const Volume& volume, double time) {
         static_cast<double>(a.pressure) + share * (static_cast<double>(b.pressure) - static_cast<double>(a.pressure));
   }
   if (!(volume.leak > 0 && pressure > 1)) return pressure;
-  return 1 + (pressure - 1) * exp(-static_cast<double>(volume.leak) * time);
+  return 1 + (pressure - 1) * exp(-static_cast<double>(volume.leak) * std::max(time, 0.0));
 }
 
 double largest_pressure(const Volume& volume) {

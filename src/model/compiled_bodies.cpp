@@ -128,7 +128,8 @@ bool turns(const Motion& motion) {
 /// Of two pins of a body the later one wins, as for its particle.
 void find_driven(const Object& object, CompiledBodies& out) {
   std::map<int, const Pin*> pin_of;
-  for (const Pin& pin : object.pins) pin_of[pin.particle] = &pin;
+  for (const Pin& pin : object.pins)
+    if (pin.motion.moves()) pin_of[pin.particle] = &pin;
   for (const ObjectBody& body : object.bodies) {
     const auto found = pin_of.find(body.particle);
     const Pin* const pin = found == pin_of.end() ? nullptr : found->second;

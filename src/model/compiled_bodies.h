@@ -44,7 +44,7 @@ struct CompiledBodies {
   std::vector<std::pair<int, int>> attached;  ///< particles and the bodies to which a constraint ties them; likewise
   std::vector<double>
       edge_lengths;  ///< [attached] mean length at the start of the edges at the particle; 0: it has none [m]
-  std::vector<DrivenFrame> driven;                           ///< of bodies whose pin turns, by pin
+  std::vector<DrivenFrame> driven;                           ///< of bodies whose pin turns, by body
   std::shared_ptr<const std::vector<Polyhedron>> polyhedra;  ///< what shapes point to; each different one once
 
   bool empty() const { return bodies.empty(); }

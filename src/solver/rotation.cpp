@@ -74,6 +74,8 @@ void update_frames(Substep& s) {
     const float kept = 1 / (1 + s.h * s.model.objects[o].damping);
     const int first_of_object = s.model.first_frame[o], end = s.model.end_of_frames(o);
     for (int i = first_of_object; i < end; ++i) s.work.frames.corrections[i].w = kept;
+    for (const DrivenFrame& driven : s.model.objects[o].bodies.driven)
+      s.work.frames.corrections[first_of_object + driven.frame].w = 1;
     // Corrections stay whole, because contacts and angular momentum follow what the frame has turned.
     const auto update = [&](int from, int to, float share) {
       for_range(s, "update: frames", first_of_object + from, first_of_object + to, [&](int first, int last) {

@@ -53,7 +53,8 @@ struct TetrahedraSum {
       measure.inverted += ratio < 0 ? 1 : 0;
       volume += std::copysign(now, ratio);
       at_rest += std::fabs(rest);
-      if (measure.particles[0] >= 0 && ratio >= measure.least_ratio) return;
+      const bool is_known = measure.particles[0] >= 0 && (ratio >= measure.least_ratio || std::isnan(measure.least_ratio));
+      if (is_known) return;
       measure.least_ratio = ratio;
       measure.object = id;
       for (std::size_t i = 0; i < 4; ++i) measure.particles[i] = object.order[static_cast<std::size_t>(corners[i])];

@@ -11,6 +11,7 @@
 #include "math/motion.h"
 #include "solver/bodies/joint_load.h"
 #include "solver/sweeps/sweep.h"
+#include "world/flow.h"
 #include "world/groups.h"
 
 namespace pliant {
@@ -152,7 +153,9 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
     if (origins.frames[i] < 0) continue;
     const auto from = static_cast<std::size_t>(origins.frames[i]);
     world.state.frames.orientations[first_frame + i] = kept.orientations[from];
-    world.state.frames.angular_velocities[first_frame + i] = kept.angular_velocities[from];
+    const Record &spin = kept.angular_velocities[from], &inverse = world.state.frames.inverse_inertias[first_frame + i];
+    world.state.frames.angular_velocities[first_frame + i] = {inverse.x > 0 ? spin.x : 0, inverse.y > 0 ? spin.y : 0,
+                                                              inverse.z > 0 ? spin.z : 0, spin.w};
   }
 }
 
@@ -255,6 +258,7 @@ void place_object(WorldData& world, int number) {
     const CompiledObject& object = world.model.objects[number];
     move_to_present(object, world.state.time, &world.state.positions[world.model.first[number]]);
     turn_to_present(object, world.state.time, world.state.frames.orientations.data() + world.model.first_frame[number]);
+    follow_pressures(world, world.state.time);
   }
   prepare_object(world, number);
   note_surfaces(world, number);

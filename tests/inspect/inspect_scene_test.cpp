@@ -141,6 +141,22 @@ TEST(InspectScene, NamesAnAnchorFarFromWhatItHolds) {
   EXPECT_NE(text.find("joint 'pivot': has its anchor 50 m from the centre of body 'bob'"), std::string::npos) << text;
 }
 
+TEST(InspectScene, TakesAnchorsAnywhereOnTheAxisOfASlider) {
+  Scene scene;
+  Object bead = make_body({{Sphere{0.005f}}}, {.name = "bead", .position = {1, 0, 0}});
+  add_joint(bead, SliderJoint{.b = 0});
+  scene.add(bead);
+  EXPECT_EQ(finding(scene, "anchor"), "");
+}
+
+TEST(InspectScene, SurvivesJointsOfBodiesThatDoNotExist) {
+  Scene scene = hung({});
+  scene.objects[0].joints[0].a = -1;
+  EXPECT_EQ(finding(scene, "anchor"), "");
+  scene.objects[0].joints[0].b = 7;
+  EXPECT_EQ(finding(scene, "anchor"), "");
+}
+
 TEST(InspectScene, NamesGearsWithoutBearings) {
   Scene scene;
   Object object = make_body({{Sphere{0.1f}}}, {.name = "sun"});

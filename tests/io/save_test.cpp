@@ -443,6 +443,8 @@ TEST(Save, AnotherSceneIsRefusedAndThisOneIsNotForItsColours) {
   EXPECT_TRUE(is_another([](Scene& s) { s.gravity.y = -9.5f; }));
   EXPECT_TRUE(is_another([](Scene& s) { s.objects[0].positions[3].x += 1e-7f; }));
   EXPECT_TRUE(is_another([](Scene& s) { s.objects[1].volume->pressure = 2; }));
+  EXPECT_TRUE(is_another([](Scene& s) { s.objects[1].volume->keyframes = {{0, 2}}; }));
+  EXPECT_TRUE(is_another([](Scene& s) { s.objects[1].volume->leak = 1; }));
   EXPECT_TRUE(is_another([](Scene& s) { s.objects[0].pins[0].motion.keyframes[1].time = 2; }));
   EXPECT_TRUE(is_another([](Scene& s) { s.colliders[0].shape = Capsule{0.1f, 0.31f}; }));
   EXPECT_TRUE(is_another([](Scene& s) { s.mesh_colliders.pop_back(); }));

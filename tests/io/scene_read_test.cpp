@@ -169,6 +169,10 @@ TEST_F(FullScene, HasItsBalloonAndTube) {
   EXPECT_EQ(balloon.volume->pressure, 1.5f);
   EXPECT_EQ(balloon.volume->stiffness.value, 0.0625f);
   EXPECT_EQ(balloon.volume->lift, 1.0625f);
+  ASSERT_EQ(balloon.volume->keyframes.size(), 2u);
+  EXPECT_EQ(balloon.volume->keyframes[1].time, 2.f);
+  EXPECT_EQ(balloon.volume->keyframes[1].pressure, 1.25f);
+  EXPECT_EQ(balloon.volume->leak, 0.125f);
   for (const Vec3f& p : balloon.positions) EXPECT_NEAR(length_squared(p), 0.25, 1e-5);
   EXPECT_EQ(balloon.static_friction, fabric("rubber sheet").static_friction);
   const Object& tube = scene.objects.at(2);

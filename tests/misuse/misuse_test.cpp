@@ -74,6 +74,7 @@ std::vector<NamedFloat> every_float() {
   PLIANT_FLOAT(objects[0].damping);
   PLIANT_VECTOR(objects[0].colour);
   PLIANT_FLOAT(objects[0].volume->pressure);
+  PLIANT_FLOAT(objects[0].volume->leak);
   PLIANT_FLOAT(objects[0].volume->stiffness.value);
   PLIANT_FLOAT(objects[0].volume->stiffness.damping);
   PLIANT_FLOAT(objects[0].pins[0].motion.keyframes[1].time);

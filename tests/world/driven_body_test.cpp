@@ -2,10 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "pliant/body.h"
-#include "pliant/io.h"
+#include "pliant/edit.h"
 #include "pliant/joint.h"
 #include "pliant/world.h"
 
@@ -126,6 +127,35 @@ TEST(DrivenBody, TurnsOnAfterARestoreWithTheSameBits) {
   run(world, 20);
   run(other, 20);
   EXPECT_EQ(world.state_hash(), other.state_hash());
+}
+
+/// Its tip moves by 17 cm in the first frame, and the plate is 2 cm thick.
+TEST(DrivenBody, DoesNotPassThroughAThinPlateInItsFirstFrame) {
+  Scene scene;
+  scene.gravity = {};
+  scene.add(driven(Box{{0.5f, 0.1f, 0.01f}}, {0.5f, 0, 0}, turning(10, 1)));
+  scene.add(body_at(Box{{0.05f, 0.1f, 0.01f}}, {0.9f, 0, -0.05f}));
+  World world(scene);
+  run(world, 3);
+  const Vec3f v = world.object(1).velocities()[0];
+  EXPECT_LT(v.z, -7) << "the paddle takes it along";
+}
+
+TEST(DrivenBody, StandsStillOnceItsPinIsGone) {
+  Scene scene;
+  BodyOptions options;
+  options.mass = std::numeric_limits<float>::infinity();
+  Object body = make_body({{Box{}}}, options);
+  body.pins.push_back({0, turning(1, 4)});
+  scene.add(body);
+  World world(scene);
+  run(world, 30);
+  Edit edit = unchanged(scene.objects[0]);
+  edit.object.pins.clear();
+  world.edit(0, edit);
+  const float angle = angle_of(world.object(0).pose(0).rotation);
+  run(world, 30);
+  EXPECT_EQ(angle_of(world.object(0).pose(0).rotation), angle);
 }
 
 TEST(DrivenBody, StartsWhereItsKeyframesAreIfItIsAddedLater) {

@@ -19,6 +19,7 @@ namespace pliant {
 namespace {
 
 constexpr int pairs_a_task = 64;
+constexpr float unlimited = 1e30f;  ///< [m]
 /// A contact stays while its bodies have moved less against each other since it began than this share of the smaller part's size, and
 /// turned by less than 1.6 degrees (cosine of half the angle).
 constexpr double still_share = 0.04, straight = 0.9999;
@@ -207,7 +208,7 @@ struct BodyContacts::Task {
   const std::vector<BodyContact>& before;
   float dt, faster;
   const std::vector<char>* renewed = nullptr;  ///< [body] nonzero: its contacts are found again; null: those of all are
-  float far = 1e30f;  ///< contacts of others stay unless bodies have moved farther (BodyContacts::renew)
+  float far = unlimited;  ///< contacts of others stay unless bodies have moved farther (BodyContacts::renew)
 
   /// Finds the contacts of pairs [first, last).
   void run(int first, int last, Found& found) const {
@@ -292,14 +293,15 @@ struct BodyContacts::Task {
     const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
     if (old.empty() && ((!is_renewed(one.body) && !is_renewed(other.body)) || is_out_of_reach(pair, one, other))) return;
     const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
-    Posed relative = relative_to(a.pose, b.pose);
+    const bool stays_anyway = !is_renewed(one.body) && !is_renewed(other.body) && (far >= unlimited || !one.is_convex());
+    Posed relative = stays_anyway ? Posed{} : relative_to(a.pose, b.pose);
     const double size = size_of(pair);
     const auto note_depth = [&](const BodyContact& contact) {
       const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
       const float share = -gap / static_cast<float>(size);
       if (share > found.deepest.share) found.deepest = {one.body, other.body, -gap, share};
     };
-    if (stay(pair, old, a, b, relative)) {
+    if (stays_anyway || stay(pair, old, a, b, relative)) {
       found.pieces.push_back({old, one.body, other.body});
       found.count += old.size();
       std::for_each(old.begin(), old.end(), note_depth);

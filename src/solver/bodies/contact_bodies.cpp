@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "collision/proxies/contact_tables.h"
+#include "math/motion.h"
 #include "solver/bodies/body_math.h"
 #include "solver/substep.h"
 
@@ -69,6 +70,10 @@ void ContactBodies::add_object(const Model& model, int object, std::vector<BodyP
     places_.push_back(
         {object, static_cast<int>(b), model.first[at(object)] + particle, model.first_frame[at(object)] + frame});
     round_.push_back({});
+    const auto is_its = [&](const DrivenFrame& driven) { return driven.frame == from.bodies.bodies[b].frame; };
+    const auto& driven = from.bodies.driven;
+    const auto own = std::find_if(driven.begin(), driven.end(), is_its);
+    driven_.push_back(own == driven.end() ? -1 : static_cast<int>(own - driven.begin()));
   }
   std::vector<char> has_solid(from.bodies.bodies.size(), 0);
   for (int i = 0; i < static_cast<int>(from.bodies.solids.size()); ++i) {
@@ -240,6 +245,22 @@ std::pair<Posed, Posed> ContactBodies::poses_of_collider(const Substep& s, int i
                                : poses_of_mesh(s, place, time_of(s, s.number), s.time_after);
 }
 
+/// Gives a body that follows keyframes the mean velocities of the rest of the frame, as colliders have them.
+void ContactBodies::drive(const Substep& s, int body, BodyState& state) const {
+  const BodyPlace& place = places_[at(body)];
+  const CompiledObject& object = s.model.objects[at(place.object)];
+  const DrivenFrame& driven = object.bodies.driven[at(driven_[at(body)])];
+  const int particle = place.particle - s.model.first[at(place.object)];
+  const auto path = std::find_if(object.kinematics.rbegin(), object.kinematics.rend(),
+                                 [&](const Kinematic& one) { return one.particle == particle; });
+  if (path == object.kinematics.rend()) return;
+  const Posed now = pose_at(driven.motion, time_of(s, s.number)), end = pose_at(driven.motion, s.frame_start + s.dt);
+  const Vec3d rest = convert<double>(path->rest);
+  const auto rate = static_cast<float>(1 / time_left(s));
+  state.velocity = convert<float>(to_world(end, rest) - to_world(now, rest)) * rate;
+  state.spin = turn_between(convert<float>(now.rotation), convert<float>(end.rotation)) * rate;
+}
+
 BodyState ContactBodies::state_at_start(const Substep& s, int index) {
   const BodyPlace& place_of = places_[at(index)];
   if (!place_of.is_body()) return collider_at_start(s, place_of);
@@ -249,10 +270,13 @@ BodyState ContactBodies::state_at_start(const Substep& s, int index) {
   const bool is_fixed = x.w == 0 && inverse.x == 0 && inverse.y == 0 && inverse.z == 0;
   const Vec3f spin = xyz(s.state.frames.angular_velocities[at(place_of.frame)]);
   const Vec3d place = convert<double>(xyz(x)) + convert<double>(xyz(s.state.remainders[at(place_of.particle)]));
-  return {{place, convert<double>(q)},
-          xyz(s.state.velocities[at(place_of.particle)]),
-          rotate(q, is_fixed ? spin : without(round_[at(index)], spin)),  // a fixed disc carries what lies on it round
-          is_fixed};
+  BodyState state{
+      {place, convert<double>(q)},
+      xyz(s.state.velocities[at(place_of.particle)]),
+      rotate(q, is_fixed ? spin : without(round_[at(index)], spin)),  // a fixed disc carries what lies on it round
+      is_fixed};
+  if (driven_[at(index)] >= 0) drive(s, index, state);
+  return state;
 }
 
 }  // namespace pliant

@@ -78,6 +78,7 @@ class ContactBodies {
   std::pair<Posed, Posed> rigid_poses(const Substep& s, const BodyPlace& place, double before, double after) const;
   std::pair<Posed, Posed> poses_of_mesh(const Substep& s, const BodyPlace& place, double before, double after) const;
   BodyState collider_at_start(const Substep& s, const BodyPlace& place);
+  void drive(const Substep& s, int body, BodyState& state) const;
 
   ContactRules rules_;
   BodyMeshes* meshes_ = nullptr;
@@ -85,6 +86,7 @@ class ContactBodies {
   int dynamic_ = 0;
   std::vector<BodyPart> parts_;
   std::vector<Vec3f> round_;  ///< [body]
+  std::vector<int> driven_;   ///< [body] index in CompiledBodies::driven of its object; -1: it is not driven
   std::vector<Polyhedron> collider_shapes_;
   std::vector<MovingCollider> colliders_at_start_;  ///< their poses are those at the frame's start and end
 };
