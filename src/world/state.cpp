@@ -6,8 +6,8 @@
 #include "core/sha256.h"
 #include "pliant/error.h"
 #include "solver/bodies/joint_load.h"
-#include "world/flow.h"
 #include "world/control.h"
+#include "world/flow.h"
 #include "world/world_data.h"
 
 namespace pliant {
