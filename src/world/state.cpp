@@ -7,6 +7,7 @@
 #include "pliant/error.h"
 #include "solver/bodies/joint_load.h"
 #include "world/control.h"
+#include "world/flow.h"
 #include "world/world_data.h"
 
 namespace pliant {
