@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -64,15 +65,17 @@ TEST(Cohesion, OfTwoKindsIsTheLesser) {
   EXPECT_GT(gap_under(0.05 * pull, 0, stress_of(3 * pull), 60), diameter);
 }
 
-/// A block of sand, 6 by 8 by 6 diameters, in a mould of planes that withdraws half a second later.
+/// A block of sand, 6 diameters wide, in a mould of planes that withdraws after half a second.
 Scene block_of_sand(const std::string& kind, float cohesion) {
   constexpr float width = 6 * diameter, r = 0.70710678f;
   const GrainKind& of = grain_kind(kind);
-  std::vector<Vec3f> places = fill_box({0, 0, 0}, {width, 8 * diameter, width}, 1.07f * diameter);
-  for (std::size_t i = 0; i < places.size(); ++i) {  // no columns, which would stand
-    const auto part = [&](std::size_t prime) { return 0.05f * diameter * static_cast<float>(i * prime % 101) / 101; };
-    places[i] = places[i] + Vec3f{part(37), part(59), part(83)};
-  }
+  std::vector<Vec3f> places = fill_box({0, 0, 0}, {width, 12 * diameter, width}, 1.3f * diameter);
+  std::uint32_t seed = 1;
+  const auto next = [&] {
+    seed = seed * 1664525u + 1013904223u;
+    return (static_cast<float>(seed >> 8) / static_cast<float>(1 << 24) - 0.5f) * 0.28f * diameter;
+  };
+  for (Vec3f& p : places) p = {p.x + next(), p.y + next(), p.z + next()};  // in no order, which would stand
   Scene scene;
   scene.add(make_grains(places, {.grains = {radius, of.density, of.friction, cohesion}}));
   const auto add_wall = [&](const Vec3f& at, const Quatf& rotation, const Vec3f& way) {

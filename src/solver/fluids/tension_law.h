@@ -20,14 +20,14 @@ struct TensionLaw {
 TensionLaw tension_law(float spacing);
 
 /// What a wall is to a particle near it. W is the share of the count that lies beyond the wall's plane: the particle counts `count` W more, and
-/// has the energy -sigma `energy` W. So the boundary of liquid and wall has the energy -sigma cos(contact angle) an area, as Young's law wants.
+/// has the energy -sigma `energy` W. Both make the boundary of liquid and wall cheaper, so that it has the energy -sigma cos(contact angle) an
+/// area, as Young's law wants. Counting alone pins the edges of drops on the lattice of their particles, and so does the energy alone.
 struct WettingLaw {
   float count = 0;   ///< share of a liquid that the wall stands for [-]
   float energy = 0;  ///< [m^2]
 };
 
-/// The law of a liquid with a contact angle [degrees]. Above 90 degrees a wall counts as a part of a liquid, at 90 as a whole one, and below it
-/// attracts besides.
+/// The law of a liquid with a contact angle, from 0 to 180 [degrees].
 WettingLaw wetting_law(float spacing, float contact_angle);
 
 /// The share of the integral of (1 - r^2)^2 over the unit ball beyond a plane at distance t, from 0 to 1, from its centre.
