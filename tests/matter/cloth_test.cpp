@@ -239,8 +239,7 @@ TEST(Cloth, TrianglesAreWoundAlikeWhereTheyCanBe) {
 }
 
 TEST(Cloth, BalloonFacesOutAndMustBeClosed) {
-  ClothOptions options;
-  options.volume.emplace(Volume{2, {}});
+  ClothOptions options{.volume = Volume{2, {}}};
   TriangleMesh mesh = sphere_mesh(1);
   EXPECT_EQ(make_cloth(mesh, options).triangles, mesh.triangles);
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);

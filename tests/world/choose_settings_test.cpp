@@ -174,8 +174,7 @@ TEST(ChosenSettings, ArePlainForWhatIsCoarse) {
 }
 
 TEST(ChosenSettings, AreChainsInManySubstepsForVolumes) {
-  ClothOptions options;
-  options.volume.emplace(Volume{1, Stiffness::rigid()});
+  ClothOptions options{.volume = Volume{1, Stiffness::rigid()}};
   options.name = "ball";
   expect_chosen(with(sphere_mesh(2), options), Sweep::chains, 80, "'ball', which has a volume");
   options.stretch = Stiffness::rigid();
@@ -199,7 +198,7 @@ Scene balloon(float wave_speed, float pressure) {
   ClothOptions options;
   options.material.area_density = 0.5f;
   options.material.stretch_stiffness = 0.5f * wave_speed * wave_speed;
-  options.volume.emplace(Volume{pressure, Stiffness::rigid()});
+  options.volume = Volume{pressure, Stiffness::rigid()};
   TriangleMesh mesh = sphere_mesh(3);
   for (Vec3f& p : mesh.positions) p = p * 0.2f;
   return with(mesh, options);
@@ -287,7 +286,7 @@ TEST(ChosenSettings, AreChainsForInflatedObjectsWhereTheirSetGrantsTheSubsteps) 
 TEST(ChosenSettings, AreEachObjectsOwn) {
   ClothOptions ball, sock;
   ball.name = "ball";
-  ball.volume.emplace(Volume{1, Stiffness::rigid()});
+  ball.volume = Volume{1, Stiffness::rigid()};
   sock.name = "sock";
   Scene scene = with(sphere_mesh(2), ball);
   scene.add_cloth(irregular_mesh(20, 1));
