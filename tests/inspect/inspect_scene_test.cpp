@@ -165,8 +165,8 @@ TEST(InspectScene, NamesGearsWithoutBearings) {
   add_joint(object, HingeJoint{.b = 0, .anchor = {}});
   scene.add(object);
   const std::string text = finding(scene, "no other joint guides");
-  EXPECT_NE(text.find("'planet'"), std::string::npos) << text;
-  EXPECT_EQ(text.find("'sun'"), std::string::npos) << text;
+  EXPECT_NE(text.find("body 'planet'"), std::string::npos) << text;
+  EXPECT_EQ(text.find("body 'sun'"), std::string::npos) << text;
   add_joint(scene.objects[0], HingeJoint{.b = planet, .anchor = {0.2f, 0, 0}});
   EXPECT_EQ(finding(scene, "no other joint guides"), "");
 }
