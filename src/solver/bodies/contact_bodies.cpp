@@ -269,7 +269,7 @@ BodyState ContactBodies::state_at_start(const Substep& s, int index) {
   const Vec3f inverse = xyz(s.state.frames.inverse_inertias[at(place_of.frame)]);
   const bool is_fixed = x.w == 0 && inverse.x == 0 && inverse.y == 0 && inverse.z == 0;
   const Vec3f spin = xyz(s.state.frames.angular_velocities[at(place_of.frame)]);
-  const Vec3d place = convert<double>(xyz(x)) + convert<double>(xyz(s.state.remainders[at(place_of.particle)]));
+  const Vec3d place = convert<double>(xyz(x));
   BodyState state{
       {place, convert<double>(q)},
       xyz(s.state.velocities[at(place_of.particle)]),
