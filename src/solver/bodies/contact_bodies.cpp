@@ -269,9 +269,8 @@ BodyState ContactBodies::state_at_start(const Substep& s, int index) {
   const Vec3f inverse = xyz(s.state.frames.inverse_inertias[at(place_of.frame)]);
   const bool is_fixed = x.w == 0 && inverse.x == 0 && inverse.y == 0 && inverse.z == 0;
   const Vec3f spin = xyz(s.state.frames.angular_velocities[at(place_of.frame)]);
-  const Vec3d place = convert<double>(xyz(x));
   BodyState state{
-      {place, convert<double>(q)},
+      {convert<double>(xyz(x)), convert<double>(q)},
       xyz(s.state.velocities[at(place_of.particle)]),
       rotate(q, is_fixed ? spin : without(round_[at(index)], spin)),  // a fixed disc carries what lies on it round
       is_fixed};
