@@ -5,6 +5,7 @@
 
 #include "constraints/registry.h"
 #include "math/functions.h"
+#include "math/motion.h"
 #include "model/stiffness.h"
 #include "topology/boundary.h"
 
@@ -45,14 +46,11 @@ double pressure_at(const Volume& volume, double time) {
   const std::vector<PressureKeyframe>& keys = volume.keyframes;
   double pressure = static_cast<double>(volume.pressure);
   if (!keys.empty()) {
-    const auto after = std::find_if(keys.begin(), keys.end(),
-                                    [&](const PressureKeyframe& key) { return static_cast<double>(key.time) > time; });
-    const PressureKeyframe &a = after == keys.begin() ? keys.front() : *(after - 1),
-                           &b = after == keys.end() ? keys.back() : *after;
-    const auto from = static_cast<double>(a.time), to = static_cast<double>(b.time);
-    const double share = to > from ? (time - from) / (to - from) : 0;
-    pressure =
-        static_cast<double>(a.pressure) + share * (static_cast<double>(b.pressure) - static_cast<double>(a.pressure));
+    std::vector<float> times;
+    for (const PressureKeyframe& key : keys) times.push_back(key.time);
+    const TimePlace at = place_in(times, false, time);
+    const auto before = static_cast<double>(keys[at.before].pressure), after = static_cast<double>(keys[at.after].pressure);
+    pressure = before + at.share * (after - before);
   }
   if (!(volume.leak > 0 && pressure > 1)) return pressure;
   return 1 + (pressure - 1) * exp(-static_cast<double>(volume.leak) * std::max(time, 0.0));

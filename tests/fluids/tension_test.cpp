@@ -9,6 +9,7 @@
 #include "pliant/error.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
+#include "support/same_bits.h"
 
 namespace pliant {
 namespace {
@@ -248,15 +249,6 @@ TEST(Tension, MergesDropsThatTouch) {
             0.5 * 2 / 3 * (sums_of(world).squares.x + sums_of(world).squares.y + sums_of(world).squares.z));
 }
 
-std::string hash_after(const Scene& scene, int threads, const char* isa) {
-  Settings settings = scene.settings;
-  settings.threads = threads;
-  settings.isa = isa;
-  World world(scene, settings);
-  for (int i = 0; i < 8; ++i) world.step(0.01f);
-  return hash(world.state());
-}
-
 Scene two_liquids() {
   const Liquid water, other{0.005f, 0.03f};
   Scene scene = scene_of(water.of(ball(0.03f, 0.005f)));
@@ -267,19 +259,12 @@ Scene two_liquids() {
 
 TEST(Tension, HasTheSameBitsOnAnyThreadsAndLevels) {
   const Scene scene = two_liquids();
-  const std::string expected = hash_after(scene, 1, "sequential");
-  EXPECT_EQ(hash_after(scene, 1, ""), expected);
-  EXPECT_EQ(hash_after(scene, 3, ""), expected);
-  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+  testing_support::expect_same_bits_on_any_threads_and_levels(scene, {8, 0.01f});
 }
 
 TEST(Tension, GoesOnFromARestoredStateWithTheSameBits) {
   const Scene scene = two_liquids();
-  World world(scene), other(scene);
-  for (int i = 0; i < 4; ++i) world.step(0.01f);
-  other.restore(world.state());
-  for (int i = 0; i < 4; ++i) world.step(0.01f), other.step(0.01f);
-  EXPECT_EQ(hash(other.state()), hash(world.state()));
+  testing_support::expect_same_bits_after_a_restore(scene, {4, 0.01f});
 }
 
 TEST(Tension, IsBoundedAndSaysSoWhereSubstepsAreTooLong) {

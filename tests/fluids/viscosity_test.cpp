@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <utility>
 
 #include "pliant/body.h"
-#include "pliant/error.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
+#include "support/refusal.h"
+#include "support/same_bits.h"
 
 namespace pliant {
 namespace {
@@ -206,33 +206,14 @@ Scene mixed() {
   return scene;
 }
 
-std::string hash_after(const Scene& scene, int threads, const char* isa) {
-  Settings settings = scene.settings;
-  settings.threads = threads;
-  settings.isa = isa;
-  World world(scene, settings);
-  for (int i = 0; i < 8; ++i) world.step(frame_time);
-  return hash(world.state());
-}
-
 TEST(Viscosity, HasTheSameBitsOnAnyThreadsAndLevels) {
   const Scene scene = mixed();
-  const std::string expected = hash_after(scene, 1, "sequential");
-  EXPECT_EQ(hash_after(scene, 1, ""), expected);
-  EXPECT_EQ(hash_after(scene, 3, ""), expected);
-  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+  testing_support::expect_same_bits_on_any_threads_and_levels(scene, {8, frame_time});
 }
 
 TEST(Viscosity, GoesOnFromARestoredStateWithTheSameBits) {
   const Scene scene = mixed();
-  World world(scene);
-  for (int i = 0; i < 4; ++i) world.step(frame_time);
-  const State kept = world.state();
-  for (int i = 0; i < 4; ++i) world.step(frame_time);
-  World other(scene);
-  other.restore(kept);
-  for (int i = 0; i < 4; ++i) other.step(frame_time);
-  EXPECT_EQ(hash(other.state()), hash(world.state()));
+  testing_support::expect_same_bits_after_a_restore(scene, {4, frame_time});
 }
 
 TEST(Viscosity, OfSeveralIterationsIsThatOfOne) {
@@ -254,18 +235,10 @@ TEST(Viscosity, DoesNotMoveFixedParticles) {
   EXPECT_EQ(world.object(0).positions()[0], first);
 }
 
-std::string why_not(const std::function<void()>& make) {
-  try {
-    make();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Viscosity, OutOfRangeIsNamed) {
-  EXPECT_NE(why_not([] { make_liquid({{}}, {.fluid = {.viscosity = -1}}); }).find("viscosity"), std::string::npos);
-  EXPECT_NE(why_not([] {
+  EXPECT_NE(testing_support::refusal([] { make_liquid({{}}, {.fluid = {.viscosity = -1}}); }).find("viscosity"),
+            std::string::npos);
+  EXPECT_NE(testing_support::refusal([] {
               Scene scene = scene_of(block({}, {0.05f, 0.05f, 0.05f}, 10));
               scene.objects[0].fluid->viscosity = 1e7f;
               const World world(scene);

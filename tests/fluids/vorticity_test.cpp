@@ -2,14 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "pliant/error.h"
 #include "pliant/gas.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
+#include "support/refusal.h"
+#include "support/same_bits.h"
 
 namespace pliant {
 namespace {
@@ -112,52 +112,28 @@ TEST(Vorticity, DoesNotMoveLiquidAtRest) {
   for (const Vec3f& v : world.object(1).velocities()) EXPECT_LT(length_squared(v), 1e-6f);
 }
 
-std::string hash_after(const Scene& scene, int threads, const char* isa) {
-  Settings settings = scene.settings;
-  settings.threads = threads;
-  settings.isa = isa;
-  World world(scene, settings);
-  for (int i = 0; i < 6; ++i) world.step(frame_time);
-  return hash(world.state());
-}
-
 TEST(Vorticity, HasTheSameBitsOnAnyThreadsAndLevels) {
   const Scene scene = flight(0.5f);
-  const std::string expected = hash_after(scene, 1, "sequential");
-  EXPECT_EQ(hash_after(scene, 1, ""), expected);
-  EXPECT_EQ(hash_after(scene, 3, ""), expected);
-  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
-  EXPECT_NE(hash_after(flight(0), 1, ""), expected);
+  const std::string expected = testing_support::expect_same_bits_on_any_threads_and_levels(scene, {6, frame_time});
+  EXPECT_NE(testing_support::hash_after(flight(0), {6, frame_time}, 1, ""), expected);
 }
 
 TEST(Vorticity, GoesOnFromARestoredStateWithTheSameBits) {
   const Scene scene = flight(0.5f);
-  World world(scene), other(scene);
-  for (int i = 0; i < 3; ++i) world.step(frame_time);
-  other.restore(world.state());
-  for (int i = 0; i < 3; ++i) world.step(frame_time), other.step(frame_time);
-  EXPECT_EQ(hash(other.state()), hash(world.state()));
-}
-
-std::string why_not(const std::function<void()>& make) {
-  try {
-    make();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  testing_support::expect_same_bits_after_a_restore(scene, {3, frame_time});
 }
 
 TEST(Vorticity, OutOfRangeIsNamed) {
-  EXPECT_NE(why_not([] { make_liquid({{}}, {.fluid = {.vorticity = -1}}); }).find("vorticity"), std::string::npos);
+  EXPECT_NE(testing_support::refusal([] { make_liquid({{}}, {.fluid = {.vorticity = -1}}); }).find("vorticity"),
+            std::string::npos);
   Scene scene;
   scene.add(make_liquid({{}}, {.name = "brook"}));
   scene.objects[0].fluid->vorticity = NAN;
-  EXPECT_NE(why_not([&] { const World world(scene); }).find("'brook'"), std::string::npos);
+  EXPECT_NE(testing_support::refusal([&] { const World world(scene); }).find("'brook'"), std::string::npos);
   Scene gas;
   gas.add(make_gas({{}}));
   gas.objects[0].fluid->vorticity = 1;
-  EXPECT_NE(why_not([&] { const World world(gas); }).find("gas.vorticity"), std::string::npos);
+  EXPECT_NE(testing_support::refusal([&] { const World world(gas); }).find("gas.vorticity"), std::string::npos);
 }
 
 }  // namespace

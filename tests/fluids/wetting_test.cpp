@@ -10,6 +10,7 @@
 #include "pliant/error.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
+#include "support/same_bits.h"
 
 namespace pliant {
 namespace {
@@ -152,15 +153,6 @@ TEST(Wetting, HoldsADropUnderACeiling) {
   EXPECT_LT(lowest(180), -20 * spacing);
 }
 
-std::string hash_after(const Scene& scene, int threads, const char* isa) {
-  Settings settings = scene.settings;
-  settings.threads = threads;
-  settings.isa = isa;
-  World world(scene, settings);
-  for (int i = 0; i < 20; ++i) world.step(0.05f * capillary_time());
-  return hash(world.state());
-}
-
 /// Drops of two angles that mix, on a ground and a body.
 Scene two_angles() {
   Scene scene = drop_and_plate(60);
@@ -177,19 +169,12 @@ Scene two_angles() {
 
 TEST(Wetting, HasTheSameBitsOnAnyThreadsAndLevels) {
   const Scene scene = two_angles();
-  const std::string expected = hash_after(scene, 1, "sequential");
-  EXPECT_EQ(hash_after(scene, 1, ""), expected);
-  EXPECT_EQ(hash_after(scene, 3, ""), expected);
-  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+  testing_support::expect_same_bits_on_any_threads_and_levels(scene, {20, 0.05f * capillary_time()});
 }
 
 TEST(Wetting, GoesOnFromARestoredStateWithTheSameBits) {
   const Scene scene = two_angles();
-  World world(scene), other(scene);
-  for (int i = 0; i < 4; ++i) world.step(0.01f);
-  other.restore(world.state());
-  for (int i = 0; i < 4; ++i) world.step(0.01f), other.step(0.01f);
-  EXPECT_EQ(hash(other.state()), hash(world.state()));
+  testing_support::expect_same_bits_after_a_restore(scene, {4, 0.01f});
 }
 
 TEST(Wetting, IsSaidToHaveNoEffectWithoutTension) {

@@ -5,16 +5,16 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "pliant/error.h"
 #include "pliant/grains.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
 #include "support/paths.h"
+#include "support/refusal.h"
+#include "support/same_bits.h"
 
 namespace pliant {
 namespace {
@@ -126,46 +126,22 @@ TEST(Cohesion, KeepsMomentum) {
   EXPECT_LT(std::sqrt(length_squared(after - before)), 1e-5 * std::sqrt(length_squared(before)));
 }
 
-std::string hash_after(const Scene& scene, int threads, const char* isa) {
-  Settings settings = scene.settings;
-  settings.threads = threads;
-  settings.isa = isa;
-  World world(scene, settings);
-  for (int i = 0; i < 10; ++i) world.step(1.f / 60);
-  return hash(world.state());
-}
-
 TEST(Cohesion, HasTheSameBitsOnAnyThreadsAndLevels) {
   Scene scene = block_of_sand("wet sand", 1000);
-  const std::string expected = hash_after(scene, 1, "sequential");
-  EXPECT_EQ(hash_after(scene, 1, ""), expected);
-  EXPECT_EQ(hash_after(scene, 3, ""), expected);
-  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+  testing_support::expect_same_bits_on_any_threads_and_levels(scene, {10});
 }
 
 TEST(Cohesion, GoesOnFromARestoredStateWithTheSameBits) {
   const Scene scene = block_of_sand("wet sand", 1000);
-  World world(scene), other(scene);
-  for (int i = 0; i < 5; ++i) world.step(1.f / 60);
-  other.restore(world.state());
-  for (int i = 0; i < 5; ++i) world.step(1.f / 60), other.step(1.f / 60);
-  EXPECT_EQ(hash(other.state()), hash(world.state()));
-}
-
-std::string why_not(const std::function<void()>& make) {
-  try {
-    make();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  testing_support::expect_same_bits_after_a_restore(scene, {5});
 }
 
 TEST(Cohesion, OutOfRangeIsNamed) {
-  EXPECT_NE(why_not([] { make_grains({{}}, {.grains = {.cohesion = -1}}); }).find("cohesion"), std::string::npos);
+  EXPECT_NE(testing_support::refusal([] { make_grains({{}}, {.grains = {.cohesion = -1}}); }).find("cohesion"),
+            std::string::npos);
   Scene scene = block_of_sand("dry sand", 0);
   scene.objects[0].grains->cohesion = 1e12f;
-  const std::string words = why_not([&] { const World world(scene); });
+  const std::string words = testing_support::refusal([&] { const World world(scene); });
   EXPECT_NE(words.find("'grains'"), std::string::npos) << words;
   EXPECT_NE(words.find("cohesion"), std::string::npos) << words;
 }
@@ -207,7 +183,7 @@ TEST(KindsOfGrains, AreThoseOfThePage) {
 
 TEST(KindsOfGrains, AreFoundByName) {
   for (const GrainKind& of : grain_kinds()) EXPECT_EQ(grain_kind(of.name).name, of.name);
-  EXPECT_NE(why_not([] { grain_kind("snow"); }).find("wet sand"), std::string::npos);
+  EXPECT_NE(testing_support::refusal([] { grain_kind("snow"); }).find("wet sand"), std::string::npos);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "pliant/liquid.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
+#include "support/same_bits.h"
 
 namespace pliant {
 namespace {
@@ -194,21 +195,9 @@ TEST(GrainContact, OfAnotherGroupOrThatDoesNotCollideIsNone) {
   EXPECT_EQ(speed(true, 2), 0.f);
 }
 
-std::string hash_after(const Scene& scene, int threads, const char* isa) {
-  Settings settings = scene.settings;
-  settings.threads = threads;
-  settings.isa = isa;
-  World world(scene, settings);
-  run(world, 15);
-  return hash(world.state());
-}
-
 TEST(GrainContact, HasTheSameBitsOnAnyThreadsAndLevels) {
   const Scene scene = encounter();
-  const std::string expected = hash_after(scene, 1, "sequential");
-  EXPECT_EQ(hash_after(scene, 1, ""), expected);
-  EXPECT_EQ(hash_after(scene, 3, ""), expected);
-  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+  testing_support::expect_same_bits_on_any_threads_and_levels(scene, {15});
 }
 
 /// The substeps of sand that lies in layers, each an object.

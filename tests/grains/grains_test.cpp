@@ -5,15 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <utility>
 
-#include "pliant/error.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
 #include "solver/grains/grain_formulas.h"
 #include "solver/grains/grain_solver.h"
+#include "support/refusal.h"
+#include "support/same_bits.h"
 
 namespace pliant {
 namespace {
@@ -221,22 +221,10 @@ TEST(Grains, LieAtTheAngleOfTheirFriction) {
         << friction;
 }
 
-std::string hash_after(const Scene& scene, int threads, const char* isa) {
-  Settings settings = scene.settings;
-  settings.threads = threads;
-  settings.isa = isa;
-  World world(scene, settings);
-  run(world, 20);
-  return hash(world.state());
-}
-
 // Several tasks of 512 grains.
 TEST(Grains, HaveTheSameBitsOnAnyThreadsAndLevels) {
   const Scene scene = block({0.5f, 0.3f, 0.2f}, 0.5f);
-  const std::string expected = hash_after(scene, 1, "sequential");
-  EXPECT_EQ(hash_after(scene, 1, ""), expected);
-  EXPECT_EQ(hash_after(scene, 3, ""), expected);
-  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+  testing_support::expect_same_bits_on_any_threads_and_levels(scene, {20});
 }
 
 TEST(Grains, GoOnFromARestoredStateWithTheSameBits) {
@@ -296,27 +284,21 @@ TEST(Grains, OfAnotherGroupDoNotMeetThem) {
   EXPECT_EQ(gap(0), 0.5f * radius);
 }
 
-std::string why_not(const std::function<void()>& make) {
-  try {
-    make();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Grains, NameWhatIsOutOfRange) {
-  EXPECT_NE(why_not([] { make_grains({}); }).find("without particles"), std::string::npos);
-  EXPECT_NE(why_not([] { make_grains({{}}, {.grains = {.radius = 0}}); }).find("radius"), std::string::npos);
-  EXPECT_NE(why_not([] { make_grains({{}}, {.grains = {.density = -1}}); }).find("density"), std::string::npos);
-  EXPECT_NE(why_not([] { make_grains({{}}, {.grains = {.friction = NAN}}); }).find("friction"), std::string::npos);
-  EXPECT_NE(why_not([] {
+  EXPECT_NE(testing_support::refusal([] { make_grains({}); }).find("without particles"), std::string::npos);
+  EXPECT_NE(testing_support::refusal([] { make_grains({{}}, {.grains = {.radius = 0}}); }).find("radius"),
+            std::string::npos);
+  EXPECT_NE(testing_support::refusal([] { make_grains({{}}, {.grains = {.density = -1}}); }).find("density"),
+            std::string::npos);
+  EXPECT_NE(testing_support::refusal([] { make_grains({{}}, {.grains = {.friction = NAN}}); }).find("friction"),
+            std::string::npos);
+  EXPECT_NE(testing_support::refusal([] {
               Scene scene = block({0.1f, 0.1f, 0.1f}, 0.5f);
               scene.objects[0].grains->radius = NAN;
               const World world(scene);
             }).find("radius"),
             std::string::npos);
-  EXPECT_NE(why_not([] {
+  EXPECT_NE(testing_support::refusal([] {
               World world(block({0.1f, 0.1f, 0.1f}, 0.5f));
               State state = world.state();
               state.grain_contacts = {{3, 3, {}}};

@@ -11,9 +11,9 @@
 #include "pliant/error.h"
 #include "soft_bodies/soft_body_support.h"
 #include "support/paths.h"
+#include "support/refusal.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"
-#include "world/refusal.h"
 
 namespace pliant {
 namespace {

@@ -9,7 +9,7 @@
 #include "pliant/error.h"
 #include "pliant/joint.h"
 #include "pliant/world.h"
-#include "world/refusal.h"
+#include "support/refusal.h"
 
 namespace pliant {
 namespace {

@@ -7,7 +7,7 @@
 #include "pliant/body.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
-#include "world/refusal.h"
+#include "support/refusal.h"
 
 namespace pliant {
 namespace {

@@ -10,6 +10,7 @@
 #include "pliant/liquid.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
+#include "support/same_bits.h"
 
 namespace pliant {
 namespace {
@@ -210,21 +211,9 @@ TEST(LiquidOnCloth, IsHeld) {
   EXPECT_GT(lowest, sagging) << "no particle is below the lowest place of the cloth";
 }
 
-std::string hash_after(const Scene& scene, int threads, const char* isa) {
-  Settings settings = scene.settings;
-  settings.threads = threads;
-  settings.isa = isa;
-  World world(scene, settings);
-  for (int i = 0; i < 30; ++i) world.step(1.f / 60);
-  return hash(world.state());
-}
-
 TEST(LiquidBodies, HaveTheSameBitsOnAnyThreadsAndLevels) {
   const Scene scene = pool(0.4f, 0.2f);
-  const std::string expected = hash_after(scene, 1, "sequential");
-  EXPECT_EQ(hash_after(scene, 1, ""), expected);
-  EXPECT_EQ(hash_after(scene, 3, ""), expected);
-  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+  testing_support::expect_same_bits_on_any_threads_and_levels(scene, {30});
 }
 
 TEST(LiquidBodies, GoOnFromARestoredStateWithTheSameBits) {

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
-#include "pliant/error.h"
 #include "pliant/world.h"
+#include "support/refusal.h"
+#include "support/same_bits.h"
 
 namespace pliant {
 namespace {
@@ -154,21 +154,9 @@ TEST(Liquid, ThatBreaksGainsNoEnergy) {
   EXPECT_GT(before, 0.5 * start) << "a splash, not honey";
 }
 
-std::string hash_after(const Scene& scene, int threads, const char* isa) {
-  Settings settings = scene.settings;
-  settings.threads = threads;
-  settings.isa = isa;
-  World world(scene, settings);
-  run(world, 12);
-  return hash(world.state());
-}
-
 TEST(Liquid, HasTheSameBitsOnAnyThreadsAndLevels) {
   const Scene scene = column(0.8f, 0.45f, 0.9f);
-  const std::string expected = hash_after(scene, 1, "sequential");
-  EXPECT_EQ(hash_after(scene, 1, ""), expected);
-  EXPECT_EQ(hash_after(scene, 3, ""), expected);
-  EXPECT_EQ(hash_after(scene, 2, "generic"), expected);
+  testing_support::expect_same_bits_on_any_threads_and_levels(scene, {12});
 }
 
 TEST(Liquid, GoesOnFromARestoredStateWithTheSameBits) {
@@ -256,30 +244,29 @@ TEST(Liquid, DoesNotMoveItsFixedParticles) {
   EXPECT_EQ(world.object(0).positions()[40], other);
 }
 
-std::string why_not(const std::function<void()>& make) {
-  try {
-    make();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(Liquid, NamesWhatIsOutOfRange) {
-  EXPECT_NE(why_not([] { make_liquid({}); }).find("without particles"), std::string::npos);
-  EXPECT_NE(why_not([] { make_liquid({{}}, {.fluid = {.spacing = 0}}); }).find("spacing"), std::string::npos);
-  EXPECT_NE(why_not([] { make_liquid({{}}, {.fluid = {.density = -1}}); }).find("density"), std::string::npos);
-  EXPECT_NE(why_not([] { make_liquid({{}}, {.fluid = {.speed_of_sound = NAN}}); }).find("speed_of_sound"),
+  EXPECT_NE(testing_support::refusal([] { make_liquid({}); }).find("without particles"), std::string::npos);
+  EXPECT_NE(testing_support::refusal([] { make_liquid({{}}, {.fluid = {.spacing = 0}}); }).find("spacing"),
             std::string::npos);
-  EXPECT_NE(why_not([] { fill_box({0, 0, 0}, {1, -1, 1}, 0.1f); }).find("side"), std::string::npos);
-  EXPECT_NE(why_not([] { fill_box({0, 0, 0}, {1e6f, 1e-6f, 1e-6f}, 1e-4f); }).find("larger spacing"), std::string::npos);
-  EXPECT_NE(why_not([] {
+  EXPECT_NE(testing_support::refusal([] { make_liquid({{}}, {.fluid = {.density = -1}}); }).find("density"),
+            std::string::npos);
+  EXPECT_NE(testing_support::refusal([] { make_liquid({{}}, {.fluid = {.speed_of_sound = NAN}}); }).find("speed_of_sound"),
+            std::string::npos);
+  EXPECT_NE(testing_support::refusal([] { fill_box({0, 0, 0}, {1, -1, 1}, 0.1f); }).find("side"), std::string::npos);
+  EXPECT_NE(testing_support::refusal([] {
+              fill_box({0, 0, 0}, {1e6f, 1e-6f, 1e-6f}, 1e-4f);
+            }).find("larger spacing"),
+            std::string::npos);
+  EXPECT_NE(testing_support::refusal([] {
               Scene scene = column(0.5f);
               scene.objects[0].fluid->spacing = NAN;
               const World world(scene);
             }).find("spacing"),
             std::string::npos);
-  EXPECT_NE(why_not([] { fill_box({0, 0, 0}, {1, 1, 1}, 1e-4f); }).find("larger spacing"), std::string::npos);
+  EXPECT_NE(testing_support::refusal([] {
+              fill_box({0, 0, 0}, {1, 1, 1}, 1e-4f);
+            }).find("larger spacing"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pliant/error.h"
-#include "world/refusal.h"
+#include "support/refusal.h"
 #include "world/run_time_support.h"
 
 namespace pliant {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "pliant/error.h"
-#include "world/refusal.h"
+#include "support/refusal.h"
 #include "world/world_support.h"
 
 namespace pliant {

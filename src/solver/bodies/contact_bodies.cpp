@@ -65,15 +65,14 @@ ContactBodies::ContactBodies(const Model& model, const std::vector<int>* objects
 void ContactBodies::add_object(const Model& model, int object, std::vector<BodyPart>& parts) {
   const CompiledObject& from = model.objects[at(object)];
   const int first = static_cast<int>(places_.size());
+  std::size_t next_driven = 0;  // in the order of bodies
   for (std::size_t b = 0; b < from.bodies.bodies.size(); ++b) {
     const auto& [particle, frame] = from.bodies.bodies[b];
     places_.push_back(
         {object, static_cast<int>(b), model.first[at(object)] + particle, model.first_frame[at(object)] + frame});
     round_.push_back({});
-    const auto is_its = [&](const DrivenFrame& driven) { return driven.frame == from.bodies.bodies[b].frame; };
-    const auto& driven = from.bodies.driven;
-    const auto own = std::find_if(driven.begin(), driven.end(), is_its);
-    driven_.push_back(own == driven.end() ? -1 : static_cast<int>(own - driven.begin()));
+    const bool is_driven = next_driven < from.bodies.driven.size() && from.bodies.driven[next_driven].frame == frame;
+    driven_.push_back(is_driven ? static_cast<int>(next_driven++) : -1);
   }
   std::vector<char> has_solid(from.bodies.bodies.size(), 0);
   for (int i = 0; i < static_cast<int>(from.bodies.solids.size()); ++i) {
@@ -251,9 +250,9 @@ void ContactBodies::drive(const Substep& s, int body, BodyState& state) const {
   const CompiledObject& object = s.model.objects[at(place.object)];
   const DrivenFrame& driven = object.bodies.driven[at(driven_[at(body)])];
   const int particle = place.particle - s.model.first[at(place.object)];
-  const auto path = std::find_if(object.kinematics.rbegin(), object.kinematics.rend(),
-                                 [&](const Kinematic& one) { return one.particle == particle; });
-  if (path == object.kinematics.rend()) return;
+  const auto after = std::upper_bound(object.kinematics.begin(), object.kinematics.end(), particle,
+                                      [](int wanted, const Kinematic& one) { return wanted < one.particle; });
+  const auto path = after - 1;  // of two pins the later one, and a driven body has one
   const Posed now = pose_at(driven.motion, time_of(s, s.number)), end = pose_at(driven.motion, s.frame_start + s.dt);
   const Vec3d rest = convert<double>(path->rest);
   const auto rate = static_cast<float>(1 / time_left(s));
