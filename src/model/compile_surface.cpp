@@ -47,6 +47,7 @@ double pressure_at(const Volume& volume, double time) {
   double pressure = static_cast<double>(volume.pressure);
   if (!keys.empty()) {
     std::vector<float> times;
+    times.reserve(keys.size());
     for (const PressureKeyframe& key : keys) times.push_back(key.time);
     const TimePlace at = place_in(times, false, time);
     const auto before = static_cast<double>(keys[at.before].pressure), after = static_cast<double>(keys[at.after].pressure);
