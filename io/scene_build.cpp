@@ -137,8 +137,8 @@ const JsonValue& one_of(const JsonValue& at, std::initializer_list<const char*> 
 
 Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
                  std::vector<std::string>& repairs) {
-  const JsonValue& what =
-      one_of(at, {"cloth", "soft_body", "rope", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"});
+  const JsonValue& what = one_of(
+      at, {"cloth", "soft_body", "rope", "rod", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"});
   BuiltObject built = build_matter(document, what, names.of(document, at, what.key), folder, repairs);
   add_parts(document, at, folder, built.object, repairs);
   set_joints(document, at, built.object);

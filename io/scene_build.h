@@ -70,6 +70,17 @@ BuiltObject gas_of(const JsonDocument& document, const JsonValue& at, const std:
                    std::vector<std::string>& repairs);
 BuiltObject tracers_of(const JsonValue& at, const std::string& name);
 
+/// The points of a record "line".
+std::vector<Vec3f> line_points(const JsonValue& at);
+
+// Defined in scene_rods.cpp.
+Object rod_of(const JsonDocument& document, const JsonValue& at, const std::string& name);
+/// Adds a rod to an object of bodies.
+void add_rod_part(const JsonDocument& document, const JsonValue& at, Object& object);
+
+/// The index of the body that a string names. Throws an Error with the nearest name if there is none.
+int body_named(const JsonDocument& document, const JsonValue& at, const Object& object);
+
 // Defined in scene_soft_bodies.cpp.
 BuiltObject soft_body_of(const JsonDocument& document, const JsonValue& at, const std::string& name,
                          const MeshFolder& folder, std::vector<std::string>& repairs);

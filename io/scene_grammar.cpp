@@ -89,17 +89,19 @@ const Record& tie_record() {
 const Record& part_record() {
   static const Record result{
       "part",
-      "A rope, cloth, soft body or particles that belong to an object of bodies, and are tied to them. Properties such as "
+      "A rope, rod, cloth, soft body or particles that belong to an object of bodies, and are tied to them. Properties "
+      "such as "
       "`thickness` "
       "and friction are those of the object.",
       {either("cloth", record(cloth_record()), "A cloth; not a balloon."),
        either("soft_body", record(soft_body_record()), "A soft body."), either("rope", record(rope_record()), "A rope."),
+       either("rod", record(rod_record()), "An elastic rod, which is tied by its `start` and `end` alone."),
        either("particles", record(particles_record()), "Particles with constraints."),
        field("ties", list(record(tie_record())), "none",
              "What ties it to bodies. What is tied to a body does not touch it."),
        field("pins", list(record(pin_record())), "none", "Kinematic particles; indices count from the part's first one."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets.")},
-      {"cloth", "soft_body", "rope", "particles"}};
+      {"cloth", "soft_body", "rope", "rod", "particles"}};
   return result;
 }
 
@@ -112,12 +114,14 @@ std::vector<std::string> sweep_names() {
 const Record& object_record() {
   static const Record result{
       "object",
-      "A cloth, a soft body, a rope, a liquid, a gas, tracers, grains, particles with constraints, rigid bodies, or a "
+      "A cloth, a soft body, a rope, a rod, a liquid, a gas, tracers, grains, particles with constraints, rigid bodies, or "
+      "a "
       "robot.",
       {field("name", string(), "the kind, with a number if it is taken", "Unique name, used in messages and files."),
        either("cloth", record(cloth_record()), "A cloth, garment or balloon."),
        either("soft_body", record(soft_body_record()), "An elastic solid."),
        either("rope", record(rope_record()), "A rope."),
+       either("rod", record(rod_record()), "An elastic rod: a wire, a cable, a spring."),
        either("liquid", record(liquid_record()), "A liquid."),
        either("grains", record(grains_record()), "Sand or gravel."),
        either("gas", record(gas_record()), "A gas."),
@@ -127,7 +131,7 @@ const Record& object_record() {
        either("urdf", record(urdf_record()), "A robot description."),
        field("joints", list(record(joint_record())), "none", "Joints between its bodies."),
        field("parts", list(record(part_record())), "none",
-             "Ropes, cloth and soft bodies that are tied to its bodies. Their particles follow those of the bodies."),
+             "Ropes, rods, cloth and soft bodies that are tied to its bodies. Their particles follow those of the bodies."),
        field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Initial velocity of all its particles."),
        field("clusters", list(record(cluster_record())), "none", "Groups of its particles that keep their shape."),
        field("pins", list(record(pin_record())), "none",
@@ -137,10 +141,10 @@ const Record& object_record() {
              "the material's; 0.005 for a rope, half the spacing for a liquid or gas, the radius of grains, else 0.001",
              "Distance kept from colliders; two surfaces keep the sum of both."),
        field(
-           "self_collision", boolean(), "false; true for bodies",
+           "self_collision", boolean(), "false; true for rods and bodies",
            "The surface does not pass through itself; without triangles, the links do not (docs/guide/contact.md). Bodies "
            "do not pass through each other."),
-       field("collides", boolean(), "false; true for soft bodies, bodies, liquids, gases and grains",
+       field("collides", boolean(), "false; true for soft bodies, rods, bodies, liquids, gases and grains",
              "The object does not pass through other objects with `collides`. Mesh colliders always collide."),
        field("groups", bits(), "[0]",
              "Indices of its groups, 0 to 31. Two objects collide if the `mask` of each contains a group of the other."),
@@ -164,7 +168,7 @@ const Record& object_record() {
        field("damping", number("1/s", 0, 1e6), Object{}.damping,
              "Velocity damping: in a second a share of 1 - exp(-damping) is lost."),
        field("colour", colour(), Object{}.colour, "Colour as linear red, green and blue.")},
-      {"cloth", "soft_body", "rope", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"}};
+      {"cloth", "soft_body", "rope", "rod", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"}};
   return result;
 }
 

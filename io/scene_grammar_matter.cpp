@@ -25,8 +25,6 @@ const Record& cloth_record() {
   return result;
 }
 
-namespace {
-
 const Record& line_record() {
   static const Record result{"line",
                              "Points in a straight line, evenly spaced.",
@@ -35,8 +33,6 @@ const Record& line_record() {
                              {}};
   return result;
 }
-
-}  // namespace
 
 const Record& rope_record() {
   static const Record result{

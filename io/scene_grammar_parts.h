@@ -15,6 +15,7 @@ std::vector<std::string> fabric_names();
 
 // Defined in scene_grammar_matter.cpp.
 const Record& cloth_record();
+const Record& line_record();
 const Record& rope_record();
 const Record& particles_record();
 const Record& fill_record();
@@ -26,6 +27,9 @@ const Record& grains_record();
 // Defined in scene_grammar_gases.cpp.
 const Record& gas_record();
 const Record& tracers_record();
+
+// Defined in scene_grammar_rods.cpp.
+const Record& rod_record();
 
 // Defined in scene_grammar_soft_bodies.cpp.
 const Record& soft_body_record();

@@ -34,6 +34,8 @@ BuiltObject cloth_of(const JsonDocument& document, const JsonValue& at, const st
   return {make_cloth(surface.mesh, cloth_options(document, at, name)), surface.columns, surface.rows};
 }
 
+}  // namespace
+
 std::vector<Vec3f> line_points(const JsonValue& at) {
   Vec3f from, to;
   int count = 2;
@@ -47,6 +49,8 @@ std::vector<Vec3f> line_points(const JsonValue& at) {
   }
   return points;
 }
+
+namespace {
 
 BuiltObject rope_of(const JsonDocument& document, const JsonValue& at, const std::string& name) {
   RopeOptions options;
@@ -270,6 +274,7 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
     if (what.key == "tracers") return tracers_of(what, name);
     if (what.key == "grains") return grains_of(document, what, name, folder, repairs);
     if (what.key == "rope") return rope_of(document, what, name);
+    if (what.key == "rod") return {rod_of(document, what, name)};
     if (what.key == "bodies") return {build_bodies(document, what, name, folder, repairs)};
     if (what.key == "urdf") return {build_robot(document, what, name, folder, repairs)};
   } catch (const Error& error) {

@@ -81,8 +81,6 @@ void set_attachments(const JsonDocument& document, const JsonValue& at, BuiltObj
   }
 }
 
-namespace {
-
 int body_named(const JsonDocument& document, const JsonValue& at, const Object& object) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < object.bodies.size(); ++i) {
@@ -93,6 +91,8 @@ int body_named(const JsonDocument& document, const JsonValue& at, const Object& 
   document.fail(at, "the object has no body '" + printable(at.text) + "'",
                 near.empty() ? "name one of its bodies" : "did you mean '" + printable(near) + "'?");
 }
+
+namespace {
 
 void set_ties(const JsonDocument& document, const JsonValue& at, const BuiltObject& part, int first, Object& object) {
   for (const JsonValue& item : elements(at, "ties")) {
@@ -119,6 +119,13 @@ void add_parts(const JsonDocument& document, const JsonValue& at, const MeshFold
   if (object.bodies.empty())
     document.fail_key(*list, "only an object of bodies has parts", "make the part an object of its own");
   for (const JsonValue& item : list->items) {
+    if (const JsonValue* rod = item.find("rod")) {
+      for (const char* only : {"ties", "pins", "attachments"})
+        if (const JsonValue* given = item.find(only))
+          document.fail_key(*given, "a rod has no particles of its own", "hold it by its `start` and `end`");
+      add_rod_part(document, *rod, object);
+      continue;
+    }
     const JsonValue& what = matter_of(item);
     if (const JsonValue* volume = what.find("volume"))
       document.fail_key(*volume, "a part has no volume constraint", "make the balloon an object of its own");

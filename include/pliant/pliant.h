@@ -22,6 +22,7 @@
 #include "pliant/queries.h"
 #include "pliant/reference.h"
 #include "pliant/report.h"
+#include "pliant/rod.h"
 #include "pliant/save.h"
 #include "pliant/scene.h"
 #include "pliant/shape.h"

@@ -20,6 +20,7 @@
 #include "constraints/planar_joint.h"
 #include "constraints/pulley_joint.h"
 #include "constraints/rack_joint.h"
+#include "constraints/rod_joint.h"
 #include "constraints/slider_joint.h"
 #include "constraints/tetrahedron_shear.h"
 #include "constraints/tetrahedron_volume.h"
@@ -35,6 +36,6 @@ using AllConstraints =
     TypeList<Distance, DihedralBending, IsometricBending, TetrahedronShear, TetrahedronVolume, JointAngleMotor,
              JointOffsetMotor, JointAngle, JointOffset, JointSwing, JointDistance, PulleyJointRows, GearJointRows,
              RackJointRows, PlanarJointRows, CylindricalJointRows, UniversalJointRows, SliderJointRows, BallJointRows,
-             HingeJointRows, FixedJointRows, BodyAnchor>;
+             HingeJointRows, RodJointRows, FixedJointRows, BodyAnchor>;
 
 }  // namespace pliant

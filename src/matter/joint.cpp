@@ -27,14 +27,6 @@ void set_axis(JointDraft& draft, const Vec3f& anchor, const Vec3f& axis, const c
   draft.set_frame(draft.place(anchor, "anchor"), rotation_from_x(draft.direction(axis, name)));
 }
 
-/// The rotation that takes x to `x`, and y to where `y` points beside it. Both are unit vectors.
-Quatd rotation_from_xy(const Vec3d& x, const Vec3d& y) {
-  const Quatd to_x = rotation_from_x(x);
-  const Vec3d local = rotate(conjugate(to_x), y);
-  const double half = atan2(local.z, local.y) / 2;
-  return multiply(to_x, Quatd{sin(half), 0, 0, cos(half)});
-}
-
 /// The joint frame of a planar joint: x is the normal, y is axis_x.
 void set_plane(JointDraft& draft, const PlanarJoint& joint) {
   if (!joint.axis_x) {

@@ -89,14 +89,22 @@ Quatd rotation_from_x(const Vec3d& axis) {
   return normalise(Quatd{0, -axis.z, axis.y, 1 + axis.x});
 }
 
+Quatd rotation_from_xy(const Vec3d& x, const Vec3d& y) {
+  const Quatd to_x = rotation_from_x(x);
+  const Vec3d local = rotate(conjugate(to_x), y);
+  const double half = atan2(local.z, local.y) / 2;
+  return multiply(to_x, Quatd{sin(half), 0, 0, cos(half)});
+}
+
 double principal_angle(double angle) { return std::remainder(angle, 2 * pi); }
 
 JointDraft::JointDraft(Object& object, std::string kind, int a, int b, const JointOptions& options)
     : object_(object), kind_(std::move(kind)), name_(options.name), options_(options) {
   if (name_.empty()) name_ = kind_ + " " + std::to_string(object.joints.size());
-  const bool is_taken = std::any_of(object.joints.begin(), object.joints.end(),
-                                    [&](const ObjectJoint& other) { return other.name == options.name; });
-  if (is_taken && !options.name.empty()) refuse("has a name that is taken", "joints of an object have different names");
+  const bool is_taken =
+      !options.name.empty() && std::any_of(object.joints.begin(), object.joints.end(),
+                                           [&](const ObjectJoint& other) { return other.name == options.name; });
+  if (is_taken) refuse("has a name that is taken", "joints of an object have different names");
   a_ = find(a);
   b_ = find(b);
   if (a_.body == b_.body) refuse("joins " + called(object, a_.body) + " with itself", "give two bodies");

@@ -92,6 +92,9 @@ class JointDraft {
 /// The shortest rotation from x to a unit vector.
 Quatd rotation_from_x(const Vec3d& axis);
 
+/// The rotation that takes x to `x`, and y to where `y` points beside it. Both are unit vectors.
+Quatd rotation_from_xy(const Vec3d& x, const Vec3d& y);
+
 /// An angle modulo a full turn, between -pi and pi [rad].
 double principal_angle(double angle);
 

@@ -424,7 +424,7 @@ TEST(SceneSchema, HoldsEveryFieldWithItsRange) {
   EXPECT_EQ(settings.at("properties").at("substeps").at("maximum"), 10000);
   EXPECT_EQ(schema.at("$defs").at("sphere").at("properties").at("radius").at("exclusiveMinimum"), 0);
   EXPECT_EQ(schema.at("$defs").at("scene").at("required"), nlohmann::json({"objects"}));
-  EXPECT_EQ(schema.at("$defs").at("object").at("oneOf").size(), 10U);
+  EXPECT_EQ(schema.at("$defs").at("object").at("oneOf").size(), 11U);
 }
 
 TEST(SceneSchema, NamesEveryConstraintType) {

@@ -37,7 +37,8 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
             "'stiffness'), found a number");
   EXPECT_EQ(scene_message(R"({"objects": [{}]})"),
             "x.json:1:14: /objects/0: the kind of this object is missing; "
-            "give exactly one of 'cloth', 'soft_body', 'rope', 'liquid', 'gas', 'tracers', 'grains', 'particles', 'bodies' "
+            "give exactly one of 'cloth', 'soft_body', 'rope', 'rod', 'liquid', 'gas', 'tracers', 'grains', 'particles', "
+            "'bodies' "
             "and 'urdf'");
   EXPECT_EQ(scene_message(R"({"objects": [], "colliders": [{"box": {}, "plane": {}}]})"),
             "x.json:1:31: /colliders/0: more than one kind is given; "

@@ -169,7 +169,7 @@ bool BodySolver::find_jointed(const Substep& s) {
   is_jointed_.resize(at(bodies_.dynamic()), 0);
   for (const BodyLink& link : islands_.links()) {
     const auto& joints = s.work.joints[at(link.object)];
-    if (link.joint < 0 || joints.forest == nullptr) continue;
+    if (link.joint < 0 || joints.forests.empty()) continue;
     if (std::binary_search(joints.broken.begin(), joints.broken.end(), link.joint)) continue;
     for (const int body : {link.a, link.b})
       if (body < bodies_.dynamic()) is_jointed_[at(body)] = any = true;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "constraints/registry.h"
+#include "solver/bodies/islands.h"
 #include "solver/visit.h"
 
 namespace pliant {
@@ -78,10 +79,11 @@ bool acts_on_two_bodies(const ConstraintDefinition& type) {
 
 /// Adds the limits, or the motors and friction, to the joints of trees whose bodies they act on, as far as there is room.
 void add_bounded_parts(const CompiledObject& object, const std::vector<std::vector<char>>& is_broken, bool motors,
-                       JointForest& forest) {
-  std::map<std::array<std::int32_t, 4>, std::size_t> joints;
-  for (std::size_t j = 0; j < forest.joints.size(); ++j)
-    if (forest.joints[j].in_tree) joints.try_emplace(forest.joints[j].slots, j);
+                       std::vector<JointForest>& forests) {
+  std::map<std::array<std::int32_t, 4>, JointForest::Joint*> joints;
+  for (JointForest& forest : forests)
+    for (JointForest::Joint& joint : forest.joints)
+      if (joint.in_tree) joints.try_emplace(joint.slots, &joint);
   for (const Segment& segment : object.segments) {
     const Pool& pool = object.pools[static_cast<std::size_t>(segment.pool)];
     const ConstraintDefinition& type = constraint_type(pool.type);
@@ -91,7 +93,7 @@ void add_bounded_parts(const CompiledObject& object, const std::vector<std::vect
     for_segment(object, segment, [&](const ConstraintPlace& at, const std::int32_t* number) {
       const auto found = joints.find(slots_of(object, number));
       if (found == joints.end() || is_marked(is_broken, at)) return;
-      JointForest::Joint& joint = forest.joints[found->second];
+      JointForest::Joint& joint = *found->second;
       if (joint.rows + pool.components > most_joint_rows) return;
       joint.parts.push_back({at.pool_number, at.batch, at.lane});
       joint.rows += pool.components;
@@ -125,19 +127,53 @@ std::vector<std::vector<char>> find_left_out(const CompiledObject& object, const
   return marks;
 }
 
+/// Divides joints by the bodies that they connect, in the order of the first joint of each.
+std::vector<JointForest> divided(const JointForest& all) {
+  Islands islands;
+  islands.reset(static_cast<int>(all.bodies.size()));
+  for (const auto& [a, b] : all.ends)
+    if (a >= 0 && b >= 0) islands.unite(a, b);
+  std::vector<JointForest> forests;
+  std::vector<int> forest_of(all.bodies.size(), -1), number(all.bodies.size(), -1);
+  for (std::size_t j = 0; j < all.joints.size(); ++j) {
+    const auto [a, b] = all.ends[j];
+    if (a < 0 && b < 0) continue;  // both are fixed
+    const auto root = static_cast<std::size_t>(islands.find(std::max(a, b)));
+    if (forest_of[root] < 0) {
+      forest_of[root] = static_cast<int>(forests.size());
+      forests.emplace_back();
+    }
+    JointForest& forest = forests[static_cast<std::size_t>(forest_of[root])];
+    const auto numbered = [&](int body) {
+      if (body < 0) return -1;
+      int& its = number[static_cast<std::size_t>(body)];
+      if (its < 0) {
+        its = static_cast<int>(forest.bodies.size());
+        forest.bodies.push_back(all.bodies[static_cast<std::size_t>(body)]);
+      }
+      return its;
+    };
+    const int of_a = numbered(a);
+    forest.joints.push_back(all.joints[j]);
+    forest.ends.push_back({of_a, numbered(b)});
+  }
+  return forests;
+}
+
 /// Marks the constraints that the stencil driver leaves out.
-void mark_skipped(const CompiledObject& object, const JointForest& forest, const std::vector<std::vector<char>>& left_out,
-                  ObjectJoints& into) {
+void mark_skipped(const CompiledObject& object, const std::vector<JointForest>& forests,
+                  const std::vector<std::vector<char>>& left_out, ObjectJoints& into) {
   into.is_skipped = left_out;
   into.is_skipped.resize(object.pools.size());
-  for (const JointForest::Joint& joint : forest.joints) {
-    if (!joint.in_tree) continue;
-    for (const JointForest::Part& part : joint.parts) {
-      auto& marks = into.is_skipped[static_cast<std::size_t>(part.pool)];
-      marks.resize(static_cast<std::size_t>(object.pools[static_cast<std::size_t>(part.pool)].batches) * batch_width);
-      marks[static_cast<std::size_t>(part.batch * batch_width + part.lane)] = 1;
+  for (const JointForest& forest : forests)
+    for (const JointForest::Joint& joint : forest.joints) {
+      if (!joint.in_tree) continue;
+      for (const JointForest::Part& part : joint.parts) {
+        auto& marks = into.is_skipped[static_cast<std::size_t>(part.pool)];
+        marks.resize(static_cast<std::size_t>(object.pools[static_cast<std::size_t>(part.pool)].batches) * batch_width);
+        marks[static_cast<std::size_t>(part.batch * batch_width + part.lane)] = 1;
+      }
     }
-  }
   into.skipped.clear();
   for (const auto& marks : into.is_skipped) into.skipped.push_back(marks.empty() ? nullptr : marks.data());
   if (std::all_of(into.skipped.begin(), into.skipped.end(), [](const char* p) { return p == nullptr; }))
@@ -152,17 +188,17 @@ ObjectJoints::ObjectJoints(ObjectJoints&&) noexcept = default;
 ObjectJoints& ObjectJoints::operator=(ObjectJoints&&) noexcept = default;
 
 void prepare_joints(const CompiledObject& object, ObjectJoints& joints) {
-  auto forest = std::make_unique<JointForest>();
+  JointForest all;
   const std::vector<std::vector<char>> left_out = find_left_out(object, joints);
-  find_joints(object, left_out, *forest);
-  if (!forest->joints.empty()) {
-    forest->tree.emplace(static_cast<int>(forest->bodies.size()), forest->ends);
-    for (const int loose : forest->tree->loose()) forest->joints[static_cast<std::size_t>(loose)].in_tree = false;
-    // Where a motor drives against a stop, both are rows of one direction, and the solve leaves out the later one.
-    for (const bool motors : {false, true}) add_bounded_parts(object, left_out, motors, *forest);
+  find_joints(object, left_out, all);
+  joints.forests = divided(all);
+  for (JointForest& forest : joints.forests) {
+    forest.tree.emplace(static_cast<int>(forest.bodies.size()), forest.ends);
+    for (const int loose : forest.tree->loose()) forest.joints[static_cast<std::size_t>(loose)].in_tree = false;
   }
-  mark_skipped(object, *forest, left_out, joints);
-  joints.forest = forest->tree ? std::move(forest) : nullptr;
+  // Where a motor drives against a stop, both are rows of one direction, and the solve leaves out the later one.
+  for (const bool motors : {false, true}) add_bounded_parts(object, left_out, motors, joints.forests);
+  mark_skipped(object, joints.forests, left_out, joints);
 }
 
 }  // namespace pliant

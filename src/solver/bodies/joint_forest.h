@@ -22,7 +22,7 @@ namespace pliant {
 struct CompiledObject;
 struct Substep;
 
-/// The joints of one object that are solved directly, and scratch data for them.
+/// Joints of one object that are solved directly, and scratch data for them. Bodies that no joints connect are in different forests.
 struct JointForest {
   /// A constraint: of a joint, or a limit, motor or friction of it.
   struct Part {

@@ -153,18 +153,38 @@ void fill_rows(JointWork& work, bool start_gradients) {
   }
 }
 
+namespace {
+
+/// True if a joint that gives way is farther from where its force holds it than this share of its arms. Each row by how much a body
+/// would have to move; rows that only turn bodies do not count.
+bool is_displaced(const JointWork& work, const ConstraintPlace& at, float softness, float most) {
+  const float alpha = min(softness * work.points.inverse_h2, largest_compliance);
+  const float* multipliers = multipliers_of(work, at);
+  for (int r = 0; r < at.pool.components; ++r) {
+    const float squared = length_squared(work.arrays.gradient(at.pool, r, 2));
+    const float error = work.arrays.c[r] + (multipliers == nullptr ? 0 : alpha * multipliers[r * batch_width]);
+    if (error * error > most * most * squared && squared > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 bool is_open(JointWork& work, float share) {
-  constexpr float least = 1e-6f;
+  constexpr float least = 1e-6f, share_of_soft = 1e-3f;
   for (const JointForest::Joint& joint : work.forest.joints) {
     if (!joint.in_tree) continue;
     const ConstraintPlace at = place_of(work, joint.parts.front());
-    if (at.value(at.pool.fields) > 0) continue;
     work.arrays.load_rest(at);
     load(work, joint, false);
     evaluate(work, constraint_type(at.pool.type));
     const float* rest = work.arrays.rest;  // begins with the anchors in a and in b
     const float size =
         sqrt(length_squared(Vec3f{rest[0], rest[1], rest[2]})) + sqrt(length_squared(Vec3f{rest[3], rest[4], rest[5]}));
+    if (const float softness = at.value(at.pool.fields); softness > 0) {
+      if (is_displaced(work, at, softness, max(least, share_of_soft * size))) return true;
+      continue;
+    }
     const float most = max(least, share * min(size, 1.f));
     for (int r = 0; r < at.pool.components; ++r)
       if (abs(work.arrays.c[r]) > most) return true;

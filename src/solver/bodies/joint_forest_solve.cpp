@@ -166,18 +166,44 @@ void solve_object(const Substep& s, JointWork& work) {
   apply(work);
 }
 
-/// Calls a function for the trees of each object that takes part.
-void for_trees(Substep& s, bool first_pass, FunctionRef<void(JointWork&)> body) {
-  std::vector<int> objects;
+/// Forests that one task solves: of one object, from `first` on.
+struct ForestTask {
+  int object = 0;
+  std::size_t first = 0, count = 0;
+};
+
+/// Small forests share a task, up to this many joints.
+constexpr std::size_t joints_of_task = 64;
+
+std::vector<ForestTask> tasks_of(const Substep& s) {
+  std::vector<ForestTask> tasks;
   for_objects(s, [&](int o) {
-    if (s.work.joints[static_cast<std::size_t>(o)].forest != nullptr) objects.push_back(o);
+    const auto& forests = s.work.joints[static_cast<std::size_t>(o)].forests;
+    std::size_t joints = joints_of_task;
+    for (std::size_t i = 0; i < forests.size(); ++i) {
+      if (joints >= joints_of_task) {
+        tasks.push_back({o, i, 0});
+        joints = 0;
+      }
+      ++tasks.back().count;
+      joints += forests[i].joints.size();
+    }
   });
-  if (objects.empty()) return;
-  for_tasks(s, "solve: joints", static_cast<int>(objects.size()), [&](int task) {
-    const int o = objects[static_cast<std::size_t>(task)];
-    JointWork work{s.model.objects[static_cast<std::size_t>(o)], arguments(s, o, first_pass), frame_arguments(s, o),
-                   *s.work.joints[static_cast<std::size_t>(o)].forest};
-    body(work);
+  return tasks;
+}
+
+/// Calls a function for the forests of each object that takes part.
+void for_trees(Substep& s, bool first_pass, FunctionRef<void(JointWork&)> body) {
+  const std::vector<ForestTask> tasks = tasks_of(s);
+  if (tasks.empty()) return;
+  for_tasks(s, "solve: joints", static_cast<int>(tasks.size()), [&](int number) {
+    const ForestTask& task = tasks[static_cast<std::size_t>(number)];
+    const int o = task.object;
+    for (std::size_t i = task.first; i < task.first + task.count; ++i) {
+      JointWork work{s.model.objects[static_cast<std::size_t>(o)], arguments(s, o, first_pass), frame_arguments(s, o),
+                     s.work.joints[static_cast<std::size_t>(o)].forests[i]};
+      body(work);
+    }
   });
 }
 

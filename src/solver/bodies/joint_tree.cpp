@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "math/scalar.h"
 #include "solver/bodies/body_math.h"
 
 namespace pliant {
@@ -14,6 +15,8 @@ constexpr int body_unknowns = 6;
 /// Between two joints with the ground a joint may find that one side cannot move along some direction at all, and has no pivot
 /// there before the other side is known. Joints get this share of their inverse mass as compliance in such trees.
 constexpr float softness = 1e-4f;
+/// A row that gives way by more than this share of its inverse mass has a pivot by itself, far above rounding.
+constexpr float enough_compliance = 2e-6f;
 
 using bodies::at, bodies::times;
 using Gradient = std::array<Vec3f, 2>;  ///< for displacement and rotation
@@ -57,16 +60,26 @@ int root_of(std::vector<int>& above, int body) {
   return body;
 }
 
+/// A power of two whose product with a positive number is 1 to 2.
+float inverse_power_of_two(float x) {
+  const auto exponent = (bits_as<std::uint32_t>(x) >> 23) & 0xff;
+  return bits_as<float>((254 - std::min(exponent, 253u)) << 23);
+}
+
 const std::array<Gradient, most_joint_rows>& gradients_of(const JointRows& rows, const JointEnds& ends, int body) {
   return ends.b == body ? rows.of_b : rows.of_a;
 }
 
 }  // namespace
 
-Symmetric inverse_of(const Symmetric& m) {
+Symmetric inverse_of(const Symmetric& given) {
+  // Scaled by a power of two, which changes no bits, so that the products of a small body's moments do not vanish.
+  const float scale = inverse_power_of_two(given[0] + given[1] + given[2]);
+  Symmetric m = given;
+  for (float& element : m) element = element * scale;
   const Vec3f r0{m[0], m[5], m[4]}, r1{m[5], m[1], m[3]}, r2{m[4], m[3], m[2]};
   const Vec3f c0 = cross(r1, r2), c1 = cross(r2, r0), c2 = cross(r0, r1);
-  const float inverse = 1 / dot(r0, c0);
+  const float inverse = 1 / dot(r0, c0) * scale;
   return {c0.x * inverse, c1.y * inverse, c2.z * inverse, c1.z * inverse, c0.z * inverse, c0.y * inverse};
 }
 
@@ -185,7 +198,10 @@ void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, c
     const BodyMass& mass = masses[at(body)];
     const auto& g = gradients_of(rows, ends, body);
     const bool is_held = ends.a >= 0 && ends.b >= 0 && held_[at(body)] != 0;
-    for (int r = 0; is_held && r < rows.rows; ++r) m[r * stride + r] -= softness * inverse_mass(g[at(r)], mass);
+    for (int r = 0; is_held && r < rows.rows; ++r) {
+      const float inverse = inverse_mass(g[at(r)], mass);
+      if (rows.compliance[at(r)] < enough_compliance * inverse) m[r * stride + r] -= softness * inverse;
+    }
     if (!is_eliminated(body)) {
       for (int r = 0; body == node.through && r < rows.rows; ++r) set_row(g[at(r)], up + r * stride);
       continue;

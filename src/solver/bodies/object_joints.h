@@ -1,7 +1,7 @@
 // The joints of an object in a World: those that are broken, and what is needed to solve the others.
 #pragma once
 
-#include <memory>
+#include <utility>
 #include <vector>
 
 namespace pliant {
@@ -15,9 +15,9 @@ struct ObjectJoints {
   std::vector<std::vector<char>> is_broken;  ///< [pool][16 batch + lane] 1: part of a broken joint; empty: none
   std::vector<char> is_asleep;               ///< [body] 1: sleeps, so its constraints are left out; empty: none does
   std::vector<std::vector<char>>
-      is_skipped;  ///< as is_broken, also of joints in `forest` and of bodies that sleep: the stencil driver leaves them out
-  std::vector<const char*> skipped;     ///< pointers to the same; null: none of the pool. Empty: none at all
-  std::unique_ptr<JointForest> forest;  ///< joints that are solved directly; null: none
+      is_skipped;  ///< as is_broken, also of joints in `forests` and of bodies that sleep: the stencil driver leaves them out
+  std::vector<const char*> skipped;  ///< pointers to the same; null: none of the pool. Empty: none at all
+  std::vector<JointForest> forests;  ///< joints that are solved directly, those of connected bodies in one
 
   ObjectJoints();
   ~ObjectJoints();

@@ -1,0 +1,98 @@
+// The part of the table for elastic rods.
+#include "pliant/rod.h"
+#include "scene_grammar_parts.h"
+#include "scene_grammar_words.h"
+
+namespace pliant::scene_file {
+
+namespace {
+
+std::vector<std::string> material_names() {
+  std::vector<std::string> names;
+  for (const RodMaterial& one : rod_materials()) names.push_back(one.name);
+  return names;
+}
+
+const Record& material_record() {
+  static const Record result{
+      "rod material",
+      "What a rod is made of. Missing members come from `base`, or else from the defaults.",
+      {field("base", choice(material_names()), "none", "A built-in material to start from."),
+       field("name", string(), "none", "Its name."), field("source", text(), "none", "Source of the numbers."),
+       field("density", positive("kg/m^3"), RodMaterial{}.density, "Mass per volume."),
+       field("youngs_modulus", positive("Pa"), RodMaterial{}.youngs_modulus,
+             "Stress per strain of stretching and bending."),
+       field("shear_modulus", positive("Pa"), RodMaterial{}.shear_modulus, "Stress per strain of twisting and shearing."),
+       field("damping", number("s", 0), RodMaterial{}.damping, "Stress over elastic modulus and rate of strain."),
+       field("static_friction", number("-", 0, 1000), RodMaterial{}.static_friction, "Coefficient of static friction."),
+       field("kinetic_friction", number("-", 0, 1000), "0.3; at most the static one",
+             "Coefficient of kinetic friction, at most the static one.")},
+      {}};
+  return result;
+}
+
+const Record& stiffness_record() {
+  static const Record result{"rod stiffness",
+                             "What a cross-section resists with.",
+                             {needed("stretch", positive("N"), "E A: force per strain."),
+                              needed("shear", positive("N"), "Force per angle of shear."),
+                              needed("bending", positive("N m^2"), "E I: moment per curvature, about `across`."),
+                              field("bending_2", positive("N m^2"), "as `bending`",
+                                    "About the direction perpendicular to `across` and to the rod."),
+                              needed("twist", positive("N m^2"), "G J: torque per rate of twist.")},
+                             {}};
+  return result;
+}
+
+const Record& helix_record() {
+  static const Record result{
+      "helix",
+      "Points of a helix about the y-axis, from y = 0 upwards.",
+      {needed("radius", positive("m", largest_place), "Of the helix, to the middle of the rod."),
+       needed("height", number("m", -largest_place, largest_place), "From the first point to the last."),
+       needed("turns", number("-", -10000, 10000), "Number of turns; below 0: left-handed."),
+       needed("segments", integer(2, 1000000), "Number of segments of the rod.")},
+      {}};
+  return result;
+}
+
+const Record& end_record() {
+  static const Record result{"rod end",
+                             "What holds an end of a rod: a body of the object, or \"world\".",
+                             {either("clamped", string(), "Holds its place and its direction; it does not twist there."),
+                              either("ball", string(), "Holds its place; it turns freely.")},
+                             {"clamped", "ball"}};
+  return result;
+}
+
+}  // namespace
+
+const Record& rod_record() {
+  static const Record result{
+      "rod",
+      "An elastic rod, which stretches, shears, bends and twists. Each segment between two points is a rigid body.",
+      {field("name", string(), "the object's; of a part \"rod\", with a number if it is taken",
+             "Its segments are called NAME 0, NAME 1, ..."),
+       either("points", list(place(), 3), "Places along it."),
+       either("line", record(line_record()), "Places in a straight line."),
+       either("helix", record(helix_record()), "A coil."),
+       field("translate", place(), Vec3f{}, "Moves the points, after `rotate`."),
+       field("rotate", record(rotation_record()), "none", "Turns the points about the origin."),
+       field("radius", positive("m", largest_place), RodOptions{}.radius, "Radius of its cross-section."),
+       field("material", any_of({choice(material_names()), record(material_record())}), "the defaults of rod material",
+             "The name of a built-in material, or a material."),
+       field("stiffness", record(stiffness_record()), "that of a round section",
+             "Stiffness of a flat, hollow or stranded cross-section."),
+       field("across", vector("-", largest_place), "any",
+             "Direction across the rod about which `bending` acts at its start."),
+       field("straight", boolean(), RodOptions{}.straight,
+             "True: without load it is straight, whatever the points. False: the points are its shape without load."),
+       field("start", record(end_record()), "free", "What holds the first point."),
+       field("end", record(end_record()), "free", "What holds the last point."),
+       field("break_force", positive("N"), "unlimited", "It parts where it carries a greater force."),
+       field("break_torque", positive("N m"), "unlimited", "It parts where it carries a greater torque.")},
+      {"points", "line", "helix"}};
+  return result;
+}
+
+}  // namespace pliant::scene_file
