@@ -163,7 +163,8 @@ const Record& object_record() {
        field("sweep", choice(sweep_names()), "automatic",
              "The sweep that solves its constraints. `automatic`: the sweep of `settings`, or if that is automatic too, "
              "the one that measured best on such objects."),
-       field("drag", number("-", 0, 1000), Object{}.drag, "Drag coefficient of a triangle perpendicular to the wind."),
+       field("drag", number("-", 0, 1000), Object{}.drag,
+             "Drag coefficient of a triangle, or of a body that is one capsule, perpendicular to the wind."),
        field("lift", number("-", 0, 1000), Object{}.lift, "Lift coefficient."),
        field("damping", number("1/s", 0, 1e6), Object{}.damping,
              "Velocity damping: in a second a share of 1 - exp(-damping) is lost."),

@@ -182,7 +182,7 @@ struct Object {
   float restitution = 0;              ///< ratio of speeds after and before an impact, 0..1 [-]
   float rolling_friction = 0;         ///< of its bodies: greatest torque against rolling, per normal force [m]
   float spinning_friction = 0;        ///< likewise about the contact normal, at a single point too [m]
-  float drag = 1.2f;                  ///< drag coefficient of a triangle perpendicular to the wind [-]
+  float drag = 1.2f;                  ///< drag coefficient of a triangle or capsule perpendicular to the wind [-]
   float lift = 0.8f;                  ///< lift coefficient of a triangle [-]
   Sweep sweep = Sweep::automatic;     ///< how its constraints are projected
   float damping = 0;                  ///< rate of decay [1/s]: each substep divides velocities by 1 + h damping
@@ -288,7 +288,7 @@ struct PairProperties {
   std::optional<float> static_friction, kinetic_friction, restitution;  ///< coefficients of friction and restitution [-]
 };
 
-/// Moving air: a uniform wind whose speed varies periodically in gusts.
+/// Moving air: a uniform wind whose speed varies periodically in gusts. It blows on triangles, and on bodies that are one capsule, as rods are.
 struct Wind {
   Vec3f velocity{};       ///< mean velocity [m/s]
   float gust = 0;         ///< amplitude of gusts as a share of the wind, 0..1 [-]

@@ -65,4 +65,14 @@ struct AirOnParticle {
   }
 };
 
+/// The force of the air on a cylinder of this length and radius along a unit vector [N], with u the relative velocity of the air
+/// and v its part across: rho/2 c_drag 2 r l |v| v, so nothing along the cylinder (Taylor 1952, without skin friction). `response`
+/// is 2 h times the inverse mass, as above.
+PLIANT_HD Vec3f air_force_on_cylinder(const Vec3f& u, const Vec3f& axis, float length_of_it, float radius,
+                                      float air_density, float drag, float response) {
+  const Vec3f across = u - axis * dot(u, axis);
+  const float scale = air_density * drag * radius * length_of_it * length(across);
+  return across * (scale / (1 + response * scale));
+}
+
 }  // namespace pliant

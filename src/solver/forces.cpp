@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "math/functions.h"
+#include "math/quat.h"
 #include "math/vector.h"
 #include "parallel/launch.h"
 #include "solver/air.h"
@@ -15,6 +16,33 @@ Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 void push(Record& velocity, const Vec3f& change) {
   velocity = {velocity.x + change.x, velocity.y + change.y, velocity.z + change.z, 0};
+}
+
+/// The caps of a capsule have the area of this many radii more of its length.
+constexpr float share_of_caps = 1.5707964f;
+
+/// The wind on an object's bodies that are a single capsule, as the segments of rods are.
+void apply_air_to_capsules(const Model& model, int o, const Vec3f& air, const Vec3f& gravity, float h, State& state,
+                           Executor& executor) {
+  const CompiledObject& object = model.objects[o];
+  const std::vector<CompiledSolid>& solids = object.bodies.solids;
+  const auto is_of = [&](std::size_t i, int body) { return i < solids.size() && solids[i].body == body; };
+  executor.parallel_for("forces: air", static_cast<int>(solids.size()), [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    const CompiledSolid& solid = solids[i];
+    const bool is_alone = !is_of(i + 1, solid.body) && (i == 0 || !is_of(i - 1, solid.body));
+    if (solid.shape.kind != ConvexShape::Kind::segment || !is_alone) return;
+    const CompiledBodies::Body& body = object.bodies.bodies[static_cast<std::size_t>(solid.body)];
+    const Record& x = state.positions[static_cast<std::size_t>(model.first[o] + body.particle)];
+    if (x.w == 0) return;
+    Record& v = state.velocities[static_cast<std::size_t>(model.first[o] + body.particle)];
+    const Record& q = state.frames.orientations[static_cast<std::size_t>(model.first_frame[o] + body.frame)];
+    const Vec3f along = rotate(Quatf{q.x, q.y, q.z, q.w}, rotate(convert<float>(solid.pose.rotation), Vec3f{0, 1, 0}));
+    const Vec3f force = air_force_on_cylinder(air - (vector_of(v) + gravity), along,
+                                              2 * solid.shape.half_length + share_of_caps * solid.shape.radius,
+                                              solid.shape.radius, model.wind.air_density, object.drag, 2 * h * x.w);
+    push(v, force * (h * x.w));
+  });
 }
 
 void apply_air(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
@@ -35,6 +63,7 @@ void apply_air(const Model& model, State& state, Workspace& workspace, Executor&
     launch(executor, "forces: air", object.particles,
            AirOnParticle{object.surface.corner_begin.data(), object.surface.corners.data(), forces.data(), positions, h,
                          velocities});
+    apply_air_to_capsules(model, o, air, gravity_so_far, h, state, executor);
   });
 }
 

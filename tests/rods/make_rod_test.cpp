@@ -96,7 +96,8 @@ std::string number(float value) {
   std::snprintf(text, sizeof text, "%g", static_cast<double>(value));
   std::string short_text = text;
   for (const char* sign : {"e+0", "e+"})  // 3e+06 is written 3e6
-    if (const std::size_t at = short_text.find(sign); at != std::string::npos) short_text.replace(at, std::strlen(sign), "e");
+    if (const std::size_t at = short_text.find(sign); at != std::string::npos)
+      short_text.replace(at, std::strlen(sign), "e");
   return short_text;
 }
 

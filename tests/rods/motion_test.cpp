@@ -1,6 +1,8 @@
 // Rods that move: frequencies, damping, what is kept, and what contact does to them.
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "math/quat.h"
 #include "pliant/body.h"
@@ -178,6 +180,31 @@ TEST(RodInMotion, OfAHairBendsAsItDoesInFineSubsteps) {
   const Vec3d fine = at_rest(40);
   EXPECT_LT(fine.y, -0.05);
   for (const int substeps : {1, 4, 10}) EXPECT_LT(std::sqrt(length_squared(at_rest(substeps) - fine)), 0.001) << substeps;
+}
+
+/// A hanging rod in a steady wind is blown aside until drag and weight balance: tan(angle) = drag / weight, each per length.
+TEST(RodInWind, HangsAtTheAngleOfItsDrag) {
+  constexpr int segments = 12;
+  constexpr double radius = 0.005, speed = 2, density = 40, air = 1.2, drag = 1.2;
+  RodOptions options;
+  options.material = material_of(1e5, 4e4, density);
+  options.radius = float(radius);
+  options.start.kind = RodEnd::Kind::ball;
+  Scene scene;
+  Object rod = make_rod(line({0, 1, 0}, {0, 0, 0}, segments), options);
+  rod.damping = 1;
+  rod.collides = rod.self_collision = false;
+  scene.add(std::move(rod));
+  scene.wind.velocity = {float(speed), 0, 0};
+  scene.wind.air_density = float(air);
+  World world(scene);
+  for (int frame = 0; frame < 900; ++frame) ASSERT_TRUE(world.step(frame_time).ok());
+  // Drag acts across the rod: rho/2 c 2r (v cos a)^2 = (rho_rod pi r^2 g) sin a at each segment, so the rod is straight.
+  const double weight = density * pi * radius * radius * gravity, full = air * drag * radius * speed * speed;
+  const double angle = std::asin((std::sqrt(weight * weight + 4 * full * full) - weight) / (2 * full));
+  const std::vector<Vec3f> x = world.object(0).positions();
+  const Vec3d along = convert<double>(x[segments - 1]) - convert<double>(x[0]);
+  EXPECT_NEAR(std::atan2(along.x, -along.y), angle, 0.02 * angle);
 }
 
 /// A heavy ball that rolls into rows of stalks.
