@@ -56,6 +56,39 @@ const Record& helix_record() {
   return result;
 }
 
+const Record& rod_grid_record() {
+  static const Record result{"rod grid",
+                             "Copies at the points of a level grid whose first point is the rod's own place: grass.",
+                             {needed("counts", list(integer(1, 100000), 2, 2), "Numbers of copies along x and z."),
+                              needed("spacing", list(number("m", -largest_place, largest_place), 2, 2),
+                                     "Distances between neighbours along x and z.")},
+                             {}};
+  return result;
+}
+
+const Record& cap_record() {
+  static const Record result{
+      "cap",
+      "Copies spread evenly over a part of a sphere about +y: hair. The rod's points are described at the origin; each "
+      "copy's y-axis "
+      "points outward.",
+      {needed("count", integer(1, 1000000), "Number of copies."),
+       field("centre", place(), Vec3f{}, "Centre of the sphere."),
+       needed("radius", positive("m", largest_place), "Radius of the sphere."),
+       field("degrees", number("degrees", 1, 180), 90.f, "How far from +y copies go; 180: all round.")},
+      {}};
+  return result;
+}
+
+const Record& repeat_record() {
+  static const Record result{"rod repeat",
+                             "Copies of a rod, called NAME_0, NAME_1, ...",
+                             {either("grid", record(rod_grid_record()), "A field of rods."),
+                              either("cap", record(cap_record()), "Rods on a sphere.")},
+                             {"grid", "cap"}};
+  return result;
+}
+
 const Record& end_record() {
   static const Record result{"rod end",
                              "What holds an end of a rod: a body of the object, or \"world\".",
@@ -86,11 +119,12 @@ const Record& rod_record() {
        field("across", vector("-", largest_place), "any",
              "Direction across the rod about which `bending` acts at its start."),
        field("straight", boolean(), RodOptions{}.straight,
-             "True: without load it is straight, whatever the points. False: the points are its shape without load."),
+             "True: the rest shape is straight, whatever the points. False: the points are the rest shape."),
        field("start", record(end_record()), "free", "What holds the first point."),
        field("end", record(end_record()), "free", "What holds the last point."),
-       field("break_force", positive("N"), "unlimited", "It parts where it carries a greater force."),
-       field("break_torque", positive("N m"), "unlimited", "It parts where it carries a greater torque.")},
+       field("repeat", record(repeat_record()), "one rod", "Makes copies of the rod."),
+       field("break_force", positive("N"), "unlimited", "It breaks where it carries a greater force."),
+       field("break_torque", positive("N m"), "unlimited", "It breaks where it carries a greater torque.")},
       {"points", "line", "helix"}};
   return result;
 }

@@ -2,9 +2,12 @@
 #include "pliant/rod.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "scene_build.h"
+#include "scene_grammar.h"
 #include "scene_mesh.h"
 #include "scene_values.h"
 
@@ -81,18 +84,81 @@ RodOptions options_of(const JsonDocument& document, const JsonValue& at, const s
   return options;
 }
 
+constexpr double golden_angle = 137.50776405003785;  // [degrees]
+
+/// Poses of copies that stand on a sphere about +y, evenly (a Fibonacci lattice).
+std::vector<RigidPose> poses_on_cap(const JsonValue& at) {
+  int count = 1;
+  Vec3f centre;
+  float radius = 1, degrees = 90;
+  set(at, "count", count);
+  set(at, "centre", centre);
+  set(at, "radius", radius);
+  set(at, "degrees", degrees);
+  const float lowest = rotated(rotation({0, 0, 1}, degrees), {1, 0, 0}).x;
+  std::vector<RigidPose> poses;
+  for (int i = 0; i < count; ++i) {
+    const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(count), y = 1 - (1 - lowest) * share;
+    const float across = std::sqrt(std::fmax(0.f, 1 - y * y));
+    const auto angle = static_cast<float>(std::fmod(golden_angle * i, 360.));
+    const Vec3f out = rotated(rotation({0, 1, 0}, angle), {across, y, 0});
+    // The shortest rotation from +y; straight down it is half a turn.
+    const float norm = std::sqrt(std::fmax(0.f, 2 * (1 + y)));
+    const Quatf turn = norm > 1e-4f ? Quatf{out.z / norm, 0, -out.x / norm, (1 + y) / norm} : Quatf{1, 0, 0, 0};
+    poses.push_back({centre + radius * out, turn});
+  }
+  return poses;
+}
+
+std::vector<RigidPose> poses_on_grid(const JsonValue& at) {
+  const std::vector<JsonValue>&counts = at.find("counts")->items, &spacing = at.find("spacing")->items;
+  std::vector<RigidPose> poses;
+  for (int z = 0; z < static_cast<int>(counts[1].number); ++z)
+    for (int x = 0; x < static_cast<int>(counts[0].number); ++x)
+      poses.push_back({{static_cast<float>(x * spacing[0].number), 0, static_cast<float>(z * spacing[1].number)}, {}});
+  return poses;
+}
+
+/// Where copies stand; one pose that changes nothing if there are none.
+std::vector<RigidPose> poses_of(const JsonDocument& document, const JsonValue& at, std::size_t segments) {
+  const JsonValue* repeat = at.find("repeat");
+  if (repeat == nullptr) return {RigidPose{}};
+  const JsonValue *cap = repeat->find("cap"), *grid = repeat->find("grid");
+  const double copies = cap != nullptr ? cap->find("count")->number
+                                       : grid->find("counts")->items[0].number * grid->find("counts")->items[1].number;
+  if (copies * static_cast<double>(segments) > largest_scene)
+    document.fail(*repeat, "more than " + std::to_string(largest_scene) + " segments", "make fewer copies");
+  return cap != nullptr ? poses_on_cap(*cap) : poses_on_grid(*grid);
+}
+
+/// Adds the rod of a record, or its copies.
+void add_copies(const JsonDocument& document, const JsonValue& at, const RodOptions& options, Object& object) {
+  const std::vector<Vec3f> points = points_of(document, at);
+  const std::vector<RigidPose> poses = poses_of(document, at, points.size());
+  RodOptions copy = options;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (at.find("repeat") != nullptr) copy.name = options.name + "_" + std::to_string(i);
+    std::vector<Vec3f> moved = points;
+    for (Vec3f& p : moved) p = rotated(poses[i].rotation, p) + poses[i].position;
+    if (options.across) copy.across = rotated(poses[i].rotation, *options.across);
+    add_rod(object, moved, copy);
+  }
+}
+
 bool has_rod(const Object& object, const std::string& name) {
   return std::any_of(object.bodies.begin(), object.bodies.end(),
-                     [&](const ObjectBody& body) { return body.name == name + " 0"; });
+                     [&](const ObjectBody& body) { return body.name == name + " 0" || body.name == name + "_0 0"; });
 }
 
 }  // namespace
 
 Object rod_of(const JsonDocument& document, const JsonValue& at, const std::string& name) {
-  Object none;
-  none.name = name;
-  Object rod = make_rod(points_of(document, at), options_of(document, at, name, none));
+  Object rod;
   rod.name = name;
+  const RodOptions options = options_of(document, at, name, rod);
+  rod.static_friction = options.material.static_friction;
+  rod.kinetic_friction = options.material.kinetic_friction;
+  add_copies(document, at, options, rod);
   return rod;
 }
 
@@ -100,7 +166,7 @@ void add_rod_part(const JsonDocument& document, const JsonValue& at, Object& obj
   std::string name = "rod";
   for (int number = 2; has_rod(object, name); ++number) name = "rod_" + std::to_string(number);
   try {
-    add_rod(object, points_of(document, at), options_of(document, at, name, object));
+    add_copies(document, at, options_of(document, at, name, object), object);
   } catch (const Error& error) {
     if (!error.where().file.empty()) throw;
     Location where = document.locate(at);

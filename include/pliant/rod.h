@@ -37,7 +37,7 @@ const RodMaterial& rod_material(std::string_view name);
 /// All built-in materials of rods.
 const std::vector<RodMaterial>& rod_materials();
 
-/// What a cross-section resists with. stiffness_of computes it of a round one.
+/// Stiffness of a cross-section. stiffness_of computes that of a round one.
 struct RodStiffness {
   float stretch = 0;    ///< E A: force per strain [N]
   float shear = 0;      ///< force per angle of shear [N]
@@ -46,15 +46,15 @@ struct RodStiffness {
   float twist = 0;      ///< G J: torque per rate of twist [N m^2]
 };
 
-/// That of a round cross-section: E pi r^2, 0.9 G pi r^2, E pi r^4 / 4, G pi r^4 / 2. The factor of shear is Timoshenko's.
+/// Returns the stiffness of a round cross-section: E pi r^2, 0.9 G pi r^2, E pi r^4 / 4, G pi r^4 / 2. The factor of shear is Timoshenko's.
 RodStiffness stiffness_of(const RodMaterial& material, float radius);
 
 /// How an end of a rod is held.
 struct RodEnd {
   enum class Kind {
     free,
-    ball,     ///< its place is held; it turns freely
-    clamped,  ///< its place and its direction are held, and it does not twist
+    ball,     ///< its position is held; it rotates freely
+    clamped,  ///< its position and direction are held, and it does not twist
   } kind = Kind::free;
   int body = -1;  ///< index in Object::bodies of what holds it; -1: the world
 };
@@ -69,16 +69,16 @@ struct RodOptions {
   /// Direction across the rod about which `bending` acts at its start; from there it follows the rod without twisting. Any, if bending is the
   /// same about both.
   std::optional<Vec3f> across{};
-  /// True: without load the rod is straight, whatever the points. False: their shape is the one without load.
+  /// True: the rest shape is straight, whatever the points. False: the points are the rest shape.
   bool straight = false;
   RodEnd start{}, end{};
   Vec3f velocity{};        ///< at the start [m/s]
-  float break_force = 0;   ///< it parts where it carries a greater force; 0: never [N]
+  float break_force = 0;   ///< it breaks where it carries a greater force; 0: never [N]
   float break_torque = 0;  ///< or a greater torque; 0: never [N m]
 };
 
 /// Adds a rod through three points or more to an object, and returns the index of its first segment in Object::bodies; the others
-/// follow. Throws an Error that names a point or an option that is out of range. Points that are nearer to each other than 1.1 radii are
+/// follow. Throws an Error that names a point or an option that is out of range. Points that are nearer to each other than 2.25 radii are
 /// refused, since segments would touch where they do not meet.
 int add_rod(Object& object, const std::vector<Vec3f>& points, const RodOptions& options = {});
 

@@ -265,12 +265,19 @@ void doubt_adhesion(const Doubts& d) {
                       "use " + std::to_string(substeps_of_cohesion(d.object, frame_time)) + ", or leave substeps out");
 }
 
+/// True if the wind could act on a body.
+bool has_capsule(const Object& object) {
+  return std::any_of(object.bodies.begin(), object.bodies.end(), [](const ObjectBody& body) {
+    return body.solids.size() == 1 && std::holds_alternative<Capsule>(body.solids[0].shape);
+  });
+}
+
 void doubt_air(const Doubts& d) {
   const Wind& wind = d.scene.wind;
   if (length_squared(wind.velocity) > 0 && wind.air_density > 0 && (d.object.fluid || d.object.grains) && !d.object.gas)
-    d.problems.doubtful("", "is not pushed by the wind, which acts on triangles alone",
+    d.problems.doubtful("", "is not pushed by the wind, which acts on triangles and on bodies that are one capsule",
                         "leave the wind out, or push the particles by a force field");
-  if (length_squared(wind.velocity) > 0 && wind.air_density == 0 && !d.object.triangles.empty())
+  if (length_squared(wind.velocity) > 0 && wind.air_density == 0 && (!d.object.triangles.empty() || has_capsule(d.object)))
     d.problems.doubtful("", "has no effect from wind, because the air density is 0",
                         "set the wind's air_density, for example to 1.2 kg/m^3");
 }

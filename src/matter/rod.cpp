@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "math/functions.h"
 #include "matter/joint_draft.h"
 #include "pliant/body.h"
 #include "pliant/error.h"
@@ -17,9 +18,8 @@ namespace pliant {
 namespace {
 
 constexpr double pi = 3.14159265358979324;
-constexpr double least_length_in_radii = 1.1;
-/// How far a segment's cap reaches beyond its end, at most, as a share of its length: two segments with one between them do not touch.
-constexpr double most_overlap = 0.45;
+/// Caps reach a radius beyond the ends of a segment, so two segments with one of this length between them do not touch.
+constexpr double least_length_in_radii = 2.25;
 /// The moment of inertia about the axis is that of a cylinder of at least this radius, as a share of the segment's length: contact would
 /// spin thinner ones by radians in a substep. It only slows waves of torsion, which are far faster than anything seen.
 constexpr double least_turning_radius = 0.1;
@@ -40,14 +40,21 @@ void require_not_negative(const RodOptions& options, float value, const char* na
     refuse(options, name, "is " + std::to_string(value), std::string("give a finite number of at least 0 [") + unit + "]");
 }
 
+/// 0 is no limit.
+void require_limit(const RodOptions& options, float value, const char* name, const char* unit) {
+  if (value != 0 && !(value >= 1e-20f && std::isfinite(value)))
+    refuse(options, name, "is " + std::to_string(value),
+           std::string("give a positive, finite number [") + unit + "], or 0 for no limit");
+}
+
 void check(const RodOptions& options) {
   require_positive(options, options.radius, "radius", "m");
   require_positive(options, options.material.density, "density", "kg/m^3");
   require_positive(options, options.material.youngs_modulus, "youngs_modulus", "Pa");
   require_positive(options, options.material.shear_modulus, "shear_modulus", "Pa");
   require_not_negative(options, options.material.damping, "damping", "s");
-  require_not_negative(options, options.break_force, "break_force", "N");
-  require_not_negative(options, options.break_torque, "break_torque", "N m");
+  require_limit(options, options.break_force, "break_force", "N");
+  require_limit(options, options.break_torque, "break_torque", "N m");
   if (!options.stiffness) return;
   require_positive(options, options.stiffness->stretch, "stiffness.stretch", "N");
   require_positive(options, options.stiffness->shear, "stiffness.shear", "N");
@@ -84,7 +91,7 @@ std::vector<Segment> segments_between(const std::vector<Vec3f>& points, const Ro
     const double length = std::sqrt(length_squared(along));
     if (!std::isfinite(length)) refuse(options, between(i), "are not both finite", "give finite coordinates in metres");
     if (length < least_length_in_radii * static_cast<double>(options.radius))
-      refuse(options, between(i), "are " + std::to_string(length) + " m apart, less than 1.1 radii",
+      refuse(options, between(i), "are " + std::to_string(length) + " m apart, less than 2.25 radii",
              "use fewer points, or a smaller radius");
     segments[i] = {length, along * (1 / length), {}};
     if (i > 0 && dot(segments[i - 1].tangent, segments[i].tangent) < -0.9)
@@ -138,8 +145,8 @@ BodyOptions body_of(const Segment& segment, const Vec3d& middle, const RodOption
 
 /// A capsule along the segment's x-axis, whose caps reach over its ends, but not over one that is held.
 Solid solid_of(const Segment& segment, const RodOptions& options, bool start_is_held, bool end_is_held) {
-  const double radius = static_cast<double>(options.radius), reach = std::min(radius, most_overlap * segment.length);
-  const double before = start_is_held ? 0 : reach, after = end_is_held ? 0 : reach;
+  const double radius = static_cast<double>(options.radius);
+  const double before = start_is_held ? 0 : radius, after = end_is_held ? 0 : radius;
   const float root = std::sqrt(0.5f);
   Solid solid;
   solid.shape =
@@ -288,8 +295,8 @@ std::vector<Vec3f> helix(float radius, float height, float turns, int segments) 
   std::vector<Vec3f> points;
   for (int i = 0; i <= segments; ++i) {
     const double share = static_cast<double>(i) / segments, angle = 2 * pi * static_cast<double>(turns) * share;
-    points.push_back({radius * static_cast<float>(std::cos(angle)), height * static_cast<float>(share),
-                      radius * static_cast<float>(std::sin(angle))});
+    points.push_back({radius * static_cast<float>(cos(angle)), height * static_cast<float>(share),
+                      radius * static_cast<float>(sin(angle))});
   }
   return points;
 }

@@ -18,10 +18,7 @@ void push(Record& velocity, const Vec3f& change) {
   velocity = {velocity.x + change.x, velocity.y + change.y, velocity.z + change.z, 0};
 }
 
-/// The caps of a capsule have the area of this many radii more of its length.
-constexpr float share_of_caps = 1.5707964f;
-
-/// The wind on an object's bodies that are a single capsule, as the segments of rods are.
+/// The wind on an object's bodies that are a single capsule, as the segments of rods are. Caps do not count, since those of segments overlap.
 void apply_air_to_capsules(const Model& model, int o, const Vec3f& air, const Vec3f& gravity, float h, State& state,
                            Executor& executor) {
   const CompiledObject& object = model.objects[o];
@@ -38,8 +35,7 @@ void apply_air_to_capsules(const Model& model, int o, const Vec3f& air, const Ve
     Record& v = state.velocities[static_cast<std::size_t>(model.first[o] + body.particle)];
     const Record& q = state.frames.orientations[static_cast<std::size_t>(model.first_frame[o] + body.frame)];
     const Vec3f along = rotate(Quatf{q.x, q.y, q.z, q.w}, rotate(convert<float>(solid.pose.rotation), Vec3f{0, 1, 0}));
-    const Vec3f force = air_force_on_cylinder(air - (vector_of(v) + gravity), along,
-                                              2 * solid.shape.half_length + share_of_caps * solid.shape.radius,
+    const Vec3f force = air_force_on_cylinder(air - (vector_of(v) + gravity), along, 2 * solid.shape.half_length,
                                               solid.shape.radius, model.wind.air_density, object.drag, 2 * h * x.w);
     push(v, force * (h * x.w));
   });

@@ -17,7 +17,7 @@ const Object& named(const Scene& scene, const std::string& name) {
 TEST(SceneRods, AreReadWithEveryField) {
   const Scene scene = parse_scene(test::full_scene(), "every_field.json", ".");
   const Object& wires = named(scene, "wires");
-  ASSERT_EQ(wires.bodies.size(), 8u + 1 + 24 + 2);  // with the world's body
+  ASSERT_EQ(wires.bodies.size(), 8u + 1 + 24 + 2 + 2 * 5 + 2 * 6);  // with the world's body
   EXPECT_EQ(wires.bodies[0].name, "wires 0");
   EXPECT_EQ(wires.bodies[9].name, "spring 0");
   EXPECT_EQ(wires.bodies[33].name, "rod 0");
@@ -29,6 +29,15 @@ TEST(SceneRods, AreReadWithEveryField) {
   EXPECT_EQ(wires.joints[0].break_torque, 50);
   EXPECT_EQ(wires.joints[7].name, "wires start");
   EXPECT_EQ(wires.joints[8].kind, "ball");
+  EXPECT_EQ(wires.bodies[35].name, "rod_2_0 0");
+  EXPECT_EQ(wires.bodies[45].name, "rod_3_0 0");
+  for (int i = 0; i < 5; ++i) {  // the middle of the lower segment is a quarter of a metre off the sphere
+    const Vec3f out = wires.positions[static_cast<std::size_t>(35 + 2 * i)] - Vec3f{30, 0, 0};
+    EXPECT_NEAR(std::sqrt(length_squared(out)), 2.25, 1e-4);
+    EXPECT_GT(out.y, 2.25f * 0.5f);
+  }
+  EXPECT_NEAR(wires.positions.back().x, 40.5, 1e-5);
+  EXPECT_NEAR(wires.positions.back().z, 0.5, 1e-5);
   const ConstraintGroup& group = *std::find_if(wires.constraints.begin(), wires.constraints.end(),
                                                [](const ConstraintGroup& g) { return g.type == "rod_joint"; });
   EXPECT_EQ(group.stiffness.damping, 0.25f);
@@ -42,7 +51,7 @@ std::string message(const std::string& rod) {
 
 TEST(SceneRods, AreRefusedWithAReason) {
   EXPECT_NE(message(R"("radius": 0.01)").find("'points'"), std::string::npos);
-  EXPECT_NE(message(R"("line": {"from": [0, 0, 0], "to": [1, 0, 0], "points": 400}, "radius": 0.01)").find("1.1 radii"),
+  EXPECT_NE(message(R"("line": {"from": [0, 0, 0], "to": [1, 0, 0], "points": 400}, "radius": 0.01)").find("2.25 radii"),
             std::string::npos);
   EXPECT_NE(
       message(R"("line": {"from": [0, 0, 0], "to": [1, 0, 0], "points": 9}, "start": {"clamped": "wall"})").find("'wall'"),

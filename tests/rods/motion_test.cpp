@@ -8,7 +8,6 @@
 #include "pliant/body.h"
 #include "pliant/joint.h"
 #include "rods/rod_support.h"
-#include "support/same_bits.h"
 
 namespace pliant {
 namespace {
@@ -169,6 +168,23 @@ TEST(RodInMotion, BreaksWhereItCarriesTooMuch) {
   EXPECT_LT(lone.position(ball).y, -0.5);
 }
 
+TEST(RodInMotion, DoesNotPushItselfApartWhereItBreaks) {
+  RodOptions options = clamped_rod(material_of(1e9, 3.5e8, 1000), 0.01f);
+  options.break_force = 3;  // its own weight pulls it apart near the top
+  Object rod = make_rod(line({0, 1, 0}, {0, 0, 0}, 10), options);
+  Scene scene;
+  scene.add(rod);
+  World world(scene);
+  std::size_t broken = 0;
+  for (int frame = 0; frame < 20; ++frame) {
+    const Report report = world.step(frame_time);
+    EXPECT_TRUE(report.warnings.empty()) << report.explain();
+    broken += report.broken_joints.size();
+  }
+  EXPECT_GT(broken, 0u);
+  EXPECT_GT(world.object(0).velocities()[9].y, -9.9f * 20 / 60);  // falls, and is not thrown
+}
+
 TEST(RodInMotion, OfAHairBendsAsItDoesInFineSubsteps) {
   const auto at_rest = [](int substeps) {
     Object hair = make_rod(line({0, 0, 0}, {0.1f, 0, 0}, 20), clamped_rod(rod_material("hair"), 4e-5f));
@@ -205,48 +221,6 @@ TEST(RodInWind, HangsAtTheAngleOfItsDrag) {
   const std::vector<Vec3f> x = world.object(0).positions();
   const Vec3d along = convert<double>(x[segments - 1]) - convert<double>(x[0]);
   EXPECT_NEAR(std::atan2(along.x, -along.y), angle, 0.02 * angle);
-}
-
-/// A heavy ball that rolls into rows of stalks.
-Scene stalks() {
-  Scene scene;
-  Object grass;
-  grass.name = "stalks";
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const Vec3f foot{0.2f * static_cast<float>(i), 0, -0.15f + 0.15f * static_cast<float>(j)};
-      RodOptions options = clamped_rod(rod_material("nylon line"), 0.006f);
-      options.name = "stalk " + std::to_string(3 * i + j);
-      add_rod(grass, line(foot, foot + Vec3f{0, 0.7f, 0}, 14), options);
-    }
-  scene.add(grass);
-  BodyOptions ball;
-  ball.position = {-0.5f, 0.162f, 0.02f};
-  ball.velocity = {4, 0, 0};
-  ball.mass = 6;
-  scene.add(make_body({{Sphere{0.16f}}}, ball));
-  scene.add(Collider{"ground", Plane{}});
-  scene.settings.substeps = 8;
-  return scene;
-}
-
-TEST(RodInContact, IsNotTornByAHeavyBall) {
-  const Scene scene = stalks();
-  World world(scene);
-  double fastest = 0, lowest = 0;
-  for (int frame = 0; frame < 120; ++frame) {
-    const Report report = world.step(frame_time);
-    ASSERT_TRUE(report.ok()) << report.explain();
-    for (const Vec3f& v : world.object(0).velocities()) fastest = std::max(fastest, double(dot(v, v)));
-    for (const Vec3f& x : world.object(0).positions()) lowest = std::min(lowest, double(x.y));
-  }
-  EXPECT_LT(std::sqrt(fastest), 16);  // tips of stalks that the ball lets go; 119 where contact tore the joints open
-  EXPECT_GT(lowest, -0.01);
-}
-
-TEST(RodInContact, HasTheSameBitsOnAnyThreadsAndLevels) {
-  expect_same_bits_on_any_threads_and_levels(stalks(), {30, frame_time});
-  expect_same_bits_after_a_restore(stalks(), {15, frame_time});
 }
 
 }  // namespace

@@ -34,6 +34,24 @@ TEST(RodAtRest, IsAsStiffWhateverTheSubsteps) {
   for (const int substeps : {1, 4, 15}) EXPECT_NEAR(sag(16, substeps), expected, 0.001 * expected) << substeps;
 }
 
+TEST(RodAtRest, OfSteelHeldAtBothEndsSagsAsABeam) {
+  constexpr double length = 0.3, radius = 0.001;
+  const RodMaterial& steel = rod_material("steel wire");
+  for (const int segments : {20, 100}) {
+    RodOptions options = clamped_rod(steel, float(radius));
+    options.end = options.start;
+    Object rod = make_rod(line({0, 0, 0}, {float(length), 0, 0}, segments), options);
+    rod.damping = 5;
+    Lone lone(std::move(rod));
+    lone.run(3);
+    const double load = double(steel.density) * pi * radius * radius * gravity;
+    const double expected =
+        load * length * length * length * length / (384 * double(steel.youngs_modulus) * second_moment(radius));
+    const double middle = (lone.position(segments / 2 - 1).y + lone.position(segments / 2).y) / 2;
+    EXPECT_NEAR(-middle, expected, 0.06 * expected) << segments;
+  }
+}
+
 /// Mattiasson 1981, table 1: a clamped beam with a load P across its free end. Displacements over the length.
 struct Elastica {
   double load;  ///< P L^2 / (E I)

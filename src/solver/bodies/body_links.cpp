@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "constraints/registry.h"
+#include "model/compiled_joints.h"
 #include "solver/bodies/body_math.h"
 #include "solver/visit.h"
 
@@ -84,6 +85,16 @@ void add_links(const Model& model, int number, int first_body, int points, std::
   for (std::size_t i = before; i < links.size(); ++i) links[i].object = number;
 }
 
+namespace {
+
+/// True if the bodies of a joint overlap where they are built to meet: segments of a rod, by their caps.
+bool overlaps(const CompiledObject& object, int joint) {
+  const CompiledJoint::Part& part = object.joints[static_cast<std::size_t>(joint)].parts.front();
+  return constraint_type(object.pools[static_cast<std::size_t>(part.pool)].type).name == "rod_joint";
+}
+
+}  // namespace
+
 std::vector<std::pair<int, int>> pairs_without_joint(const CompiledObject& object, const std::vector<int>& broken) {
   const auto points = static_cast<int>(object.bodies.bodies.size());
   std::vector<BodyLink> links;
@@ -92,7 +103,7 @@ std::vector<std::pair<int, int>> pairs_without_joint(const CompiledObject& objec
   for (const BodyLink& link : links) {
     if (link.a == points || link.b == points) continue;
     const bool is_broken = link.joint >= 0 && std::binary_search(broken.begin(), broken.end(), link.joint);
-    (is_broken ? freed : joined).emplace_back(std::minmax(link.a, link.b));
+    (is_broken && !overlaps(object, link.joint) ? freed : joined).emplace_back(std::minmax(link.a, link.b));
   }
   std::sort(joined.begin(), joined.end());
   std::sort(freed.begin(), freed.end());

@@ -84,7 +84,9 @@ void BodySleep::begin_frame(Substep& s, std::span<const BodyContact> contacts) {
     s.state.rest_times.clear();
   } else {
     s.state.rest_times.resize(s.state.frames.size(), 0.f);
-    is_restless_ = has_kinematic_ || !s.model.forces.empty() || moves_fixed_body(s);
+    const Wind& wind = s.model.wind;
+    const bool gusts = wind.air_density > 0 && wind.gust != 0 && length_squared(wind.velocity) > 0;
+    is_restless_ = has_kinematic_ || !s.model.forces.empty() || gusts || moves_fixed_body(s);
     for (int body = 0; body < count(); ++body)
       if (rest_time(s, body) == asleep) held_.hold(s.state, body);
     if (any()) wake_pushed(s, contacts);

@@ -155,14 +155,18 @@ void fill_rows(JointWork& work, bool start_gradients) {
 
 namespace {
 
-/// True if a joint that gives way is farther from where its force holds it than this share of its arms. Each row by how much a body
-/// would have to move; rows that only turn bodies do not count.
-bool is_displaced(const JointWork& work, const ConstraintPlace& at, float softness, float most) {
-  const float alpha = min(softness * work.points.inverse_h2, largest_compliance);
+/// True if the residual of a row of a joint with compliance, C + alpha lambda with damping, is above `most` [m], divided by the gradient
+/// at b's point. Rows that only turn bodies do not count.
+bool is_displaced(const JointWork& work, const JointForest::Joint& joint, const ConstraintPlace& at, float most) {
+  const float softness = at.value(at.pool.fields), alpha = min(softness * work.points.inverse_h2, largest_compliance);
+  const float gamma = at.pool.law == Law::damped
+                          ? min(softness * at.value(at.pool.fields + 1) * work.points.inverse_h, largest_compliance)
+                          : 0;
   const float* multipliers = multipliers_of(work, at);
   for (int r = 0; r < at.pool.components; ++r) {
     const float squared = length_squared(work.arrays.gradient(at.pool, r, 2));
-    const float error = work.arrays.c[r] + (multipliers == nullptr ? 0 : alpha * multipliers[r * batch_width]);
+    const float motion = gamma > 0 ? gamma * motion_along(work, joint, at.pool, r) : 0;
+    const float error = work.arrays.c[r] + (multipliers == nullptr ? 0 : alpha * multipliers[r * batch_width]) + motion;
     if (error * error > most * most * squared && squared > 0) return true;
   }
   return false;
@@ -181,8 +185,8 @@ bool is_open(JointWork& work, float share) {
     const float* rest = work.arrays.rest;  // begins with the anchors in a and in b
     const float size =
         sqrt(length_squared(Vec3f{rest[0], rest[1], rest[2]})) + sqrt(length_squared(Vec3f{rest[3], rest[4], rest[5]}));
-    if (const float softness = at.value(at.pool.fields); softness > 0) {
-      if (is_displaced(work, at, softness, max(least, share_of_soft * size))) return true;
+    if (at.value(at.pool.fields) > 0) {
+      if (is_displaced(work, joint, at, max(least, share_of_soft * size))) return true;
       continue;
     }
     const float most = max(least, share * min(size, 1.f));

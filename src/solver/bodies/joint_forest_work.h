@@ -29,7 +29,8 @@ void fill_masses(JointWork& work);
 /// Sets the rows of all joints of trees: C at present, gradients at the substep's start or at present.
 void fill_rows(JointWork& work, bool start_gradients);
 
-/// True if the gap of a rigid joint is larger than this share of the arms to its anchors, at most of 1 m; of angles [rad].
+/// True if the gap of a rigid joint is larger than this share of the arms to its anchors, at most of 1 m; of angles [rad]. Also if a joint with
+/// compliance is off by a thousandth of its arms.
 bool is_open(JointWork& work, float share);
 
 /// Solves, with masses and rows, until no row with bounds changes its state.

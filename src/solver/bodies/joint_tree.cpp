@@ -15,8 +15,8 @@ constexpr int body_unknowns = 6;
 /// Between two joints with the ground a joint may find that one side cannot move along some direction at all, and has no pivot
 /// there before the other side is known. Joints get this share of their inverse mass as compliance in such trees.
 constexpr float softness = 1e-4f;
-/// A row that gives way by more than this share of its inverse mass has a pivot by itself, far above rounding.
-constexpr float enough_compliance = 2e-6f;
+/// A row with compliance of its own needs no more than this share, above least_pivot of the blocks.
+constexpr float least_compliance = 2e-6f;
 
 using bodies::at, bodies::times;
 using Gradient = std::array<Vec3f, 2>;  ///< for displacement and rotation
@@ -199,8 +199,12 @@ void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, c
     const auto& g = gradients_of(rows, ends, body);
     const bool is_held = ends.a >= 0 && ends.b >= 0 && held_[at(body)] != 0;
     for (int r = 0; is_held && r < rows.rows; ++r) {
-      const float inverse = inverse_mass(g[at(r)], mass);
-      if (rows.compliance[at(r)] < enough_compliance * inverse) m[r * stride + r] -= softness * inverse;
+      const float own = rows.compliance[at(r)];
+      if (own == 0)
+        m[r * stride + r] -= softness * inverse_mass(g[at(r)], mass);
+      else
+        m[r * stride + r] -=
+            std::max(0.f, least_compliance * product(accelerated(g[at(r)], mass, 1 / mass.mass), g[at(r)]) - own);
     }
     if (!is_eliminated(body)) {
       for (int r = 0; body == node.through && r < rows.rows; ++r) set_row(g[at(r)], up + r * stride);
