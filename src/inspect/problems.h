@@ -78,6 +78,8 @@ void check_clusters(Problems& problems, const Object& object);
 void check_object(Problems& problems, const Object& object);
 /// Reports doubtful settings of an object that has no grave findings.
 void doubt_object(Problems& problems, const Object& object, const Scene& scene);
+/// Warns of rods that carry more than contact can bear in the scene's substeps. The scene must have no grave findings.
+void doubt_substeps_of_rods(Problems& problems, const Scene& scene);
 /// Warns of joints that are probably not as intended.
 void doubt_joints(Problems& problems, const Object& object);
 

@@ -91,6 +91,30 @@ TEST(MakeRod, RefusesWhatIsNoRod) {
   EXPECT_EQ(object.bodies.size(), bodies);
 }
 
+/// A cable over a drum that carries a crate: contact yields to the load where substeps are too few.
+TEST(MakeRod, IsDoubtedWhereItsLoadIsTooHeavyForTheSubsteps) {
+  Scene scene;
+  Object winch;
+  winch.name = "winch";
+  BodyOptions crate;
+  crate.mass = 8;
+  RodOptions options = clamped_rod(material_of(2e8, 7e7, 1200), 0.007f);
+  options.end = {RodEnd::Kind::ball, add_body(winch, {{Box{{0.1f, 0.1f, 0.1f}}}}, crate)};
+  add_rod(winch, line({0, 1, 0}, {0, 0.1f, 0}, 30), options);
+  scene.add(winch);
+  const auto doubts = [&] {
+    std::string text;
+    for (const Finding& finding : inspect(scene)) text += finding.message + "; ";
+    return text;
+  };
+  EXPECT_NE(doubts().find("carry up to 8 kg"), std::string::npos) << doubts();
+  scene.settings.substeps = 40;
+  EXPECT_EQ(doubts().find("carry up to"), std::string::npos) << doubts();
+  scene.settings.substeps = 0;
+  scene.objects[0].collides = scene.objects[0].self_collision = false;
+  EXPECT_EQ(doubts().find("carry up to"), std::string::npos) << doubts();
+}
+
 std::string number(float value) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", static_cast<double>(value));
