@@ -178,7 +178,8 @@ const Record& object_record() {
 const Record& wind_record() {
   static const Record result{
       "wind",
-      "Moving air that pushes triangles by drag and lift.",
+      "Moving air that pushes triangles by drag and lift, and bodies that are one capsule, as segments of rods are, by "
+      "drag.",
       {needed("velocity", vector("m/s", largest_velocity), "Mean velocity."),
        needed("air_density", number("kg/m^3", 0, 1e5), "Density of the air: 1.2 at sea level; 0: no air."),
        field("gust", share(), Wind{}.gust, "Amplitude of the gust as a share of the wind."),

@@ -64,7 +64,11 @@ RodEnd end_of(const JsonDocument& document, const JsonValue& at, const char* nam
   const JsonValue* clamp = value->find("clamped");
   const JsonValue& body = clamp != nullptr ? *clamp : *value->find("ball");
   end.kind = clamp != nullptr ? RodEnd::Kind::clamped : RodEnd::Kind::ball;
-  end.body = body.text == "world" ? -1 : body_named(document, body, object);
+  if (body.text == "world") return end;
+  if (object.bodies.empty())
+    document.fail(body, "the object has no body '" + printable(body.text) + "'",
+                  "name \"world\", or make the rod one of the `parts` of the object with that body");
+  end.body = body_named(document, body, object);
   return end;
 }
 

@@ -256,8 +256,9 @@ int run_guarded(const Chosen& chosen) {
 
 int main(int argc, char** argv) {
   catch_signals();
-  CLI::App app{"A position based dynamics engine: cloth, ropes, soft and rigid bodies, joints, liquids, gases, grains",
-               "pliant"};
+  CLI::App app{
+      "A position based dynamics engine: cloth, ropes, rods, soft and rigid bodies, joints, liquids, gases, grains",
+      "pliant"};
   app.set_version_flag("--version", "pliant " PLIANT_VERSION);
   app.require_subcommand(0, 1);  // so that an unknown subcommand is named instead of reported missing
 

@@ -71,7 +71,8 @@ void doubt_masses(const Doubts& d) {
     return d.problems.doubtful("", "all particles are pinned or fixed, so the object only moves with its pins",
                                "pin fewer particles");
   const double ratio = static_cast<double>(d.object.masses[heaviest]) / static_cast<double>(d.object.masses[lightest]);
-  if (ratio > large_mass_ratio)
+  const bool is_of_bodies = d.object.bodies.size() == d.count();  // their joints are solved directly
+  if (ratio > large_mass_ratio && !is_of_bodies)
     d.problems.doubtful("particle " + std::to_string(heaviest),
                         "is " + words(ratio) + " times as heavy as particle " + std::to_string(lightest),
                         "use more substeps, or make the masses more equal (slivers in a mesh make light particles)");

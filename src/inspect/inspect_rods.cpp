@@ -72,7 +72,7 @@ void doubt_substeps_of_rods(Problems& problems, const Scene& scene) {
         "are " + std::to_string(all[o]) + ": the rods of '" + object.name + "' carry up to " + words(load.mass) +
             " kg, and where they bend around something the load can press them into it by more than their radius",
         "give " + std::to_string(std::llround(std::ceil(std::min(needed, 1e4)))) +
-            ", or take away \"collides\" and \"self_collision\" if they touch nothing");
+            ", or set \"collides\" and \"self_collision\" to false if they touch nothing");
   }
 }
 

@@ -1,5 +1,7 @@
 // Rods at rest, against the mechanics of beams, columns, shafts and springs.
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "math/quat.h"
 #include "pliant/body.h"
@@ -131,6 +133,27 @@ TEST(RodAtRest, OfACoilIsASpring) {
   const double stiffness = 7.9e10 * d * d * d * d / (8 * diameter * diameter * diameter * turns);
   const double own = 7850 * pi * wire * wire * 2 * pi * coil * turns;  // half of the wire's weight counts
   EXPECT_NEAR(-0.25 - lone.position(ball).y, (0.5 + own / 2) * gravity / stiffness, 0.03 * 0.5 * gravity / stiffness);
+}
+
+/// A pin that does not turn holds the centre of a body alone; joints of such a body are solved with the others.
+TEST(RodAtRest, IsNotPulledOffABodyWhoseCentreIsPinned) {
+  Object object;
+  object.name = "hanging";
+  const int hook = add_body(object, {{Box{{0.05f, 0.05f, 0.05f}}}}, {.name = "hook", .position = {0, 0.5f, 0}}),
+            ball = add_body(object, {{Sphere{0.05f}}}, {.name = "ball", .position = {0, 0.04f, 0}, .mass = 3});
+  RodOptions options = clamped_rod(rod_material("steel wire"), 0.002f);
+  options.start.body = hook;
+  options.end = {RodEnd::Kind::clamped, ball};
+  std::vector<Vec3f> points = helix(0.03f, -0.35f, 8, 160);
+  for (Vec3f& p : points) p.y += 0.44f;
+  const int first = add_rod(object, points, options);
+  object.pins.push_back({object.bodies[static_cast<std::size_t>(hook)].particle, {}});
+  const Vec3f start = object.positions[static_cast<std::size_t>(first)];
+  Lone lone(std::move(object), 8);
+  for (int frame = 0; frame < 30; ++frame) {
+    lone.run(1 / 60.);
+    EXPECT_LT(std::sqrt(length_squared(lone.position(first) - convert<double>(start))), 0.004);  // 138 mm before
+  }
 }
 
 /// A ring in the plane y = 0 that starts and ends in the middle of a side, so that both ends point the same way.

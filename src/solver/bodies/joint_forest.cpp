@@ -13,13 +13,14 @@ namespace pliant {
 
 namespace {
 
-/// True if a body moves and rotates about all axes, or not at all; others are left to the stencil driver.
-enum class Mobility { fixed, free, partial };
+/// What a body can do: nothing, move and rotate, rotate about a held centre. Those that are held about some axes alone are left to the
+/// stencil driver.
+enum class Mobility { fixed, free, rotating, partial };
 
 Mobility mobility(const CompiledObject& object, std::int32_t point, std::int32_t frame) {
   const Record& inverse = object.frames.inverse_inertias[static_cast<std::size_t>(frame)];
   const float w = object.positions[static_cast<std::size_t>(point)].w;
-  if (w > 0 && inverse.x > 0 && inverse.y > 0 && inverse.z > 0) return Mobility::free;
+  if (inverse.x > 0 && inverse.y > 0 && inverse.z > 0) return w > 0 ? Mobility::free : Mobility::rotating;
   return w == 0 && inverse.x == 0 && inverse.y == 0 && inverse.z == 0 ? Mobility::fixed : Mobility::partial;
 }
 
@@ -32,9 +33,9 @@ class BodyNumbers {
   bool find(std::int32_t point, std::int32_t frame, int& number) {
     const Mobility its = mobility(object_, point, frame);
     number = -1;
-    if (its != Mobility::free) return its == Mobility::fixed;
+    if (its == Mobility::fixed || its == Mobility::partial) return its == Mobility::fixed;
     const auto [at, is_new] = numbers_.try_emplace(point, static_cast<int>(forest_.bodies.size()));
-    if (is_new) forest_.bodies.push_back({point, frame});
+    if (is_new) forest_.bodies.push_back({point, frame, its == Mobility::rotating});
     number = at->second;
     return forest_.bodies[static_cast<std::size_t>(number)].frame == frame;
   }
@@ -193,7 +194,9 @@ void prepare_joints(const CompiledObject& object, ObjectJoints& joints) {
   find_joints(object, left_out, all);
   joints.forests = divided(all);
   for (JointForest& forest : joints.forests) {
-    forest.tree.emplace(static_cast<int>(forest.bodies.size()), forest.ends);
+    std::vector<char> is_held;
+    for (const JointForest::Body& body : forest.bodies) is_held.push_back(body.is_held ? 1 : 0);
+    forest.tree.emplace(static_cast<int>(forest.bodies.size()), forest.ends, is_held);
     for (const int loose : forest.tree->loose()) forest.joints[static_cast<std::size_t>(loose)].in_tree = false;
   }
   // Where a motor drives against a stop, both are rows of one direction, and the solve leaves out the later one.

@@ -108,6 +108,9 @@ void fill_part(JointWork& work, std::size_t j, const JointForest::Part& part, bo
   }
 }
 
+/// Of a body whose centre is pinned [kg]: it rotates, and does not move.
+constexpr float mass_of_held = 1e20f;
+
 /// The inertia of a body in world axes: xx, yy, zz, yz, zx, xy.
 BodyMass mass_of(const JointWork& work, const JointForest::Body& body) {
   const Quatf q = quaternion(work.frames.orientations[body.frame]);
@@ -115,7 +118,7 @@ BodyMass mass_of(const JointWork& work, const JointForest::Body& body) {
   const Vec3f axes[3] = {rotate(q, Vec3f{1, 0, 0}), rotate(q, Vec3f{0, 1, 0}), rotate(q, Vec3f{0, 0, 1})};
   const float moments[3] = {1 / inverse.x, 1 / inverse.y, 1 / inverse.z}, inverses[3] = {inverse.x, inverse.y, inverse.z};
   BodyMass mass;
-  mass.mass = 1 / work.points.positions[body.point].w;
+  mass.mass = body.is_held ? mass_of_held : 1 / work.points.positions[body.point].w;
   for (int k = 0; k < 3; ++k) {
     const Vec3f& u = axes[k];
     const float products[6] = {u.x * u.x, u.y * u.y, u.z * u.z, u.y * u.z, u.z * u.x, u.x * u.y};

@@ -83,13 +83,13 @@ Symmetric inverse_of(const Symmetric& given) {
   return {c0.x * inverse, c1.y * inverse, c2.z * inverse, c1.z * inverse, c0.z * inverse, c0.y * inverse};
 }
 
-JointTree::JointTree(int bodies, const std::vector<JointEnds>& joints)
+JointTree::JointTree(int bodies, const std::vector<JointEnds>& joints, const std::vector<char>& centre_is_held)
     : ends_(joints), joints_of_(static_cast<std::size_t>(bodies)) {
-  find_loose(bodies);
+  find_loose(bodies, centre_is_held);
   order();
 }
 
-void JointTree::find_loose(int bodies) {
+void JointTree::find_loose(int bodies, const std::vector<char>& centre_is_held) {
   std::vector<int> above(at(bodies));
   for (int i = 0; i < bodies; ++i) above[at(i)] = i;
   ground_.assign(above.size(), -1);
@@ -110,7 +110,7 @@ void JointTree::find_loose(int bodies) {
   }
   std::vector<int> grounds(above.size(), 0);
   for (int i = 0; i < bodies; ++i)
-    if (ground_[at(i)] >= 0) ++grounds[at(root_of(above, i))];
+    if (ground_[at(i)] >= 0 || (!centre_is_held.empty() && centre_is_held[at(i)] != 0)) ++grounds[at(root_of(above, i))];
   held_.assign(above.size(), 0);
   for (int i = 0; i < bodies; ++i) held_[at(i)] = static_cast<char>(grounds[at(root_of(above, i))] > 1);
 }

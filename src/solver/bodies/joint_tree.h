@@ -45,8 +45,8 @@ struct BodyCorrection {
 class JointTree {
  public:
   /// Joints that close a loop are loose; so are further joints of a body that has one with the ground, and joints of a body with
-  /// itself.
-  JointTree(int bodies, const std::vector<JointEnds>& joints);
+  /// itself. `centre_is_held` by body: its mass is so large that it only rotates; empty: none.
+  JointTree(int bodies, const std::vector<JointEnds>& joints, const std::vector<char>& centre_is_held = {});
 
   /// Joints that are left out, in ascending order.
   const std::vector<int>& loose() const { return loose_; }
@@ -67,7 +67,7 @@ class JointTree {
     int through = -1;  ///< the body that is shared with the parent, or the body itself; -1: a root
   };
 
-  void find_loose(int bodies);
+  void find_loose(int bodies, const std::vector<char>& centre_is_held);
   void order();
   void order_tree(int root);
   void add_joints_of(int body, int parent, int but);
