@@ -23,6 +23,9 @@ void apply_air_to_capsules(const Model& model, int o, const Vec3f& air, const Ve
                            Executor& executor) {
   const CompiledObject& object = model.objects[o];
   const std::vector<CompiledSolid>& solids = object.bodies.solids;
+  const Record* positions = state.positions.data() + model.first[o];
+  Record* velocities = state.velocities.data() + model.first[o];
+  const Record* orientations = state.frames.orientations.data() + model.first_frame[o];
   const auto is_of = [&](std::size_t i, int body) { return i < solids.size() && solids[i].body == body; };
   executor.parallel_for("forces: air", static_cast<int>(solids.size()), [&](int number) {
     const auto i = static_cast<std::size_t>(number);
@@ -30,10 +33,10 @@ void apply_air_to_capsules(const Model& model, int o, const Vec3f& air, const Ve
     const bool is_alone = !is_of(i + 1, solid.body) && (i == 0 || !is_of(i - 1, solid.body));
     if (solid.shape.kind != ConvexShape::Kind::segment || !is_alone) return;
     const CompiledBodies::Body& body = object.bodies.bodies[static_cast<std::size_t>(solid.body)];
-    const Record& x = state.positions[static_cast<std::size_t>(model.first[o] + body.particle)];
+    const Record& x = positions[body.particle];
     if (x.w == 0) return;
-    Record& v = state.velocities[static_cast<std::size_t>(model.first[o] + body.particle)];
-    const Record& q = state.frames.orientations[static_cast<std::size_t>(model.first_frame[o] + body.frame)];
+    Record& v = velocities[body.particle];
+    const Record& q = orientations[body.frame];
     const Vec3f along = rotate(Quatf{q.x, q.y, q.z, q.w}, rotate(convert<float>(solid.pose.rotation), Vec3f{0, 1, 0}));
     const Vec3f force = air_force_on_cylinder(air - (vector_of(v) + gravity), along, 2 * solid.shape.half_length,
                                               solid.shape.radius, model.wind.air_density, object.drag, 2 * h * x.w);
