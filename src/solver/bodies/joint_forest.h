@@ -40,7 +40,7 @@ struct JointForest {
   };
   struct Body {
     std::int32_t point = 0, frame = 0;
-    bool is_held = false;  ///< its centre is pinned, and it rotates
+    bool is_held = false;  ///< its centre is pinned when trees are made, and it rotates
   };
   /// A row whose change of the multiplier has bounds.
   struct BoundedRow {

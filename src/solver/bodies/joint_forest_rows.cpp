@@ -118,7 +118,8 @@ BodyMass mass_of(const JointWork& work, const JointForest::Body& body) {
   const Vec3f axes[3] = {rotate(q, Vec3f{1, 0, 0}), rotate(q, Vec3f{0, 1, 0}), rotate(q, Vec3f{0, 0, 1})};
   const float moments[3] = {1 / inverse.x, 1 / inverse.y, 1 / inverse.z}, inverses[3] = {inverse.x, inverse.y, inverse.z};
   BodyMass mass;
-  mass.mass = body.is_held ? mass_of_held : 1 / work.points.positions[body.point].w;
+  const float w = work.points.positions[body.point].w;
+  mass.mass = w > 0 ? 1 / w : mass_of_held;
   for (int k = 0; k < 3; ++k) {
     const Vec3f& u = axes[k];
     const float products[6] = {u.x * u.x, u.y * u.y, u.z * u.z, u.y * u.z, u.z * u.x, u.x * u.y};

@@ -106,10 +106,10 @@ void store_multipliers(JointWork& work) {
 void apply(JointWork& work) {
   const JointForest& forest = work.forest;
   for (std::size_t i = 0; i < forest.bodies.size(); ++i) {
-    const auto& [point, frame, is_held] = forest.bodies[i];
+    const std::int32_t point = forest.bodies[i].point, frame = forest.bodies[i].frame;
     Record& d = work.points.displacements[point];
     const Vec3f& move = forest.corrections[i].displacement;
-    if (!is_held) d = {d.x + move.x, d.y + move.y, d.z + move.z, 0};
+    if (work.points.positions[point].w > 0) d = {d.x + move.x, d.y + move.y, d.z + move.z, 0};
     rotate_frame(forest.corrections[i].rotation, work.frames.orientations[frame], work.frames.corrections[frame]);
   }
   store_multipliers(work);
