@@ -148,17 +148,9 @@ const Record& drain_record() {
 
 namespace {
 
-std::vector<std::string> liquid_names() {
-  std::vector<std::string> names;
-  for (const LiquidKind& one : liquids()) names.push_back(one.name);
-  return names;
-}
+std::vector<std::string> liquid_names() { return names_of(liquids()); }
 
-std::vector<std::string> grain_names() {
-  std::vector<std::string> names;
-  for (const GrainKind& one : grain_kinds()) names.push_back(one.name);
-  return names;
-}
+std::vector<std::string> grain_names() { return names_of(grain_kinds()); }
 
 }  // namespace
 

@@ -211,11 +211,7 @@ const Record& mesh_record() {
   return result;
 }
 
-std::vector<std::string> fabric_names() {
-  std::vector<std::string> names;
-  for (const Fabric& one : fabrics()) names.push_back(one.name);
-  return names;
-}
+std::vector<std::string> fabric_names() { return names_of(fabrics()); }
 
 const Record& fabric_record() {
   static const Record result{

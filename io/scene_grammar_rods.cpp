@@ -7,11 +7,7 @@ namespace pliant::scene_file {
 
 namespace {
 
-std::vector<std::string> material_names() {
-  std::vector<std::string> names;
-  for (const RodMaterial& one : rod_materials()) names.push_back(one.name);
-  return names;
-}
+std::vector<std::string> material_names() { return names_of(rod_materials()); }
 
 const Record& material_record() {
   static const Record result{
@@ -33,7 +29,7 @@ const Record& material_record() {
 
 const Record& stiffness_record() {
   static const Record result{"rod stiffness",
-                             "What a cross-section resists with.",
+                             "Stiffness of a cross-section.",
                              {needed("stretch", positive("N"), "E A: force per strain."),
                               needed("shear", positive("N"), "Force per angle of shear."),
                               needed("bending", positive("N m^2"), "E I: moment per curvature, about `across`."),

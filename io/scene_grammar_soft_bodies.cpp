@@ -7,11 +7,7 @@ namespace pliant::scene_file {
 
 namespace {
 
-std::vector<std::string> solid_names() {
-  std::vector<std::string> names;
-  for (const ElasticSolid& one : elastic_solids()) names.push_back(one.name);
-  return names;
-}
+std::vector<std::string> solid_names() { return names_of(elastic_solids()); }
 
 const Record& elastic_solid_record() {
   static const Record result{

@@ -15,6 +15,14 @@ namespace pliant::scene_file {
 constexpr double largest_velocity = 1e5;   // largest velocity [m/s]
 constexpr double largest_quantity = 1e30;  // limit of other quantities; products of two still fit a double
 
+/// The names of presets, for a choice.
+template <class Preset>
+std::vector<std::string> names_of(const std::vector<Preset>& presets) {
+  std::vector<std::string> names;
+  for (const Preset& one : presets) names.push_back(one.name);
+  return names;
+}
+
 // ------------------------------------------------------------------------------------------------ types
 
 inline Type boolean() { return {}; }

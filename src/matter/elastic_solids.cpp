@@ -1,7 +1,7 @@
 // Elastic solids in SI units. docs/guide/soft_bodies.md has the same table; a test compares the two.
 #include <string>
 
-#include "pliant/error.h"
+#include "matter/presets.h"
 #include "pliant/soft_body.h"
 
 namespace pliant {
@@ -29,13 +29,7 @@ const std::vector<ElasticSolid>& elastic_solids() {
 }
 
 const ElasticSolid& elastic_solid(std::string_view name) {
-  std::string names;
-  for (const ElasticSolid& each : elastic_solids()) {
-    if (each.name == name) return each;
-    names += (names.empty() ? "" : ", ") + each.name;
-  }
-  throw Error({}, "there is no elastic solid '" + std::string(name) + "'",
-              "choose one of " + names + ", or fill in an ElasticSolid");
+  return preset_named(elastic_solids(), name, "there is no elastic solid", "an ElasticSolid");
 }
 
 }  // namespace pliant

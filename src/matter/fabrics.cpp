@@ -7,7 +7,7 @@
 // differ between warp and weft, and stiffen as they stretch. Each number is a typical value.
 #include <string>
 
-#include "pliant/error.h"
+#include "matter/presets.h"
 #include "pliant/material.h"
 
 namespace pliant {
@@ -63,13 +63,6 @@ const std::vector<Fabric>& fabrics() {
   return all;
 }
 
-const Fabric& fabric(std::string_view name) {
-  std::string names;
-  for (const Fabric& each : fabrics()) {
-    if (each.name == name) return each;
-    names += (names.empty() ? "" : ", ") + each.name;
-  }
-  throw Error({}, "there is no fabric '" + std::string(name) + "'", "choose one of " + names + ", or fill in a Fabric");
-}
+const Fabric& fabric(std::string_view name) { return preset_named(fabrics(), name, "there is no fabric", "a Fabric"); }
 
 }  // namespace pliant

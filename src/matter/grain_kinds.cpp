@@ -1,5 +1,5 @@
 // Real granular materials in SI units. docs/guide/grains.md has the same table; a test compares the two.
-#include "pliant/error.h"
+#include "matter/presets.h"
 #include "pliant/grains.h"
 
 namespace pliant {
@@ -19,12 +19,7 @@ const std::vector<GrainKind>& grain_kinds() {
 }
 
 const GrainKind& grain_kind(std::string_view name) {
-  std::string names;
-  for (const GrainKind& each : grain_kinds()) {
-    if (each.name == name) return each;
-    names += (names.empty() ? "" : ", ") + each.name;
-  }
-  throw Error({}, "there are no grains '" + std::string(name) + "'", "choose one of " + names + ", or fill in a Grains");
+  return preset_named(grain_kinds(), name, "there are no grains", "a Grains");
 }
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
 // Real liquids in SI units. docs/guide/liquids.md has the same table; a test compares the two.
-#include "pliant/error.h"
+#include "matter/presets.h"
 #include "pliant/liquid.h"
 
 namespace pliant {
@@ -17,13 +17,6 @@ const std::vector<LiquidKind>& liquids() {
   return all;
 }
 
-const LiquidKind& liquid(std::string_view name) {
-  std::string names;
-  for (const LiquidKind& each : liquids()) {
-    if (each.name == name) return each;
-    names += (names.empty() ? "" : ", ") + each.name;
-  }
-  throw Error({}, "there is no liquid '" + std::string(name) + "'", "choose one of " + names + ", or fill in a Fluid");
-}
+const LiquidKind& liquid(std::string_view name) { return preset_named(liquids(), name, "there is no liquid", "a Fluid"); }
 
 }  // namespace pliant

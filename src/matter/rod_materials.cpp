@@ -1,7 +1,7 @@
 // Materials of rods in SI units. docs/guide/rods.md has the same table; a test compares the two.
 #include <string>
 
-#include "pliant/error.h"
+#include "matter/presets.h"
 #include "pliant/rod.h"
 
 namespace pliant {
@@ -34,13 +34,7 @@ const std::vector<RodMaterial>& rod_materials() {
 }
 
 const RodMaterial& rod_material(std::string_view name) {
-  std::string names;
-  for (const RodMaterial& each : rod_materials()) {
-    if (each.name == name) return each;
-    names += (names.empty() ? "" : ", ") + each.name;
-  }
-  throw Error({}, "there is no material of rods '" + std::string(name) + "'",
-              "choose one of " + names + ", or fill in a RodMaterial");
+  return preset_named(rod_materials(), name, "there is no material of rods", "a RodMaterial");
 }
 
 }  // namespace pliant

@@ -198,7 +198,7 @@ TEST(RodInMotion, OfAHairBendsAsItDoesInFineSubsteps) {
   for (const int substeps : {1, 4, 10}) EXPECT_LT(std::sqrt(length_squared(at_rest(substeps) - fine)), 0.001) << substeps;
 }
 
-/// A hanging rod in a steady wind is blown aside until drag and weight balance: tan(angle) = drag / weight, each per length.
+/// A rod that hangs in a steady wind comes to rest where drag and weight are in equilibrium.
 TEST(RodInWind, HangsAtTheAngleOfItsDrag) {
   constexpr int segments = 12;
   constexpr double radius = 0.005, speed = 2, density = 40, air = 1.2, drag = 1.2;
