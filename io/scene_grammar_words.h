@@ -19,6 +19,7 @@ constexpr double largest_quantity = 1e30;  // limit of other quantities; product
 template <class Preset>
 std::vector<std::string> names_of(const std::vector<Preset>& presets) {
   std::vector<std::string> names;
+  names.reserve(presets.size());
   for (const Preset& one : presets) names.push_back(one.name);
   return names;
 }
