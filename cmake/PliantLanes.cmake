@@ -16,6 +16,9 @@ set(PLIANT_LANES_OPTIMISATION $<IF:$<CONFIG:Debug>,-O2,-O3>)
 if(CMAKE_CXX_FLAGS MATCHES "sanitize")
   # Minutes instead of seconds to compile otherwise; the same formulas run under all checks in the sequential kernels.
   set(PLIANT_LANES_OPTIMISATION -O1 -g1 -fno-sanitize=undefined)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    list(APPEND PLIANT_LANES_OPTIMISATION --param=asan-stack=0)  # all of its locals are arrays of fixed size
+  endif()
 endif()
 
 # pliant_lanes(NAME SOURCES files... DEPENDS targets...): takes these sources out of pliant_NAME and compiles them once a level.

@@ -22,9 +22,19 @@ void fields(A& a, Is<Stiffness> auto& of) {
   a(kind, value, damping);
 }
 template <class A>
+void fields(A& a, Is<Plasticity> auto& of) {
+  auto& [yield, rate, most] = of;
+  a(yield, rate, most);
+}
+template <class A>
+void fields(A& a, Is<RestKeyframe> auto& of) {
+  auto& [time, factor] = of;
+  a(time, factor);
+}
+template <class A>
 void fields(A& a, Is<ConstraintGroup> auto& of) {
-  auto& [type, particles, rest, stiffness, compliances] = of;
-  a(type, particles, rest, stiffness, compliances);
+  auto& [type, particles, rest, stiffness, compliances, plasticity, keyframes] = of;
+  a(type, particles, rest, stiffness, compliances, plasticity, keyframes);
 }
 template <class A>
 void fields(A& a, Is<PressureKeyframe> auto& of) {

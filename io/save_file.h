@@ -16,7 +16,7 @@
 
 namespace pliant::save_file {
 
-inline constexpr std::uint32_t version = 15;
+inline constexpr std::uint32_t version = 16;
 
 /// What a file contains.
 enum class Content : std::uint32_t { state = 1, world = 2 };

@@ -20,6 +20,8 @@ const Record& cloth_record() {
        field("bending", stiffness(), "from the material", "Stiffness of every inner edge; overrides the material's."),
        field("bending_model", choice({"none", "dihedral", "isometric"}), "dihedral",
              "Bending by dihedral angles, or by the isometric bending energy."),
+       field("bending_plasticity", record(plasticity_record()), "none",
+             "Folds beyond an angle stay, as in paper or sheet metal; of dihedral bending only."),
        field("volume", record(volume_record()), "none", "Makes the cloth a balloon; its surface must be closed.")},
       {}};
   return result;
@@ -66,7 +68,11 @@ const Record& constraint_record() {
              "Rest data of each constraint."),
        field("stiffness", stiffness(), "\"rigid\"", "Stiffness of all of these constraints."),
        field("compliances", list(number("depends on the type", 0)), "none",
-             "One compliance per constraint; overrides the one in `stiffness`.")},
+             "One compliance per constraint; overrides the one in `stiffness`."),
+       field("plasticity", record(plasticity_record()), "none",
+             "Deformation that becomes permanent, of tetrahedron_shear, dihedral_bending and rod_joint."),
+       field("keyframes", list(record(rest_keyframe_record()), 1), "none",
+             "Factors of the rest data of distance, tetrahedron_volume or fibre, linear between.")},
       {}};
   return result;
 }

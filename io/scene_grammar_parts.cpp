@@ -77,6 +77,29 @@ const Record& pressure_record() {
 
 }  // namespace
 
+const Record& plasticity_record() {
+  static const Record result{
+      "plasticity",
+      "How a deformation becomes permanent. It is a strain of tetrahedra and of rods at their surface, and an angle in "
+      "radians of hinges.",
+      {field("yield", number("-", 0), Plasticity{}.yield, "Elastic deformation that does not become permanent."),
+       field(
+           "rate", number("1/s", 0), Plasticity{}.rate,
+           "How fast what is beyond `yield` flows: exp(-rate t) of it is left. 0: at once. With a `yield` of 0 it creeps."),
+       field("most", number("-", 0), "no limit", "Greatest permanent deformation; beyond it the matter is elastic again.")},
+      {}};
+  return result;
+}
+
+const Record& rest_keyframe_record() {
+  static const Record result{"rest keyframe",
+                             "A factor of rest data at a time.",
+                             {needed("time", number("s", 0, 1e9), "Time; times increase."),
+                              needed("factor", number("-", 0, 1e6), "What rest data are multiplied by then.")},
+                             {}};
+  return result;
+}
+
 const Record& volume_record() {
   static const Record result{
       "volume",

@@ -9,6 +9,8 @@ Type stiffness();
 const Record& rotation_record();
 const Record& motion_record();
 const Record& volume_record();
+const Record& plasticity_record();
+const Record& rest_keyframe_record();
 const Record& mesh_record();
 const Record& fabric_record();
 std::vector<std::string> fabric_names();

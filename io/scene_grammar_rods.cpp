@@ -22,7 +22,9 @@ const Record& material_record() {
        field("damping", number("s", 0), RodMaterial{}.damping, "Stress over elastic modulus and rate of strain."),
        field("static_friction", number("-", 0, 1000), RodMaterial{}.static_friction, "Coefficient of static friction."),
        field("kinetic_friction", number("-", 0, 1000), "0.3; at most the static one",
-             "Coefficient of kinetic friction, at most the static one.")},
+             "Coefficient of kinetic friction, at most the static one."),
+       field("plasticity", record(plasticity_record()), "none",
+             "Strain at the surface beyond which it stays bent or twisted.")},
       {}};
   return result;
 }

@@ -24,8 +24,24 @@ const Record& elastic_solid_record() {
              "Viscous stress over the elastic modulus times the rate of strain."),
        field("static_friction", number("-", 0, 1000), ElasticSolid{}.static_friction, "Coefficient of static friction."),
        field("kinetic_friction", number("-", 0, 1000), "0.5; at most the static one",
-             "Coefficient of kinetic friction, at most the static one.")},
+             "Coefficient of kinetic friction, at most the static one."),
+       field("plasticity", record(plasticity_record()), "none",
+             "Strain beyond which it keeps the new shape, at constant volume.")},
       {}};
+  return result;
+}
+
+const Record& fibres_record() {
+  static const Record result{"fibres",
+                             "Fibres along one direction, which stiffen the solid, and shorten where it is a muscle.",
+                             {field("direction", vector("-", largest_place), Fibres{}.direction,
+                                    "Their direction in the rest shape, of any length but 0."),
+                              field("modulus", positive("Pa", 1e15), Fibres{}.modulus,
+                                    "Stress per strain along the fibre, besides that of the solid."),
+                              field("stretch", list(record(rest_keyframe_record()), 1), "1 at all times",
+                                    "The length that fibres want over their length at rest: 0.6 where a muscle contracts "
+                                    "by 40 %. Linear between times.")},
+                             {}};
   return result;
 }
 
@@ -70,7 +86,8 @@ const Record& soft_body_record() {
        field("size", positive("m", largest_place), "an eighth of the longest side, less if it is thin",
              "Only for a mesh: length of the edges of tetrahedra."),
        field("material", any_of({choice(solid_names()), record(elastic_solid_record())}), "the defaults of elastic solid",
-             "The material: the name of a built-in elastic solid, or an elastic solid.")},
+             "The material: the name of a built-in elastic solid, or an elastic solid."),
+       field("fibres", record(fibres_record()), "none", "Fibres in it: a muscle.")},
       {"tetrahedra", "mesh"}};
   return result;
 }

@@ -19,6 +19,7 @@ ClothOptions cloth_options(const JsonDocument& document, const JsonValue& at, co
   if (Stiffness stretch; set(document, at, "stretch", stretch)) options.stretch = stretch;
   if (Stiffness bending; set(document, at, "bending", bending)) options.bending = bending;
   set(document, at, "volume", options.volume);
+  set(at, "bending_plasticity", options.bending_plasticity);
   std::string model = "dihedral";
   set(at, "bending_model", model);
   options.bending_model = model == "none"        ? ClothOptions::Bending::none
@@ -213,6 +214,8 @@ ConstraintGroup constraints_of(const JsonDocument& document, const JsonValue& at
   ConstraintGroup group;
   set(at, "type", group.type);
   set(document, at, "stiffness", group.stiffness);
+  set(at, "plasticity", group.plasticity);
+  set(document, at, "keyframes", group.keyframes);
   const ConstraintType& type = type_named(group.type);
   const std::vector<JsonValue>& stencils = elements(at, "particles");
   for (const JsonValue& stencil : stencils) {

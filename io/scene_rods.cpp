@@ -26,6 +26,7 @@ RodMaterial material_of(const JsonDocument& document, const JsonValue& at) {
   set(at, "shear_modulus", material.shear_modulus);
   set(at, "damping", material.damping);
   set_friction(document, at, material.static_friction, material.kinetic_friction);
+  set(at, "plasticity", material.plasticity);
   return material;
 }
 

@@ -24,7 +24,16 @@ ElasticSolid solid_of(const JsonDocument& document, const JsonValue& at) {
   set(at, "poisson_ratio", solid.poisson_ratio);
   set(at, "damping", solid.damping);
   set_friction(document, at, solid.static_friction, solid.kinetic_friction);
+  set(at, "plasticity", solid.plasticity);
   return solid;
+}
+
+Fibres fibres_of(const JsonDocument& document, const JsonValue& at) {
+  Fibres fibres;
+  set(at, "direction", fibres.direction);
+  set(at, "modulus", fibres.modulus);
+  set(document, at, "stretch", fibres.stretch);
+  return fibres;
 }
 
 TetrahedralMesh box_of(const JsonDocument& document, const JsonValue& at) {
@@ -103,6 +112,7 @@ BuiltObject soft_body_of(const JsonDocument& document, const JsonValue& at, cons
   SoftBodyOptions options;
   options.name = name;
   if (const JsonValue* material = at.find("material")) options.material = solid_of(document, *material);
+  if (const JsonValue* fibres = at.find("fibres")) options.fibres = fibres_of(document, *fibres);
   const Notes notes{name, repairs};
   if (const JsonValue* tetrahedra = at.find("tetrahedra")) {
     if (const JsonValue* size = at.find("size"))

@@ -102,6 +102,28 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, Mo
   return true;
 }
 
+bool set(const JsonValue& at, const char* name, std::optional<Plasticity>& target) {
+  const JsonValue* value = at.find(name);
+  if (value == nullptr) return false;
+  target.emplace();
+  set(*value, "yield", target->yield);
+  set(*value, "rate", target->rate);
+  set(*value, "most", target->most);
+  return true;
+}
+
+bool set(const JsonDocument& document, const JsonValue& at, const char* name, std::vector<RestKeyframe>& target) {
+  for (const JsonValue& item : elements(at, name)) {
+    RestKeyframe key;
+    set(item, "time", key.time);
+    set(item, "factor", key.factor);
+    if (!target.empty() && !(key.time > target.back().time))
+      document.fail(*item.find("time"), "this time is not after the previous one", "times must increase");
+    target.push_back(key);
+  }
+  return !target.empty();
+}
+
 bool set(const JsonDocument& document, const JsonValue& at, const char* name, std::optional<Volume>& target) {
   const JsonValue* value = at.find(name);
   if (value == nullptr) return false;

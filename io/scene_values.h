@@ -34,6 +34,9 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, St
 /// Reads a motion. Throws an Error if the times of keyframes do not increase.
 bool set(const JsonDocument& document, const JsonValue& at, const char* name, Motion& target);
 bool set(const JsonDocument& document, const JsonValue& at, const char* name, std::optional<Volume>& target);
+bool set(const JsonValue& at, const char* name, std::optional<Plasticity>& target);
+/// Reads factors of rest data. Throws an Error if their times do not increase.
+bool set(const JsonDocument& document, const JsonValue& at, const char* name, std::vector<RestKeyframe>& target);
 /// Reads a fabric: by name, or as a record.
 bool set(const JsonDocument& document, const JsonValue& at, const char* name, Fabric& target);
 

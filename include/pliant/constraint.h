@@ -15,6 +15,10 @@
 // only pushes has low = 0, a motor has its greatest torque. With `acts_on_motion = true` a row does not bring C to zero, but
 // the speed of C to out.speed, within the bounds; its compliance is a speed over a force (a viscous damper's inverse rate).
 //
+// A type whose rest shape can yield (Plasticity) has `static bool flow(at, params, start, by)`: it changes the rest data `params`, which
+// were `start` in the beginning, by the PlasticFlow `by`, and returns true if it did. One whose rest field 0 is a size that keyframes may
+// multiply has `static constexpr bool rest_scales = true`.
+//
 // The unit of compliance is the inverse unit of the energy C^2 / 2. PBD stiffness, damping, multipliers, Report and scene
 // files work as for the library's types. Your constraints are projected one at a time, in colours that all threads share.
 //
@@ -55,6 +59,9 @@ struct ConstraintDefinition {
   void (*evaluate_double)(const double* slots, const double* rest, double* c, double* gradients) = nullptr;
   void (*measure)(const double* slots, double* rest) = nullptr;  ///< computes rest data from a rest shape; null: give them
   void (*canonical)(int* stencil, float* rest) = nullptr;        ///< reorders slots that are symmetric; null: none are
+  /// Lets rest data follow the present shape (Plasticity); false if they stay. Null: the type is always elastic.
+  bool (*flow)(const float* slots, float* rest, const float* start, const PlasticFlow& by) = nullptr;
+  bool rest_scales = false;  ///< true if rest field 0 is a size that ConstraintGroup::keyframes may multiply
 };
 
 /// Registers a constraint type by its name, for Worlds made afterwards; repeating it is permitted. Throws an Error if
@@ -189,6 +196,20 @@ void canonical(int* stencil, float* rest) {
 }
 
 template <class T>
+inline constexpr bool flows = requires(const SlotValues<typename T::slots, float>& at,
+                                       typename T::template Params<float>& params, const PlasticFlow& by) {
+  T::flow(at, params, params, by);
+};
+
+template <class T>
+bool flow(const float* slots, float* rest, const float* start, const PlasticFlow& by) {
+  typename T::template Params<float> params = params_of<T, float>(rest);
+  if (!T::flow(values_of<typename T::slots, float>(slots), params, params_of<T, float>(start), by)) return false;
+  std::memcpy(rest, &params, sizeof params);
+  return true;
+}
+
+template <class T>
 ConstraintDefinition definition_of() {
   static_assert(T::rows >= 1 && T::rows <= 6, "a type has one to six rows");
   ConstraintDefinition made;
@@ -213,6 +234,8 @@ ConstraintDefinition definition_of() {
       made.measure = [](const double*, double*) {};
   }
   if constexpr (has_canonical<T>) made.canonical = &canonical<T>;
+  if constexpr (flows<T>) made.flow = &flow<T>;
+  if constexpr (requires { T::rest_scales; }) made.rest_scales = T::rest_scales;
   return made;
 }
 

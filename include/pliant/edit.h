@@ -34,4 +34,13 @@ Edit remove_triangles(const Object& object, std::span<const int> triangles);
 /// share no edge, or the object is a soft body.
 Edit cut(const Object& object, std::span<const int> path);
 
+/// Removes tetrahedra of a soft body (tetrahedra_of), with their share of mass; the hole has a surface. Particles that no tetrahedron uses
+/// any more are left over, apart from all others. Throws an Error if a tetrahedron does not exist, or the object has none.
+Edit remove_tetrahedra(const Object& object, std::span<const int> tetrahedra);
+
+/// Parts a soft body along faces of its tetrahedra: those of different `part` come apart, one number for each of tetrahedra_of. A
+/// particle is split into one for each fan of tetrahedra of one part around it; copies follow all other particles. Masses are divided by
+/// volume, so mass and momentum are conserved. Throws an Error if the sizes differ, or the object has no tetrahedra.
+Edit part_tetrahedra(const Object& object, std::span<const int> part);
+
 }  // namespace pliant

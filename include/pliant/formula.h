@@ -79,6 +79,15 @@ PLIANT_HD Vec3<R> rotate(const Quat<R>& q, const Vec3<R>& v) {
   return v + (turned + turned);
 }
 
+// ---------------------------------------------------------------- plasticity
+
+/// How much of a deformation becomes permanent in one substep (Plasticity).
+struct PlasticFlow {
+  float yield;  ///< what stays elastic
+  float share;  ///< of what is beyond, the share that flows, 0..1
+  float most;   ///< greatest permanent deformation
+};
+
 // ---------------------------------------------------------------- slots and rows
 
 /// The two kinds of slot of a constraint.

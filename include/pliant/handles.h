@@ -118,6 +118,10 @@ class ObjectHandle : public ObjectView {
   /// Gives a motor of the joint of that name a new target, which it keeps until the next call, restore() or edit. The kind of the
   /// motor stays. Throws an Error if the object has no such joint, or the joint no such motor.
   void set_motor(const std::string& joint, const MotorCommand& command);
+  /// Multiplies the rest data of a group of constraints by a factor >= 0 instead of its keyframes, until the next call, restore() or
+  /// edit: rest lengths of "distance", rest volumes of "tetrahedron_volume", the rest stretch of "fibre" (a muscle's activation). `group`
+  /// is an index in Object::constraints. Throws an Error if there is no such group, or its type has no size at rest.
+  void set_rest_factor(int group, float factor);
 
  private:
   WorldData* world_;

@@ -28,6 +28,8 @@ struct RodMaterial {
   float static_friction = 0.4f;   ///< coefficient of friction at rest [-]
   float kinetic_friction = 0.3f;  ///< coefficient of friction while sliding [-]
   std::string source;             ///< where the numbers come from
+  /// Strain at the surface of a bent or twisted rod beyond which it stays so, and how fast that flows; none: elastic.
+  std::optional<Plasticity> plasticity{};
 };
 
 /// Returns a built-in material: "steel wire", "copper wire", "nylon line", "hair", "rubber cord" or "bamboo". For any other

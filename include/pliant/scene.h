@@ -26,13 +26,33 @@ namespace pliant {
 
 // ---------------------------------------------------------------- deformable objects
 
+/// How a deformation becomes permanent: what is beyond `yield` flows away, in all up to `most`. Of what a constraint measures: of tetrahedra
+/// ("tetrahedron_shear") the strain, of hinges ("dihedral_bending") the angle [rad], of rods ("rod_joint") the strain at their surface.
+struct Plasticity {
+  float yield = 0;  ///< elastic deformation that does not become permanent, >= 0 [-, or rad of hinges]
+  /// How fast the rest flows: exp(-rate t) of what is beyond `yield` is left after t seconds. 0: all of it flows at once, as in metal;
+  /// with a `yield` of 0 it creeps, as dough does. >= 0 [1/s]
+  float rate = 0;
+  float most = 1e30f;  ///< greatest permanent deformation; beyond it the matter is elastic again [-, or rad of hinges]
+};
+
+/// A factor of rest data at a time.
+struct RestKeyframe {
+  float time = 0;    ///< [s]
+  float factor = 1;  ///< >= 0 [-]
+};
+
 /// A group of constraints of one type among the particles of one object. `type` is a name in constraint_types().
 struct ConstraintGroup {
-  std::string type;                ///< "distance", "dihedral_bending", "isometric_bending", ...
-  std::vector<int> particles;      ///< indices, stencil after stencil; for a frame slot the index of a frame
-  std::vector<float> rest;         ///< rest data by constraint; empty: measured from the positions
-  Stiffness stiffness{};           ///< stiffness of every constraint of the group
-  std::vector<float> compliances;  ///< compliance of each constraint, instead of stiffness.value; empty: all equal
+  std::string type;                        ///< "distance", "dihedral_bending", "isometric_bending", ...
+  std::vector<int> particles;              ///< indices, stencil after stencil; for a frame slot the index of a frame
+  std::vector<float> rest;                 ///< rest data by constraint; empty: measured from the positions
+  Stiffness stiffness{};                   ///< stiffness of every constraint of the group
+  std::vector<float> compliances;          ///< compliance of each constraint, instead of stiffness.value; empty: all equal
+  std::optional<Plasticity> plasticity{};  ///< for types that have it; none: elastic
+  /// By what the rest length of "distance", the rest volume of "tetrahedron_volume" or the rest stretch of "fibre" is multiplied: linear
+  /// between keyframes, constant before the first and after the last. Their times increase. It changes once a frame.
+  std::vector<RestKeyframe> keyframes{};
 };
 
 /// A constraint type: its name, slots, rows and rest data.
@@ -198,6 +218,8 @@ struct ClothOptions {
   enum class Bending { none, dihedral, isometric } bending_model = Bending::dihedral;
   std::optional<Volume> volume{};  ///< makes a balloon; needs a closed mesh
   Vec3f velocity{};                ///< initial velocity [m/s]
+  /// Of dihedral bending: folds beyond an angle stay, as in paper or sheet metal.
+  std::optional<Plasticity> bending_plasticity{};
 };
 
 /// Makes cloth of any triangle mesh, flat or curved, which becomes its rest shape: a distance constraint for each edge,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,8 @@ struct ElasticSolid {
   float static_friction = 0.6f;   ///< coefficient of friction at rest [-]
   float kinetic_friction = 0.5f;  ///< coefficient of friction while sliding [-]
   std::string source;             ///< where the numbers come from
+  /// Strain beyond which it keeps the new shape, and how fast that flows; none: elastic. Only its shape flows, its volume does not.
+  std::optional<Plasticity> plasticity{};
 };
 
 /// Returns a built-in elastic solid: "gelatine", "rubber", "foam" or "muscle". For any other name throws an Error that lists
@@ -37,12 +40,23 @@ const ElasticSolid& elastic_solid(std::string_view name);
 /// All built-in elastic solids.
 const std::vector<ElasticSolid>& elastic_solids();
 
+/// Fibres in an elastic solid, which stiffen it along a direction, and shorten where it is a muscle.
+struct Fibres {
+  Vec3f direction{1, 0, 0};         ///< of all fibres, in the rest shape; of any length but 0
+  std::vector<Vec3f> directions{};  ///< instead: one for each tetrahedron of the mesh; (0, 0, 0): it has none
+  float modulus = 1e5f;             ///< stress per strain along the fibre, besides that of the solid, > 0 [Pa]
+  /// The length that fibres want over their length at rest: 0.6 where a muscle contracts by 40 %. At times, as ConstraintGroup::keyframes;
+  /// ObjectHandle::set_rest_factor sets it by call. None: always 1.
+  std::vector<RestKeyframe> stretch{};
+};
+
 /// Options of make_soft_body.
 struct SoftBodyOptions {
   std::string name = "soft_body";
   ElasticSolid material{};
   Vec3f velocity{};          ///< at the start [m/s]
   float thickness = 0.001f;  ///< Object::thickness: distance that its surface keeps [m]
+  std::optional<Fibres> fibres{};
 };
 
 /// Makes an elastic body of a tetrahedral mesh, which becomes its rest shape: of each tetrahedron a quarter of the mass at each
@@ -51,6 +65,9 @@ struct SoftBodyOptions {
 /// objects; with itself only if Object::self_collision is set. Corners that no tetrahedron uses are dropped. Throws an Error that
 /// names a tetrahedron that cannot be used, or an option that is out of range.
 Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& options = {});
+
+/// The tetrahedra of a soft body: particles of the Object, in the order of its shear constraints. Empty for other objects.
+std::vector<std::array<int, 4>> tetrahedra_of(const Object& object);
 
 /// The triangles that belong to one tetrahedron alone, counter-clockwise seen from outside. Throws an Error that names a
 /// tetrahedron that shares a face with two others.

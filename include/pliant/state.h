@@ -134,6 +134,15 @@ struct MotorSetting {
   friend auto operator<=>(const MotorSetting&, const MotorSetting&) = default;
 };
 
+/// What ObjectHandle::set_rest_factor set for a group of constraints.
+struct RestFactor {
+  int block = 0;     ///< of the object: its index in State::blocks
+  int group = 0;     ///< index in Object::constraints
+  float factor = 1;  ///< by which its rest data are multiplied, >= 0 [-]
+  // NOLINTNEXTLINE(modernize-use-nullptr)
+  friend auto operator<=>(const RestFactor&, const RestFactor&) = default;
+};
+
 /// Two grains in contact (pliant/grains.h).
 struct GrainContact {
   std::int32_t a = 0, b = 0;  ///< particles of the State, a < b
@@ -187,7 +196,10 @@ struct State {
   std::vector<GrainContact> grain_contacts;  ///< those that press, ascending by a, then b; usually none
   /// For each particle, the time at which it came [s], or `not_there`. Empty if the particles of no object come or go (Flow).
   std::vector<double> births;
-  std::vector<EmittedLayers> emitted;  ///< of each emitter, by block and emitter; usually none
+  std::vector<EmittedLayers> emitted;    ///< of each emitter, by block and emitter; usually none
+  std::vector<RestFactor> rest_factors;  ///< ascending by block and group; usually none
+  /// The rest data of all constraints that are plastic (Plasticity), object after object, in the order of its pools; usually none.
+  std::vector<float> flowed;
 };
 
 /// True if a particle of the State is there (Flow).

@@ -7,6 +7,7 @@
 #include "constraints/cylindrical_joint.h"
 #include "constraints/dihedral_bending.h"
 #include "constraints/distance.h"
+#include "constraints/fibre.h"
 #include "constraints/fixed_joint.h"
 #include "constraints/gear_joint.h"
 #include "constraints/hinge_joint.h"
@@ -33,7 +34,7 @@ namespace pliant {
 /// The types in the order in which a sweep visits them. Of joints, motors and friction come first, then limits, so that what
 /// holds parts together has the last word.
 using AllConstraints =
-    TypeList<Distance, DihedralBending, IsometricBending, TetrahedronShear, TetrahedronVolume, JointAngleMotor,
+    TypeList<Distance, DihedralBending, IsometricBending, Fibre, TetrahedronShear, TetrahedronVolume, JointAngleMotor,
              JointOffsetMotor, JointAngle, JointOffset, JointSwing, JointDistance, PulleyJointRows, GearJointRows,
              RackJointRows, PlanarJointRows, CylindricalJointRows, UniversalJointRows, SliderJointRows, BallJointRows,
              HingeJointRows, RodJointRows, FixedJointRows, BodyAnchor>;

@@ -65,6 +65,17 @@ struct DihedralBending {
     return {evaluate(x, Params<R>{R(0)}, gradient)};
   }
 
+  /// The rest angle follows the fold by what is beyond `yield`.
+  static bool flow(const SlotValues<slots, float>& at, Params<float>& p, const Params<float>& start,
+                   const PlasticFlow& by) {
+    Vec3<float> gradient[4];
+    const float elastic = evaluate(at.point, p, gradient), beyond = abs(elastic) - by.yield;
+    if (!(beyond > 0)) return false;
+    const float before = p.rest_angle, moved = before + (elastic > 0 ? by.share : -by.share) * beyond;
+    p.rest_angle = clamp(moved, start.rest_angle - by.most, start.rest_angle + by.most);
+    return p.rest_angle != before;
+  }
+
   /// Orders the points. Exchanging the edge's ends, or the tips, changes only the sign of the angle.
   static void canonical(std::array<int, 4>& particle, Params<float>& p) {
     for (int first : {0, 2}) {

@@ -21,6 +21,7 @@ struct Distance {
   static constexpr bool unit_gradients = true;
   /// C is the distance of two points minus rest field 0. Chains, tethers, multigrid and stretch measures require this.
   static constexpr bool is_length = true;
+  static constexpr bool rest_scales = true;
 
   template <class R>
   struct Params {

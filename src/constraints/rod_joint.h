@@ -47,7 +47,43 @@ struct RodJointRows {
     return {joint::measure_places(at), one, one};
   }
 
+  /// The rest rotation follows that of the segments by what is beyond `yield`, a strain at the surface of a round rod.
+  static bool flow(const SlotValues<slots, float>& at, Params<float>& p, const Params<float>& start,
+                   const PlasticFlow& by) {
+    const joint::Posed<float> posed = joint::pose(at, p.places);
+    const Quat<float> turned = joint::relative(posed.frame_a, posed.frame_b);
+    const float strain = surface_strain(rotation_vector(turned), p), beyond = strain - by.yield;
+    if (!(beyond > 0) || !(by.share > 0)) return false;
+    const Quat<float> flowed = of_rotation_vector(rotation_vector(turned) * (-by.share * (beyond / strain)));
+    Quat<float> axes = normalise(multiply(p.places.axes_b, flowed));
+    const Quat<float> permanent = joint::relative(start.places.axes_b, axes);
+    const float size = surface_strain(rotation_vector(permanent), p);
+    if (size > by.most)
+      axes = normalise(multiply(start.places.axes_b, of_rotation_vector(rotation_vector(permanent) * (by.most / size))));
+    p.places.axes_b = axes;
+    return true;
+  }
+
  private:
+  /// phi of a rotation, and the rotation of a phi.
+  static Vec3<float> rotation_vector(const Quat<float>& q) {
+    const float share = 4 / (1 + q.w);
+    return {q.x * share, q.y * share, q.z * share};
+  }
+  static Quat<float> of_rotation_vector(const Vec3<float>& phi) {
+    const Vec3<float> m = phi * 0.25f;
+    const float share = 1 / (1 + dot(m, m));
+    return {2 * m.x * share, 2 * m.y * share, 2 * m.z * share, (1 - dot(m, m)) * share};
+  }
+  /// The equivalent strain at the surface of a rod of radius r over a length l: r / l sqrt(bend^2 + twist^2 / 3). From its stiffness,
+  /// r = 2 sqrt(I / A).
+  static float surface_strain(const Vec3<float>& phi, const Params<float>& p) {
+    const float length = sqrt(dot(p.places.anchor_a, p.places.anchor_a)) + sqrt(dot(p.places.anchor_b, p.places.anchor_b));
+    const float bending = max(p.root_of_torque.y, p.root_of_torque.z);
+    const float radius = 2 * bending / max(p.root_of_force.x, 1e-30f);
+    return radius / max(length, 1e-30f) * sqrt(phi.y * phi.y + phi.z * phi.z + phi.x * phi.x * (1.f / 3));
+  }
+
   /// Component `axis` of phi, in row 3 + axis.
   template <class R>
   PLIANT_HD static void bend(const joint::Posed<R>& posed, const Quat<R>& p, int axis, Rows<slots, rows, R>& out) {

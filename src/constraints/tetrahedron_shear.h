@@ -14,6 +14,7 @@
 
 #include <array>
 
+#include "math/isochoric_strain.h"
 #include "pliant/formula.h"
 #include "pliant/vec3.h"
 
@@ -63,7 +64,36 @@ struct TetrahedronShear {
     return {r0.x, r0.y, r0.z, r1.x, r1.y, r1.z, r2.x, r2.y, r2.z};
   }
 
+  /// D^-1 becomes D^-1 U^-1, where U = exp(s e), of volume 1, is the part of the stretch that flows, and e the logarithmic strain at
+  /// constant volume. `yield` and `most` are equivalent strains (von Mises) of it: log(l) for a bar l times as long.
+  static bool flow(const SlotValues<slots, float>& at, Params<float>& p, const Params<float>& start,
+                   const PlasticFlow& by) {
+    const Matrix3d edges = columns(at.point[1] - at.point[0], at.point[2] - at.point[0], at.point[3] - at.point[0]);
+    const Matrix3d f = product(edges, matrix(p));
+    if (!(determinant(f) > 0) || is_surely_below(f, static_cast<double>(by.yield))) return false;
+    const IsochoricStrain strain(f);
+    const double beyond = 1 - static_cast<double>(by.yield) / max(strain.equivalent(), 1e-30);
+    if (!(beyond > 0)) return false;
+    const Matrix3d rest_edges = inverse(matrix(start));
+    double share = static_cast<double>(by.share) * beyond;
+    for (int attempt = 0; attempt < 10; ++attempt, share = share / 2) {  // as much of it as `most` permits
+      const Matrix3d to = product(matrix(p), strain.power(-share));
+      if (by.most < 1e29f && IsochoricStrain(product(rest_edges, to)).equivalent() > static_cast<double>(by.most)) continue;
+      set(p, to);
+      return true;
+    }
+    return false;
+  }
+
  private:
+  static Matrix3d matrix(const Params<float>& p) {
+    return {{p.d00, p.d01, p.d02, p.d10, p.d11, p.d12, p.d20, p.d21, p.d22}};
+  }
+  static void set(Params<float>& p, const Matrix3d& m) {
+    const auto at = [&](int i) { return static_cast<float>(m[i]); };
+    p = {at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8)};
+  }
+
   /// |F|^2 + J^2 - 4 J. Near rest three large terms cancel there, so it is computed from Green's strain E = (F^T F - 1) / 2 with
   /// the invariants of E: 2 d^2 - 4 I2 - 8 I3, where d = J - 1 and J^2 - 1 = 2 I1 + 4 I2 + 8 I3.
   template <class R>

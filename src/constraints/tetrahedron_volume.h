@@ -22,6 +22,7 @@ struct TetrahedronVolume {
   static constexpr const char* name = "tetrahedron_volume";
   using slots = Points<4>;
   static constexpr int rows = 1;
+  static constexpr bool rest_scales = true;
 
   template <class R>
   struct Params {

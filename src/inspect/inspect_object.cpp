@@ -166,6 +166,34 @@ void check_compliances(Problems& problems, const ConstraintGroup& group, std::si
                  "0 is rigid; remove constraints that should have no effect");
 }
 
+void check_plasticity(Problems& problems, const ConstraintGroup& group, const std::string& element) {
+  if (!group.plasticity) return;
+  const Plasticity& p = *group.plasticity;
+  const auto is_number = [](float value) { return value >= 0 && value <= 1e30f; };
+  if (constraint_type(find_constraint_type(group.type)).flow == nullptr)
+    problems.grave(element, "have a plasticity, but constraints of this type have none", "leave it out");
+  if (!is_number(p.yield) || !is_number(p.rate) || !is_number(p.most))
+    problems.grave(element, "have a plasticity with a number below 0 or not finite", "give numbers of 0 or more");
+}
+
+void check_keyframes(Problems& problems, const ConstraintGroup& group, const std::string& element) {
+  if (group.keyframes.empty()) return;
+  if (!constraint_type(find_constraint_type(group.type)).rest_scales)
+    problems.grave(element, "have keyframes, but constraints of this type have no size at rest",
+                   "give keyframes to distance, tetrahedron_volume or fibre constraints");
+  if (group.plasticity)
+    problems.grave(element, "have both keyframes and a plasticity, which both change the rest data", "choose one");
+  for (std::size_t i = 0; i < group.keyframes.size(); ++i) {
+    const RestKeyframe& key = group.keyframes[i];
+    if (!std::isfinite(key.time) || !(key.factor >= 0) || !(key.factor <= 1e6f))
+      problems.grave(element, "have a keyframe with a time that is not finite or a factor outside 0 to 1e6",
+                     "give finite numbers");
+    else if (i > 0 && !(key.time > group.keyframes[i - 1].time))
+      problems.grave(element, "have keyframe " + of(i) + " at a time that is not after the one before",
+                     "sort them by time");
+  }
+}
+
 void check_group(Problems& problems, const Object& object, const ConstraintGroup& group) {
   const ConstraintType* type = find_type(group.type);
   if (type == nullptr) {
@@ -185,6 +213,8 @@ void check_group(Problems& problems, const Object& object, const ConstraintGroup
   check_rest(problems, group, *type, count, kind);
   check_stiffness(problems, group.type + " constraints", group.stiffness);
   check_compliances(problems, group, count, kind);
+  check_plasticity(problems, group, group.type + " constraints");
+  check_keyframes(problems, group, group.type + " constraints");
 }
 
 // ------------------------------------------------------------------------------------------------ surface and volume

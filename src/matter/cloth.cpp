@@ -260,6 +260,7 @@ ConstraintGroup bending_group(const Piece& piece) {
     group.stiffness = *piece.options.bending;
   else if (std::isfinite(piece.options.material.bending_stiffness))
     apply_material(piece, group, isometric);
+  group.plasticity = piece.options.bending_plasticity;
   return group;
 }
 
@@ -301,6 +302,9 @@ Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options) {
   require_distinct_triangles(piece);
   wind_alike(piece);
   if (options.volume) require_balloon(piece);
+  if (options.bending_plasticity && options.bending_model != ClothOptions::Bending::dihedral)
+    piece.refuse("bending_plasticity", "needs dihedral bending: other hinges have no angle at rest",
+                 "set bending_model to dihedral, or leave the plasticity out");
   lump_masses(piece);
   return assemble(piece);
 }

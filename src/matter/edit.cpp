@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "matter/edit_parts.h"
 #include "model/soft_body_substeps.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
@@ -24,13 +25,6 @@ using Corners = std::array<int, 3>;
 Edge edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 bool holds(const Corners& t, int particle) { return t[0] == particle || t[1] == particle || t[2] == particle; }
-
-int slots_of(const ConstraintGroup& group, const Object& object) {
-  for (const ConstraintType& type : constraint_types())
-    if (type.name == group.type) return type.stencil_size;
-  throw Error({.object = object.name, .element = group.type + " constraints"}, "have an unknown type",
-              "constraint_types() lists the known ones");
-}
 
 /// The triangles incident to each particle.
 using Around = std::vector<std::vector<int>>;
@@ -63,33 +57,6 @@ std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& obj
   return {found.begin(), found.end()};
 }
 
-/// Appends a copy of constraint `number` of a group with the given stencil, and with its compliance times `softer`.
-void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to) {
-  const auto slots = stencil.size();
-  const std::size_t count = from.particles.size() / slots, fields = count > 0 ? from.rest.size() / count : 0;
-  const auto at = static_cast<std::size_t>(number);
-  to.particles.insert(to.particles.end(), stencil.begin(), stencil.end());
-  const auto rest = from.rest.begin() + static_cast<std::ptrdiff_t>(at * fields);
-  to.rest.insert(to.rest.end(), rest, rest + static_cast<std::ptrdiff_t>(fields));
-  const bool compliant = from.stiffness.kind == Stiffness::Kind::compliance;
-  const float alpha = from.compliances.empty() ? from.stiffness.value : from.compliances[at];
-  if (compliant || !from.compliances.empty())
-    to.compliances.push_back(softer == 1 ? alpha : static_cast<float>(alpha * softer));
-}
-
-ConstraintGroup empty_like(const ConstraintGroup& group) {
-  ConstraintGroup out = group;
-  out.particles.clear();
-  out.rest.clear();
-  out.compliances.clear();
-  return out;
-}
-
-std::vector<int> stencil_of(const ConstraintGroup& group, int slots, int number) {
-  const auto first = group.particles.begin() + static_cast<std::ptrdiff_t>(number) * slots;
-  return {first, first + slots};
-}
-
 double area_of(const Object& object, int t) {
   const Corners& c = object.triangles[static_cast<std::size_t>(t)];
   const auto p = [&](int i) { return object.positions[static_cast<std::size_t>(c[static_cast<std::size_t>(i)])]; };
@@ -119,8 +86,7 @@ class Cut {
       for (int& corner : edit.object.triangles[t]) corner = copy(corner, static_cast<int>(t));
     for (ConstraintGroup& group : edit.object.constraints) group = split(group);
     for (std::size_t i = 0; i < origins_.size(); ++i) {
-      add_pins(origins_[i], particles() + static_cast<int>(i), edit.object);
-      add_to_clusters(origins_[i], particles() + static_cast<int>(i), edit.object);
+      hold_like(origins_[i], particles() + static_cast<int>(i), edit.object);
     }
     return edit;
   }
@@ -236,30 +202,6 @@ class Cut {
     return out;
   }
 
-  /// Pins and attaches a copy as its origin is.
-  static void add_pins(int of, int copy, Object& object) {
-    const std::vector<Pin> pins = object.pins;
-    for (const Pin& pin : pins)
-      if (pin.particle == of) object.pins.push_back({copy, pin.motion});
-    const std::vector<Attachment> attachments = object.attachments;
-    for (Attachment attachment : attachments) {
-      if (attachment.particle != of) continue;
-      attachment.particle = copy;
-      object.attachments.push_back(attachment);
-    }
-  }
-
-  /// A copy joins the clusters of its origin, at the same rest place.
-  static void add_to_clusters(int of, int copy, Object& object) {
-    for (Cluster& cluster : object.clusters) {
-      const auto found = std::find(cluster.particles.begin(), cluster.particles.end(), of);
-      if (found == cluster.particles.end()) continue;
-      const std::ptrdiff_t at = found - cluster.particles.begin();
-      if (!cluster.rest.empty()) cluster.rest.push_back(cluster.rest[static_cast<std::size_t>(at)]);
-      cluster.particles.push_back(copy);
-    }
-  }
-
   const Object& object_;
   const std::set<Edge>& edges_;
   Around around_;
@@ -283,8 +225,8 @@ std::set<Edge> edges_of(const Object& object, std::span<const int> path) {
 /// The edits of this file know of surfaces; tetrahedra would be left behind.
 void refuse_soft_body(const Object& object) {
   if (is_soft_body(object))
-    throw Error({.object = object.name}, "is a soft body, whose tetrahedra cannot be cut",
-                "cut cloth, or make the body of other tetrahedra");
+    throw Error({.object = object.name}, "is a soft body, whose tetrahedra cannot be cut as a surface",
+                "use part_tetrahedra or remove_tetrahedra");
 }
 
 }  // namespace

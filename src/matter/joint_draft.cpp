@@ -44,10 +44,17 @@ Quatd exchange_axes(int axis) {
   return axis == 1 ? Quatd{0.5, 0.5, 0.5, 0.5} : Quatd{-0.5, -0.5, -0.5, 0.5};
 }
 
-bool accepts(const ConstraintGroup& group, const std::string& type, const Stiffness& stiffness) {
+bool are_equal(const std::optional<Plasticity>& a, const std::optional<Plasticity>& b) {
+  if (!a || !b) return !a && !b;
+  return a->yield == b->yield && a->rate == b->rate && a->most == b->most;
+}
+
+bool accepts(const ConstraintGroup& group, const std::string& type, const Stiffness& stiffness,
+             const std::optional<Plasticity>& plasticity) {
   const Stiffness& own = group.stiffness;
   return group.type == type && own.kind == stiffness.kind && own.value == stiffness.value &&
-         own.damping == stiffness.damping && group.compliances.empty() && !group.rest.empty();
+         own.damping == stiffness.damping && are_equal(group.plasticity, plasticity) && group.compliances.empty() &&
+         group.keyframes.empty() && !group.rest.empty();
 }
 
 /// "an axis", "a ratio".
@@ -75,10 +82,11 @@ std::string called(const Object& object, int body) {
 }
 
 /// The group to which a constraint can be added; a new one if there is none.
-std::size_t group_for(Object& object, const std::string& type, const Stiffness& stiffness) {
+std::size_t group_for(Object& object, const std::string& type, const Stiffness& stiffness,
+                      const std::optional<Plasticity>& plasticity) {
   for (std::size_t i = 0; i < object.constraints.size(); ++i)
-    if (accepts(object.constraints[i], type, stiffness)) return i;
-  object.constraints.push_back({type, {}, {}, stiffness, {}});
+    if (accepts(object.constraints[i], type, stiffness, plasticity)) return i;
+  object.constraints.push_back({type, {}, {}, stiffness, {}, plasticity});
   return object.constraints.size() - 1;
 }
 
@@ -204,8 +212,8 @@ void JointDraft::add(const char* type, int axis, const std::vector<float>& more,
 }
 
 void JointDraft::add_raw(const char* type, const std::vector<int>& slots, const std::vector<float>& rest, float compliance,
-                         float damping) {
-  parts_.push_back({type, slots, rest, Stiffness::compliance(compliance, damping)});
+                         float damping, const std::optional<Plasticity>& plasticity) {
+  parts_.push_back({type, slots, rest, Stiffness::compliance(compliance, damping), plasticity});
 }
 
 void JointDraft::require_range(const JointRange& range, bool is_angle) const {
@@ -272,7 +280,7 @@ int JointDraft::finish() {
   joint.break_force = std::isinf(options_.break_force) ? 0 : options_.break_force;
   joint.break_torque = std::isinf(options_.break_torque) ? 0 : options_.break_torque;
   for (const Part& part : parts_) {
-    const std::size_t number = group_for(object_, part.type, part.stiffness);
+    const std::size_t number = group_for(object_, part.type, part.stiffness, part.plasticity);
     ConstraintGroup& group = object_.constraints[number];
     joint.constraints.push_back({static_cast<int>(number), static_cast<int>(group.particles.size() / part.slots.size())});
     group.particles.insert(group.particles.end(), part.slots.begin(), part.slots.end());

@@ -50,7 +50,7 @@ class JointDraft {
   void lock(const char* type) { add(type, 0, {}, options_.compliance, options_.damping); }
   /// Adds a constraint of any slots and rest data.
   void add_raw(const char* type, const std::vector<int>& slots, const std::vector<float>& rest, float compliance,
-               float damping = 0);
+               float damping = 0, const std::optional<Plasticity>& plasticity = {});
 
   void limit_angle(int axis, const JointRange& range);
   void limit_offset(int axis, const JointRange& range);
@@ -68,6 +68,7 @@ class JointDraft {
     std::vector<int> slots;
     std::vector<float> rest;
     Stiffness stiffness;
+    std::optional<Plasticity> plasticity;
   };
   JointBody find(int body) const;
   JointBody world() const;

@@ -239,7 +239,7 @@ class RodBuilder {
                            stiffness_.bending_2})
       put({std::sqrt(static_cast<double>(of) / length)});
     draft.add_raw("rod_joint", {draft.a().point, draft.a().frame, draft.b().point, draft.b().frame}, rest, 1,
-                  options_.material.damping);
+                  options_.material.damping, options_.material.plasticity);
   }
 
   void name(int joint, const std::string& called) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "matter/fibres.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -18,7 +19,7 @@ using Tetrahedron = std::array<int, 4>;
 
 /// A tetrahedron whose volume is below this share of the product of three edges is flat: its constraints would be zero.
 constexpr double least_volume = 1e-5;
-constexpr double largest_modulus = 1e15, largest_quantity = 1e12;
+constexpr double largest_modulus = 1e15, largest_quantity = 1e12, largest_plastic = static_cast<double>(1e30f);
 /// Of compliances and dampings: over the square of a substep, a larger one would overflow.
 constexpr double largest_response = 1e26;
 
@@ -55,6 +56,11 @@ void require_options(const Source& from, const SoftBodyOptions& options) {
   require(from, "material, static_friction", m.static_friction, static_cast<double>(m.kinetic_friction), false, 1e6,
           "give the kinetic friction or more");
   require(from, "thickness", options.thickness, 0, false, 1e6, "give 0 m or more");
+  if (!m.plasticity) return;
+  require(from, "material, plasticity, yield", m.plasticity->yield, 0, false, largest_plastic,
+          "give a strain of 0 or more");
+  require(from, "material, plasticity, rate", m.plasticity->rate, 0, false, largest_plastic, "give 0 1/s or more");
+  require(from, "material, plasticity, most", m.plasticity->most, 0, false, largest_plastic, "give a strain of 0 or more");
 }
 
 void require_positions(const Source& from) {
@@ -177,7 +183,8 @@ int size_class(double volume) {
 
 /// Adds a constraint for each tetrahedron, whose compliance is 1 / (modulus volume). All of a group have one damping, which is to be the
 /// damping time over the compliance; so with damping there is a group for each size. A large one's would stop a small one.
-void add_groups(const char* type, const MeasuredTetrahedra& solid, double modulus, double damping_time, Object& body) {
+void add_groups(const char* type, const MeasuredTetrahedra& solid, double modulus, double damping_time,
+                const std::optional<Plasticity>& plasticity, Object& body) {
   std::map<int, std::vector<std::size_t>> classes;
   for (std::size_t t = 0; t < solid.tetrahedra.size(); ++t)
     classes[damping_time > 0 ? size_class(solid.volumes[t]) : 0].push_back(t);
@@ -192,6 +199,7 @@ void add_groups(const char* type, const MeasuredTetrahedra& solid, double modulu
       stiffness += energy / static_cast<double>(members.size());
     }
     group.stiffness.damping = static_cast<float>(std::min(damping_time * stiffness, largest_response));
+    group.plasticity = plasticity;
     body.constraints.push_back(std::move(group));
   }
 }
@@ -214,6 +222,16 @@ Lame lame_of(const ElasticSolid& material) {
 }
 
 }  // namespace
+
+std::vector<std::array<int, 4>> tetrahedra_of(const Object& object) {
+  std::vector<Tetrahedron> out;
+  for (const ConstraintGroup& group : object.constraints) {
+    if (group.type != "tetrahedron_shear") continue;
+    for (std::size_t i = 0; i + 3 < group.particles.size(); i += 4)
+      out.push_back({group.particles[i], group.particles[i + 1], group.particles[i + 2], group.particles[i + 3]});
+  }
+  return out;
+}
 
 std::vector<std::array<int, 3>> border_triangles(const TetrahedralMesh& mesh) {
   const std::string none;
@@ -247,8 +265,9 @@ Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& option
   if (!(options.velocity == Vec3f{})) body.velocities.assign(body.positions.size(), options.velocity);
   const Lame lame = lame_of(options.material);
   const double damping = options.material.damping;
-  add_groups("tetrahedron_shear", solid, lame.mu, damping, body);
-  if (lame.lambda > 0) add_groups("tetrahedron_volume", solid, lame.lambda, damping, body);
+  add_groups("tetrahedron_shear", solid, lame.mu, damping, options.material.plasticity, body);
+  if (lame.lambda > 0) add_groups("tetrahedron_volume", solid, lame.lambda, damping, {}, body);
+  if (options.fibres) add_fibres(*options.fibres, damping, solid.tetrahedra, body);
   body.thickness = options.thickness;
   body.collides = true;
   body.static_friction = options.material.static_friction;

@@ -73,6 +73,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   out.grain_heights = heights_of_grains(object, options.frame_time);
   out.substep_rule = substep_rule(object, options.sweep, static_cast<double>(options.gravity));
 
+  const std::vector<ChangingGroup> changing = find_changing_groups(object);  // likewise
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)
                                                             : gather_constraints(object, options.passes);
   const bool in_given_order = options.sweep == Sweep::natural;
@@ -92,6 +93,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   append_chains(lists, options.chain_softness, out);
   schedule_stencils(lists, in_given_order, out);
   out.joints = compile_joints(object, out);
+  out.changing = compile_changing_rest(changing, out);
   fill_triangles(object, out);
   if (options.air || object.volume) fill_corners(out);
   if (has_tethers(options))

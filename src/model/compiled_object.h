@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/carrier.h"
+#include "model/changing_rest.h"
 #include "model/compiled_bodies.h"
 #include "model/compiled_clusters.h"
 #include "model/compiled_joints.h"
@@ -111,6 +112,7 @@ struct CompiledObject {
   std::vector<ChainBatch> chains;
   AlignedVector<float> chain_softness;  ///< sixteen per ChainBatch: regularisation added to the diagonal [1/kg]
   std::vector<LengthRange> lengths;     ///< all distance constraints
+  ChangingRest changing;
   CompiledClusters clusters;
   Tethers tethers;
   Multigrid multigrid;

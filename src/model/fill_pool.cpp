@@ -36,7 +36,7 @@ Pool make_pool(const ConstraintList& list) {
   pool.in_lanes = list.in_lanes;
   pool.is_length = is_length(list.type);
   pool.constraints = list.count();
-  const bool may_change = constraint_type(list.type).acts_on_motion;  // motors get new targets
+  const bool may_change = list.changes || constraint_type(list.type).acts_on_motion;  // motors get new targets
   for (const Row& row : rows_of(list)) {
     const bool is_rest = static_cast<int>(pool.row_offset.size()) < list.fields;
     const bool constant = is_constant(row, list.count()) && !(may_change && is_rest);

@@ -128,6 +128,7 @@ class Gatherer {
     require_sizes(group, definition);
     ConstraintList& list = list_of(type, law_of(group.stiffness));
     const std::size_t size = definition.slots.size(), count = group.particles.size() / size;
+    list.changes = list.changes || group.plasticity || !group.keyframes.empty();
     list.rest.append(group.rest);
     const bool has_own = !group.compliances.empty();
     const bool as_given = has_own && group.stiffness.kind == Stiffness::Kind::compliance;
@@ -162,6 +163,7 @@ ConstraintList ConstraintList::empty() const {
   without.components = components;
   without.in_lanes = in_lanes;
   without.chained = chained;
+  without.changes = changes;
   return without;
 }
 

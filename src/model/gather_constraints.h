@@ -16,6 +16,7 @@ struct ConstraintList {
   Law law = Law::compliant;
   int size = 0, fields = 0, components = 1;
   bool in_lanes = true;
+  bool changes = false;  ///< true: rest data of some of them may change (model/changing_rest.h)
   bool chained = false;  ///< true: solved along paths by the sweep `chains`
   Column<int> stencils;  ///< indices, `size` per constraint; frame f of the object has index particles + f
   Column<float> rest;    ///< rest data, `fields` per constraint

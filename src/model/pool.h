@@ -55,6 +55,8 @@ struct Pool {
     return row_offset[number] < 0 ? constants.data() + static_cast<std::ptrdiff_t>(number) * batch_width
                                   : blocks.data() + batch * block_floats + row_offset[number];
   }
+  /// The same of a row that is not equal for all, to change it.
+  float* change(int number, std::int64_t batch) { return blocks.data() + batch * block_floats + row_offset[number]; }
   std::int32_t row_step(int number) const { return row_offset[number] < 0 ? 0 : block_floats; }
 };
 

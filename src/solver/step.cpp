@@ -11,6 +11,7 @@
 //     limit         the few distances that are still far too long are shortened
 //     filter        steps that would make surfaces cross are truncated
 //     guard         where the substep has become shorter, corrections may not increase energy
+//     yield         what is deformed too far keeps some of it (Plasticity)
 //     update        v from the corrections, x += displacement; restitution at colliders
 //     respond       restitution between surfaces (friction is part of a contact's projection)
 //   measure         overstretch of the frame, and gaps of ties
@@ -66,6 +67,7 @@ bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
   guard_energy(s);
   guard_bodies(s);
+  yield(s);
   if (!update(s)) return false;
   respond(s);
   count_contacts(s);

@@ -13,6 +13,7 @@
 #include "solver/sweeps/sweep.h"
 #include "world/flow.h"
 #include "world/groups.h"
+#include "world/rest.h"
 
 namespace pliant {
 
@@ -159,7 +160,7 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
   }
 }
 
-/// Discards the contacts, broken joints and targets of motors of an object's rigid bodies, and the contacts of its grains.
+/// Discards the contacts, broken joints, targets of motors and factors of rest data of an object's rigid bodies, and the contacts of its grains.
 void forget_contacts(WorldData& world, int number) {
   const StateBlock block = world.state.blocks[static_cast<std::size_t>(number)];
   const auto is_of_block = [&](int particle) {
@@ -168,6 +169,7 @@ void forget_contacts(WorldData& world, int number) {
   std::erase_if(world.state.grain_contacts,
                 [&](const GrainContact& contact) { return is_of_block(contact.a) || is_of_block(contact.b); });
   std::erase_if(world.state.motors, [&](const MotorSetting& setting) { return setting.block == number; });
+  std::erase_if(world.state.rest_factors, [&](const RestFactor& factor) { return factor.block == number; });
   std::erase_if(world.state.broken_joints, [&](const BrokenJoint& joint) { return joint.block == number; });
   std::erase_if(world.state.body_contacts,
                 [&](const BodyContact& contact) { return contact.a.owner == number || contact.b.owner == number; });
@@ -260,7 +262,9 @@ void place_object(WorldData& world, int number) {
     turn_to_present(object, world.state.time, world.state.frames.orientations.data() + world.model.first_frame[number]);
     follow_pressures(world, world.state.time);
   }
+  follow_rest_factors(world, world.state.time);
   prepare_object(world, number);
+  keep_flowed(world);
   note_surfaces(world, number);
 }
 
@@ -278,7 +282,15 @@ void remove_object(WorldData& world, int number) {
   if (std::all_of(world.state.substeps.begin(), world.state.substeps.end(), is_zero)) world.state.substeps.clear();
   fit_state(world);
   prepare_object(world, number);
+  keep_flowed(world);
   drop_unused_sweeps(world.model, world.workspace);
+}
+
+/// For each slot of an object's constraints, a particle or a frame after these, the one before it.
+std::vector<int> slots_before(const Origins& origins, int particles_before) {
+  std::vector<int> out = origins.particles;
+  for (const int frame : origins.frames) out.push_back(frame < 0 ? -1 : particles_before + frame);
+  return out;
 }
 
 void replace_object(WorldData& world, int number, CompiledObject by, const std::vector<int>& from) {
@@ -295,6 +307,7 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   origins.frames = frame_origins(old, by, origins.particles);
   const std::set<std::string> broken = broken_joints_of(world, number);
   const ObjectState kept = take_state(world, number);
+  const FlowedRest flowed = flowed_rest(old);
   forget_control(world, number);
   forget_contacts(world, number);
   world.model.replace(number, std::move(by));
@@ -302,6 +315,8 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   drop_unused_sweeps(world.model, world.workspace);
   give_back_state(world, number, kept, origins);
   break_again(world, number, broken);
+  carry_flowed(flowed, slots_before(origins, particles), world.model.objects[number]);
+  keep_flowed(world);
   clear_births_if_nothing_flows(world);
   const auto emitters = static_cast<std::int32_t>(world.model.objects[number].flow.emitters.size());
   for (const EmittedLayers& emitted : kept.emitted)

@@ -8,6 +8,7 @@
 #include "solver/bodies/joint_load.h"
 #include "world/control.h"
 #include "world/flow.h"
+#include "world/rest.h"
 #include "world/world_data.h"
 
 namespace pliant {
@@ -300,6 +301,7 @@ void World::restore(const State& state) {
   require_broken_joints(data_->model, state);
   require_motors(data_->model, state);
   require_rest_times(state);
+  require_rest(data_->model, state);
   if (!std::isfinite(state.time)) throw Error({}, "the state's time is not finite", "restore an earlier state");
   if (state.frame < 0 || state.frame > largest_frame)
     throw Error({}, "the state's frame is " + std::to_string(state.frame), "restore a state of this world");
@@ -307,6 +309,7 @@ void World::restore(const State& state) {
   break_joints_of_state(*data_);
   set_motors_of_state(*data_);
   follow_pressures(*data_, state.time);
+  take_rest_of_state(*data_);
   forget_multipliers(*data_, false);
   data_->workspace.look_for_tangles = true;
   data_->stopped = false;
@@ -352,6 +355,8 @@ std::string hash(const State& state) {
     sha.add(state.grain_contacts.data(), state.grain_contacts.size() * sizeof(GrainContact));
   if (!state.births.empty()) sha.add(state.births.data(), state.births.size() * sizeof(double));
   if (!state.emitted.empty()) sha.add(state.emitted.data(), state.emitted.size() * sizeof(EmittedLayers));
+  if (!state.rest_factors.empty()) sha.add(state.rest_factors.data(), state.rest_factors.size() * sizeof(RestFactor));
+  if (!state.flowed.empty()) sha.add(state.flowed.data(), state.flowed.size() * sizeof(float));
   return sha.finish();
 }
 

@@ -14,6 +14,7 @@
 #include "world/flow.h"
 #include "world/groups.h"
 #include "world/object_store.h"
+#include "world/rest.h"
 
 namespace pliant {
 
@@ -47,6 +48,8 @@ WorldData::WorldData(const Scene& scene, const Settings& given, const Settings& 
     ids.mesh_colliders.add(add_to_model(*this, collider, compile(collider)));
   state = initial_state(model);
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) prepare_object(*this, number);
+  keep_flowed(*this);
+  follow_rest_factors(*this, 0);
   bring_up_to_date(*this);
 }
 
@@ -123,14 +126,17 @@ Report World::step(float dt) {
   }
   let_flow(*data_, static_cast<double>(dt), report.flow);
   follow_pressures(*data_, data_->state.time + static_cast<double>(dt));
+  follow_rest_factors(*data_, data_->state.time + static_cast<double>(dt));
   begin_control(*data_, dt);
   const std::vector<GroupFrame> groups = plan_frame(*data_, dt, report);
   data_->stopped = true;  // if the step throws (a user's force field may), it stays true
-  pliant::step({data_->model, data_->state, data_->workspace, data_->executor, data_->kernels, groups.back().substeps,
-                data_->settings.iterations, data_->settings.sweep_options, data_->settings.record_residuals, data_->stop,
-                data_->settings.separate_phases, static_cast<double>(data_->settings.tolerance), groups,
-                &data_->overstretch.meter(), data_->settings.sleep},
-               dt, report);
+  pliant::step(
+      {data_->model, data_->state, data_->workspace, data_->executor, data_->kernels, groups.back().substeps,
+       data_->settings.iterations, data_->settings.sweep_options, data_->settings.record_residuals, data_->stop,
+       data_->settings.separate_phases, static_cast<double>(data_->settings.tolerance), groups, &data_->overstretch.meter(),
+       data_->settings.sleep, any_flows(data_->model) ? &data_->model.objects : nullptr},
+      dt, report);
+  keep_flowed(*data_);
   for (JointBreak& broken : report.broken_joints) broken.object = data_->ids.objects.id_of(broken.object.slot);
   if (!report.broken_joints.empty()) data_->groups.bodies_meet_others = true;
   data_->stopped = report.nonfinite.has_value();

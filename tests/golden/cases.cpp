@@ -68,23 +68,17 @@ namespace {
 
 /// Scenes in folders of scenes/ that run code of their own: rigid bodies on meshes, on cloth, in piles and with joints, edges on
 /// primitives, heightfields, a deforming collider, distance grids, untangling, liquids, grains, cloth that holds both, soft bodies, and rods.
-const char* const contact_scenes[] = {"bodies/bowl",        "bodies/hammock",
-                                      "bodies/pyramid",     "bodies/ragdoll",
-                                      "contact/corners",    "contact/heightfield",
-                                      "contact/sleeve",     "contact/solids",
-                                      "contact/untangle",   "liquids/dam_break",
-                                      "liquids/floating",   "liquids/drops",
-                                      "liquids/funnel",     "liquids/honey",
-                                      "liquids/ducks",      "liquids/flood",
-                                      "bags/water",         "grains/heap",
-                                      "grains/hammock",     "bags/gravel",
-                                      "grains/sand_clock",  "grains/sand_castle",
-                                      "liquids/wetting",    "soft_bodies/cantilevers",
-                                      "soft_bodies/stairs", "soft_bodies/squeeze",
-                                      "soft_bodies/finger", "soft_bodies/mattress",
-                                      "bodies/turntable",   "gas/pump",
-                                      "rods/springs",       "rods/stalks",
-                                      "rods/hair",          "rods/winch"};
+const char* const contact_scenes[] = {
+    "bodies/bowl",        "bodies/hammock",      "bodies/pyramid",     "bodies/ragdoll",
+    "contact/corners",    "contact/heightfield", "contact/sleeve",     "contact/solids",
+    "contact/untangle",   "liquids/dam_break",   "liquids/floating",   "liquids/drops",
+    "liquids/funnel",     "liquids/honey",       "liquids/ducks",      "liquids/flood",
+    "bags/water",         "grains/heap",         "grains/hammock",     "bags/gravel",
+    "grains/sand_clock",  "grains/sand_castle",  "liquids/wetting",    "soft_bodies/cantilevers",
+    "soft_bodies/stairs", "soft_bodies/squeeze", "soft_bodies/finger", "soft_bodies/mattress",
+    "soft_bodies/bumper", "soft_bodies/muscle",  "bodies/turntable",   "gas/pump",
+    "rods/springs",       "rods/stalks",         "rods/hair",          "rods/winch",
+    "rods/bent_wire"};
 constexpr int contact_frames = 16;
 
 /// Upper limit of grid nodes along a side: grids as fine as those of the scenes would take seconds to make.

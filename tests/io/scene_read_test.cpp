@@ -179,6 +179,13 @@ TEST_F(FullScene, HasItsBalloonAndTube) {
   EXPECT_EQ(tube.name, "cloth_2");
   EXPECT_EQ(tube.positions.size(), 48U);
   for (const float alpha : tube.constraints.at(0).compliances) EXPECT_EQ(alpha, 0.f);
+  for (const ConstraintGroup& group : tube.constraints) {
+    ASSERT_EQ(group.plasticity.has_value(), group.type == "dihedral_bending");
+    if (!group.plasticity) continue;
+    EXPECT_EQ(group.plasticity->yield, 0.5f);
+    EXPECT_EQ(group.plasticity->rate, 2.f);
+    EXPECT_EQ(group.plasticity->most, 1.5f);
+  }
   EXPECT_EQ(tube.constraints.at(0).stiffness.value, 0.f);
 }
 
@@ -317,7 +324,12 @@ TEST_F(FullScene, HasItsParticles) {
   const Object& object = scene.objects.at(5);
   EXPECT_EQ(object.masses, (std::vector<float>{1, 2, std::numeric_limits<float>::infinity(), 4}));
   EXPECT_EQ(object.velocities.at(1), (Vec3f{1, 2, 3}));
-  ASSERT_EQ(object.constraints.size(), 1U);
+  ASSERT_EQ(object.constraints.size(), 2U);
+  ASSERT_EQ(object.constraints[0].keyframes.size(), 2U);
+  EXPECT_EQ(object.constraints[0].keyframes[1].time, 3.f);
+  EXPECT_EQ(object.constraints[0].keyframes[1].factor, 2.f);
+  ASSERT_TRUE(object.constraints[1].plasticity);
+  EXPECT_EQ(object.constraints[1].plasticity->yield, 0.5f);
   EXPECT_EQ(object.constraints[0].type, "distance");
   EXPECT_EQ(object.constraints[0].particles, (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(object.constraints[0].rest, (std::vector<float>{0.5f, 1.5f}));

@@ -19,7 +19,15 @@ TEST(SceneSoftBodies, AreReadWithEveryField) {
   const Scene scene = parse_scene(test::full_scene(), "every_field.json", ".");
   const Object& bar = named(scene, "bar");
   ASSERT_EQ(bar.positions.size(), 3u * 2 * 4);
-  ASSERT_EQ(bar.constraints.size(), 2u);
+  ASSERT_EQ(bar.constraints.size(), 3u);
+  ASSERT_TRUE(bar.constraints[0].plasticity);
+  EXPECT_EQ(bar.constraints[0].plasticity->yield, 0.25f);
+  EXPECT_FALSE(bar.constraints[1].plasticity);
+  const ConstraintGroup& fibres = bar.constraints[2];
+  EXPECT_EQ(fibres.type, "fibre");
+  ASSERT_EQ(fibres.keyframes.size(), 2u);
+  EXPECT_EQ(fibres.keyframes[1].factor, 0.5f);
+  EXPECT_NEAR(fibres.compliances[0] * (1024 / 18.f), 1, 1e-4);
   EXPECT_EQ(bar.constraints[0].particles.size(), 4u * 6 * 2 * 1 * 3);
   // 2 x 1 x 1 m, fitted to 4 m and halved, so as large as it was; its x-axis points up.
   float low = 1e9f, high = -1e9f, mass = 0;

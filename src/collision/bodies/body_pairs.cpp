@@ -11,7 +11,7 @@ namespace pliant {
 
 namespace {
 
-constexpr int parts_a_task = 256, packets_a_task = 8, pairs_a_task = 2048, renewed_a_task = 64;
+constexpr int parts_a_task = 256, pairs_a_task = 2048, renewed_a_task = 64;
 /// Boxes are larger by this share of their part's size than they need be, so that pairs last for more than a frame.
 constexpr float spare_share = 0.1f;
 
@@ -104,11 +104,14 @@ bool is_inside(const BoxBounds& box, const BoxBounds& larger) {
 
 BodyPairs::BodyPairs(const std::vector<BodyPart>& parts) {
   size_.reserve(parts.size());
+  std::vector<int> family;
   for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
     const BodyPart& part = parts[at(i)];
     (part.is_convex() ? convex_ : others_).push_back(i);
+    if (part.is_convex()) family.push_back(part.family);
     size_.push_back(part.is_convex() ? size_of(part.shape) : 1e30f);
   }
+  crowds_ = BodyCrowds(family);
   std::vector<int> order(parts.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return parts[at(a)].id < parts[at(b)].id; });
@@ -156,32 +159,39 @@ bool BodyPairs::fits() const {
   return true;
 }
 
-/// Finds the pairs of packets [first, last) of the tree. Those of one part are contiguous and ascending.
-void BodyPairs::find_near(const Frame& frame, int first, int last, std::vector<Pair>& found) {
+/// Finds the pairs of a task of crowds_. Those of one part are contiguous and ascending if there is one crowd.
+void BodyPairs::find_near(const Frame& frame, int task, std::vector<Pair>& found) {
   std::vector<int> packs, hits;
   found.clear();
-  for (int packet = first; packet < last; ++packet)
-    tree_.packet_overlaps(packet, tree_, packs, hits, [&](int i, const std::vector<int>& others) {
-      const auto begin = static_cast<std::ptrdiff_t>(found.size());
-      const int a = frame.parts[at(convex_[at(i)])].body;
-      for (const int j : others) {
-        const int b = frame.parts[at(convex_[at(j)])].body;
-        if (i < j && a != b && frame.meet(std::min(a, b), std::max(a, b))) found.emplace_back(i, j);
-      }
-      std::sort(found.begin() + begin, found.end());
-      first_near_[at(i + 1)] = static_cast<int>(found.size()) - static_cast<int>(begin);
-    });
+  crowds_.overlaps(task, packs, hits, [&](int i, const std::vector<int>& others) {
+    const auto begin = static_cast<std::ptrdiff_t>(found.size());
+    const int a = frame.parts[at(convex_[at(i)])].body;
+    for (const int j : others) {
+      const int b = frame.parts[at(convex_[at(j)])].body;
+      if ((i < j || !crowds_.is_one()) && a != b && frame.meet(std::min(a, b), std::max(a, b)))
+        found.emplace_back(std::minmax(i, j));
+    }
+    std::sort(found.begin() + begin, found.end());
+    if (crowds_.is_one()) first_near_[at(i + 1)] = static_cast<int>(found.size()) - static_cast<int>(begin);
+  });
 }
 
 void BodyPairs::find_near(Executor& executor, const Frame& frame) {
   larger_.clear();
   for (std::size_t i = 0; i < boxes_.size(); ++i) larger_.push_back(boxes_[i].grown(spare_share * size_[at(convex_[i])]));
-  tree_.build(larger_);
-  const int packets = tree_.packet_count(), tasks = ranges_of(packets, packets_a_task);
-  of_task_.resize(at(tasks));
+  crowds_.build(larger_);
+  const int tasks = crowds_.tasks();
+  of_task_.resize(std::max(of_task_.size(), at(tasks)));
   first_near_.assign(boxes_.size() + 1, 0);
-  for_ranges(executor, nullptr, packets, packets_a_task,
-             [&](int first, int last) { find_near(frame, first, last, of_task_[at(first / packets_a_task)]); });
+  executor.parallel_for(nullptr, tasks, [&](int task) { find_near(frame, task, of_task_[at(task)]); });
+  if (!crowds_.is_one()) {
+    near_.clear();
+    for (int task = 0; task < tasks; ++task)
+      near_.insert(near_.end(), of_task_[at(task)].begin(), of_task_[at(task)].end());
+    std::sort(near_.begin(), near_.end());
+    near_.erase(std::unique(near_.begin(), near_.end()), near_.end());  // those of crowd 0 came both ways
+    return;
+  }
   std::partial_sum(first_near_.begin(), first_near_.end(), first_near_.begin());
   near_.resize(at(first_near_.back()));
   executor.parallel_for(nullptr, tasks, [&](int task) {
@@ -219,7 +229,7 @@ void BodyPairs::find_pairs_of_others(const Frame& frame, const std::vector<int>*
       const auto add_overlapping = [&](int i) {
         if (overlap(boxes_[at(i)], box)) add(i);
       };
-      some == nullptr ? tree_.query(box, add_overlapping) : for_each(*some, add_overlapping);
+      some == nullptr ? crowds_.query(box, -1, add_overlapping) : for_each(*some, add_overlapping);
     }
   }
   std::sort(of_others_.begin(), of_others_.end(), [&](const Pair& a, const Pair& b) { return in_order(a, b); });
@@ -273,7 +283,7 @@ bool BodyPairs::find_by_tree(Executor& executor, const Frame& frame) {
     found.clear();
     for (int k = first; k < last; ++k) {
       const int i = renewed_[at(k)];
-      tree_.query(boxes_[at(i)], [&](int j) { add(i, j, found); });
+      crowds_.query(boxes_[at(i)], i, [&](int j) { add(i, j, found); });
       for (const int j : escaped) add(i, j, found);
     }
   });

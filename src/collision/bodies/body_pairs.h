@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "collision/bodies/body_crowds.h"
 #include "collision/bodies/body_part.h"
-#include "collision/broad/tree.h"
 #include "parallel/executor.h"
 
 namespace pliant {
@@ -59,7 +59,7 @@ class BodyPairs {
   void find_box(const Frame& frame, float faster, int i);
   bool fits() const;
   void find_near(Executor& executor, const Frame& frame);
-  void find_near(const Frame& frame, int first, int last, std::vector<Pair>& found);
+  void find_near(const Frame& frame, int task, std::vector<Pair>& found);
   void find_overlapping(Executor& executor, const Frame& frame, const std::vector<char>* of);
   void find_pairs_of_others(const Frame& frame, const std::vector<int>* some);
   bool find_by_tree(Executor& executor, const Frame& frame);
@@ -74,7 +74,7 @@ class BodyPairs {
   std::vector<BoxBounds> still_;   ///< [part] of convex parts, without what they may move in a frame
   std::vector<BoxBounds> boxes_;   ///< of convex parts in this frame
   std::vector<BoxBounds> larger_;  ///< of convex parts when the tree was built
-  Tree<BoxBounds> tree_;           ///< of larger_
+  BodyCrowds crowds_;              ///< trees of larger_
   std::vector<Pair> near_;         ///< indices in convex_ whose larger boxes overlap, ascending
   std::vector<int> first_near_;    ///< of each part in convex_: its first pair in near_ as the smaller one
   std::vector<Pair> pairs_, of_others_, found_;

@@ -15,6 +15,7 @@ struct BodyPart {
   bool is_half_space = false;      ///< y <= 0 of its frame, instead of the shape
   Posed pose{};                    ///< of the shape in the body's frame
   const BodyMesh* mesh = nullptr;  ///< instead of the shape
+  int family = -1;                 ///< parts of one family never touch one another; -1: it has none
 
   bool is_convex() const { return !is_half_space && mesh == nullptr; }
 };

@@ -65,6 +65,7 @@ ContactBodies::ContactBodies(const Model& model, const std::vector<int>* objects
 void ContactBodies::add_object(const Model& model, int object, std::vector<BodyPart>& parts) {
   const CompiledObject& from = model.objects[at(object)];
   const int first = static_cast<int>(places_.size());
+  const int family = rules_.meet(object, object) ? -1 : object;
   std::size_t next_driven = 0;  // in the order of bodies
   for (std::size_t b = 0; b < from.bodies.bodies.size(); ++b) {
     const auto& [particle, frame] = from.bodies.bodies[b];
@@ -77,7 +78,7 @@ void ContactBodies::add_object(const Model& model, int object, std::vector<BodyP
   std::vector<char> has_solid(from.bodies.bodies.size(), 0);
   for (int i = 0; i < static_cast<int>(from.bodies.solids.size()); ++i) {
     const CompiledSolid& solid = from.bodies.solids[at(i)];
-    parts.push_back({{object, i, 0}, first + solid.body, solid.shape, false, solid.pose});
+    parts.push_back({{object, i, 0}, first + solid.body, solid.shape, false, solid.pose, nullptr, family});
     Vec3f& round = round_[at(first + solid.body)];
     round = has_solid[at(solid.body)] == 0 ? round_axes_of(solid) : min(round, round_axes_of(solid));
     has_solid[at(solid.body)] = 1;

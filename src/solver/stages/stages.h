@@ -44,6 +44,9 @@ void guard_energy(Substep& s);
 /// The same for each set of objects that are in contact with rigid bodies (stages/guard_bodies.cpp).
 void guard_bodies(Substep& s);
 
+/// Rest data of plastic constraints follow what is deformed too far.
+void yield(Substep& s);
+
 /// Updates velocities by the corrections, x += displacement, and applies restitution at colliders. Returns false if a
 /// displacement is not finite; then the report names it, and the State has been made finite.
 bool update(Substep& s);

@@ -1,0 +1,40 @@
+// 3 x 3 matrices in double precision.
+#pragma once
+
+#include "pliant/vec3.h"
+
+namespace pliant {
+
+/// A 3 x 3 matrix, row by row.
+struct Matrix3d {
+  double elements[9] = {};
+  PLIANT_HD double operator[](int i) const { return elements[i]; }
+  PLIANT_HD double& operator[](int i) { return elements[i]; }
+};
+
+/// The matrix with these columns.
+PLIANT_HD Matrix3d columns(const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c) {
+  return {{double(a.x), double(b.x), double(c.x), double(a.y), double(b.y), double(c.y), double(a.z), double(b.z),
+           double(c.z)}};
+}
+
+PLIANT_HD Matrix3d product(const Matrix3d& a, const Matrix3d& b) {
+  Matrix3d out;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) out[3 * i + j] = a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j] + a[3 * i + 2] * b[6 + j];
+  return out;
+}
+
+PLIANT_HD double determinant(const Matrix3d& m) {
+  return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+
+/// The inverse; all zero if the determinant is zero.
+PLIANT_HD Matrix3d inverse(const Matrix3d& m) {
+  const double d = determinant(m), s = d == 0 ? 0 : 1 / d;
+  return {{s * (m[4] * m[8] - m[5] * m[7]), s * (m[2] * m[7] - m[1] * m[8]), s * (m[1] * m[5] - m[2] * m[4]),
+           s * (m[5] * m[6] - m[3] * m[8]), s * (m[0] * m[8] - m[2] * m[6]), s * (m[2] * m[3] - m[0] * m[5]),
+           s * (m[3] * m[7] - m[4] * m[6]), s * (m[1] * m[6] - m[0] * m[7]), s * (m[0] * m[4] - m[1] * m[3])}};
+}
+
+}  // namespace pliant

@@ -1,0 +1,76 @@
+#include "matter/edit_parts.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "pliant/error.h"
+
+namespace pliant {
+
+namespace {
+
+/// Pins and attaches a copy as its origin is.
+void copy_pins(int of, int copy, Object& object) {
+  const std::vector<Pin> pins = object.pins;
+  for (const Pin& pin : pins)
+    if (pin.particle == of) object.pins.push_back({copy, pin.motion});
+  const std::vector<Attachment> attachments = object.attachments;
+  for (Attachment attachment : attachments) {
+    if (attachment.particle != of) continue;
+    attachment.particle = copy;
+    object.attachments.push_back(attachment);
+  }
+}
+
+/// A copy joins the clusters of its origin, at the same rest place.
+void add_to_clusters(int of, int copy, Object& object) {
+  for (Cluster& cluster : object.clusters) {
+    const auto found = std::find(cluster.particles.begin(), cluster.particles.end(), of);
+    if (found == cluster.particles.end()) continue;
+    const std::ptrdiff_t at = found - cluster.particles.begin();
+    if (!cluster.rest.empty()) cluster.rest.push_back(cluster.rest[static_cast<std::size_t>(at)]);
+    cluster.particles.push_back(copy);
+  }
+}
+
+}  // namespace
+
+int slots_of(const ConstraintGroup& group, const Object& object) {
+  for (const ConstraintType& type : constraint_types())
+    if (type.name == group.type) return type.stencil_size;
+  throw Error({.object = object.name, .element = group.type + " constraints"}, "have an unknown type",
+              "constraint_types() lists the known ones");
+}
+
+void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to) {
+  const auto slots = stencil.size();
+  const std::size_t count = from.particles.size() / slots, fields = count > 0 ? from.rest.size() / count : 0;
+  const auto at = static_cast<std::size_t>(number);
+  to.particles.insert(to.particles.end(), stencil.begin(), stencil.end());
+  const auto rest = from.rest.begin() + static_cast<std::ptrdiff_t>(at * fields);
+  to.rest.insert(to.rest.end(), rest, rest + static_cast<std::ptrdiff_t>(fields));
+  const bool compliant = from.stiffness.kind == Stiffness::Kind::compliance;
+  const float alpha = from.compliances.empty() ? from.stiffness.value : from.compliances[at];
+  if (compliant || !from.compliances.empty())
+    to.compliances.push_back(softer == 1 ? alpha : static_cast<float>(alpha * softer));
+}
+
+ConstraintGroup empty_like(const ConstraintGroup& group) {
+  ConstraintGroup out = group;
+  out.particles.clear();
+  out.rest.clear();
+  out.compliances.clear();
+  return out;
+}
+
+std::vector<int> stencil_of(const ConstraintGroup& group, int slots, int number) {
+  const auto first = group.particles.begin() + static_cast<std::ptrdiff_t>(number) * slots;
+  return {first, first + slots};
+}
+
+void hold_like(int of, int copy, Object& object) {
+  copy_pins(of, copy, object);
+  add_to_clusters(of, copy, object);
+}
+
+}  // namespace pliant

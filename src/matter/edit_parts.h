@@ -1,0 +1,25 @@
+// What edits of surfaces and of solids share.
+#pragma once
+
+#include <vector>
+
+#include "pliant/scene.h"
+
+namespace pliant {
+
+/// The number of slots of a group's constraints. Throws an Error if their type is unknown.
+int slots_of(const ConstraintGroup& group, const Object& object);
+
+/// The slots of constraint `number` of a group.
+std::vector<int> stencil_of(const ConstraintGroup& group, int slots, int number);
+
+/// A group without constraints, otherwise alike.
+ConstraintGroup empty_like(const ConstraintGroup& group);
+
+/// Appends a copy of constraint `number` of a group with the given stencil, and with its compliance times `softer`.
+void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to);
+
+/// Pins and attaches a copy of particle `of` as that is, and adds it to its clusters, at the same place in their rest shapes.
+void hold_like(int of, int copy, Object& object);
+
+}  // namespace pliant

@@ -1,0 +1,229 @@
+// Edits of soft bodies: removes tetrahedra, and parts them along faces.
+//
+// At each particle that the edit reaches, tetrahedra of one part that share faces form a fan. The first fan keeps the particle, every
+// other fan gets a copy of it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "matter/edit_parts.h"
+#include "pliant/edit.h"
+#include "pliant/error.h"
+#include "pliant/soft_body.h"
+
+namespace pliant {
+
+namespace {
+
+using Corners = std::array<int, 4>;
+constexpr int removed = std::numeric_limits<int>::min();
+
+bool holds(const Corners& t, int particle) { return std::find(t.begin(), t.end(), particle) != t.end(); }
+
+bool share_a_face(const Corners& a, const Corners& b) {
+  return std::count_if(a.begin(), a.end(), [&](int corner) { return holds(b, corner); }) == 3;
+}
+
+double volume_of(const Object& object, const Corners& t) {
+  const auto at = [&](std::size_t i) {
+    const Vec3f& p = object.positions[static_cast<std::size_t>(t[i])];
+    return Vec3d{p.x, p.y, p.z};
+  };
+  return std::fabs(dot(cross(at(1) - at(0), at(2) - at(0)), at(3) - at(0))) / 6;
+}
+
+std::vector<Corners> required_tetrahedra(const Object& object) {
+  std::vector<Corners> out = tetrahedra_of(object);
+  if (out.empty()) throw Error({.object = object.name}, "has no tetrahedra", "use cut or remove_triangles for surfaces");
+  for (const Corners& t : out)
+    for (const int corner : t)
+      if (corner < 0 || corner >= static_cast<int>(object.positions.size()))
+        throw Error({.object = object.name, .element = "particle " + std::to_string(corner)}, "does not exist",
+                    "particles count from 0");
+  return out;
+}
+
+/// A soft body that comes apart: `part` has a number for each tetrahedron, or `removed`.
+class Parting {
+ public:
+  Parting(const Object& object, std::vector<Corners> tetrahedra, std::vector<int> part)
+      : object_(object), tetrahedra_(std::move(tetrahedra)), part_(std::move(part)), around_(object.positions.size()) {
+    for (int t = 0; t < static_cast<int>(tetrahedra_.size()); ++t)
+      for (const int corner : at(t)) around_[static_cast<std::size_t>(corner)].push_back(t);
+    after_ = tetrahedra_;
+    for (int p = 0; p < static_cast<int>(around_.size()); ++p)
+      if (is_reached(p)) split(p);
+  }
+
+  Edit make() {
+    Edit edit = unchanged(object_);
+    edit.from.insert(edit.from.end(), origins_.begin(), origins_.end());
+    for (const int origin : origins_) {
+      const auto from = static_cast<std::size_t>(origin);
+      edit.object.positions.push_back(object_.positions[from]);
+      if (!object_.velocities.empty()) edit.object.velocities.push_back(object_.velocities[from]);
+    }
+    edit.object.masses.resize(edit.object.positions.size());
+    for (const auto& [particle, share] : shares_) {
+      const float mass = object_.masses[static_cast<std::size_t>(origin_of(particle))];
+      edit.object.masses[static_cast<std::size_t>(particle)] =
+          share > 0 ? static_cast<float>(double(mass) * share) : std::numeric_limits<float>::infinity();
+    }
+    for (ConstraintGroup& group : edit.object.constraints) group = follow(group);
+    for (std::size_t i = 0; i < origins_.size(); ++i)
+      hold_like(origins_[i], static_cast<int>(object_.positions.size() + i), edit.object);
+    edit.object.triangles = border_triangles({edit.object.positions, kept()});
+    return edit;
+  }
+
+ private:
+  const Corners& at(int t) const { return tetrahedra_[static_cast<std::size_t>(t)]; }
+  int part(int t) const { return part_[static_cast<std::size_t>(t)]; }
+  int origin_of(int particle) const {
+    const auto first = static_cast<int>(object_.positions.size());
+    return particle < first ? particle : origins_[static_cast<std::size_t>(particle - first)];
+  }
+
+  /// True if tetrahedra around a particle are of several parts, or some are removed.
+  bool is_reached(int p) const {
+    const std::vector<int>& around = around_[static_cast<std::size_t>(p)];
+    return std::any_of(around.begin(), around.end(),
+                       [&](int t) { return part(t) == removed || part(t) != part(around.front()); });
+  }
+
+  /// The fans of tetrahedra around a particle, without those that are removed.
+  std::vector<std::vector<int>> fans_of(int p) const {
+    std::vector<int> left;
+    for (const int t : around_[static_cast<std::size_t>(p)])
+      if (part(t) != removed) left.push_back(t);
+    std::vector<std::vector<int>> fans;
+    while (!left.empty()) {
+      std::vector<int> fan{left.front()};
+      left.erase(left.begin());
+      for (std::size_t i = 0; i < fan.size(); ++i)
+        for (auto other = left.begin(); other != left.end();) {
+          if (part(*other) != part(fan[i]) || !share_a_face(at(*other), at(fan[i]))) {
+            ++other;
+            continue;
+          }
+          fan.push_back(*other);
+          other = left.erase(other);
+        }
+      fans.push_back(std::move(fan));
+    }
+    return fans;
+  }
+
+  void split(int p) {
+    double whole = 0;
+    for (const int t : around_[static_cast<std::size_t>(p)]) whole += volume_of(object_, at(t));
+    int particle = p;
+    shares_[p] = 0;
+    for (const std::vector<int>& fan : fans_of(p)) {
+      double volume = 0;
+      for (const int t : fan) {
+        volume += volume_of(object_, at(t));
+        Corners& after = after_[static_cast<std::size_t>(t)];
+        std::replace(after.begin(), after.end(), p, particle);
+      }
+      if (particle != p) origins_.push_back(p);
+      shares_[particle] = whole > 0 ? volume / whole : 1;
+      particle = static_cast<int>(object_.positions.size() + origins_.size());
+    }
+  }
+
+  std::vector<Corners> kept() const {
+    std::vector<Corners> out;
+    for (std::size_t t = 0; t < after_.size(); ++t)
+      if (part_[t] != removed) out.push_back(after_[t]);
+    return out;
+  }
+
+  /// A group's constraints after the edit: those on particles of a tetrahedron follow it.
+  ConstraintGroup follow(const ConstraintGroup& group) const {
+    const int slots = slots_of(group, object_);
+    const auto type = std::find_if(constraint_types().begin(), constraint_types().end(),
+                                   [&](const ConstraintType& one) { return one.name == group.type; });
+    ConstraintGroup out = empty_like(group);
+    for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
+      std::vector<int> stencil = stencil_of(group, slots, c);
+      const std::vector<int> with = tetrahedra_with(stencil, *type);
+      const auto left = std::find_if(with.begin(), with.end(), [&](int t) { return part(t) != removed; });
+      if (!with.empty() && left == with.end()) continue;
+      if (!with.empty()) replace_corners(*left, *type, stencil);
+      append(group, c, stencil, 1, out);
+      if (group.type == "body_anchor" && with.empty()) tie_copies(group, c, stencil, out);
+    }
+    return out;
+  }
+
+  /// The tetrahedra that have all points of a constraint as corners; none for a constraint of one point.
+  std::vector<int> tetrahedra_with(const std::vector<int>& stencil, const ConstraintType& type) const {
+    std::vector<int> points, out;
+    for (std::size_t slot = 0; slot < stencil.size(); ++slot)
+      if (type.slots[slot] == SlotKind::point) points.push_back(stencil[slot]);
+    if (points.size() < 2) return out;
+    for (const int t : around_[static_cast<std::size_t>(points.front())])
+      if (std::all_of(points.begin(), points.end(), [&](int p) { return holds(at(t), p); })) out.push_back(t);
+    return out;
+  }
+
+  void replace_corners(int t, const ConstraintType& type, std::vector<int>& stencil) const {
+    for (std::size_t slot = 0; slot < stencil.size(); ++slot) {
+      if (type.slots[slot] != SlotKind::point) continue;
+      const auto corner = std::find(at(t).begin(), at(t).end(), stencil[slot]) - at(t).begin();
+      stencil[slot] = after_[static_cast<std::size_t>(t)][static_cast<std::size_t>(corner)];
+    }
+  }
+
+  /// What ties a particle to a body also ties its copies.
+  void tie_copies(const ConstraintGroup& group, int number, std::vector<int> stencil, ConstraintGroup& out) const {
+    const int tied = stencil.back();
+    for (std::size_t i = 0; i < origins_.size(); ++i) {
+      if (origins_[i] != tied) continue;
+      stencil.back() = static_cast<int>(object_.positions.size() + i);
+      append(group, number, stencil, 1, out);
+    }
+  }
+
+  const Object& object_;
+  std::vector<Corners> tetrahedra_, after_;  ///< corners before and after the edit
+  std::vector<int> part_;
+  std::vector<std::vector<int>> around_;  ///< tetrahedra at each particle
+  std::vector<int> origins_;              ///< original particle of each copy
+  std::map<int, double> shares_;          ///< of particles that the edit reaches: share of the original's mass
+};
+
+}  // namespace
+
+Edit remove_tetrahedra(const Object& object, std::span<const int> tetrahedra) {
+  std::vector<Corners> all = required_tetrahedra(object);
+  std::vector<int> part(all.size(), 0);
+  for (const int t : tetrahedra) {
+    if (t < 0 || t >= static_cast<int>(all.size()))
+      throw Error({.object = object.name, .element = "tetrahedron " + std::to_string(t)},
+                  "does not exist; there are " + std::to_string(all.size()), "tetrahedra count from 0");
+    part[static_cast<std::size_t>(t)] = removed;
+  }
+  if (std::all_of(part.begin(), part.end(), [](int one) { return one == removed; }))
+    throw Error({.object = object.name}, "would lose all its tetrahedra", "remove the object with World::remove");
+  return Parting(object, std::move(all), std::move(part)).make();
+}
+
+Edit part_tetrahedra(const Object& object, std::span<const int> part) {
+  std::vector<Corners> all = required_tetrahedra(object);
+  if (part.size() != all.size())
+    throw Error({.object = object.name},
+                "has " + std::to_string(all.size()) + " tetrahedra and is given " + std::to_string(part.size()) +
+                    " numbers of parts",
+                "give one for each of tetrahedra_of");
+  std::vector<int> numbers(part.begin(), part.end());
+  for (int& number : numbers) number = std::max(number, removed + 1);
+  return Parting(object, std::move(all), std::move(numbers)).make();
+}
+
+}  // namespace pliant

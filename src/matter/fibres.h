@@ -1,0 +1,15 @@
+// Fibres in an elastic solid: muscles (pliant/soft_body.h).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "pliant/soft_body.h"
+
+namespace pliant {
+
+/// Adds a "fibre" constraint for each of a body's tetrahedra that has one, all in one group. Their damping over their stiffness is
+/// `damping_time` [s]. Throws an Error that names a tetrahedron whose direction cannot be used, or a number that is out of range.
+void add_fibres(const Fibres& fibres, double damping_time, const std::vector<std::array<int, 4>>& tetrahedra, Object& body);
+
+}  // namespace pliant

@@ -1,0 +1,160 @@
+#include "world/rest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+
+#include "constraints/registry.h"
+#include "pliant/error.h"
+#include "pliant/world.h"
+#include "solver/visit.h"
+
+namespace pliant {
+
+namespace {
+
+bool is_earlier(const RestFactor& a, const RestFactor& b) {
+  return std::tie(a.block, a.group) < std::tie(b.block, b.group);
+}
+
+const ScaledGroup* find_group(const CompiledObject& object, int group) {
+  const auto found = std::find_if(object.changing.scaled.begin(), object.changing.scaled.end(),
+                                  [&](const ScaledGroup& one) { return one.group == group; });
+  return found == object.changing.scaled.end() ? nullptr : &*found;
+}
+
+const RestFactor* held_factor(const State& state, const RestFactor& wanted) {
+  const auto at = std::lower_bound(state.rest_factors.begin(), state.rest_factors.end(), wanted, is_earlier);
+  return at == state.rest_factors.end() || is_earlier(wanted, *at) ? nullptr : &*at;
+}
+
+[[noreturn]] void refuse(const std::string& element, const std::string& problem) {
+  throw Error({.element = element}, problem, "restore a state of this world");
+}
+
+/// Calls visit(place, slots, lane) for each plastic constraint of an object.
+template <class Visit>
+void for_plastic(const CompiledObject& object, const Visit& visit) {
+  for (const PlasticPool& plastic : object.changing.plastic)
+    for (const Segment& segment : object.segments) {
+      if (segment.pool != plastic.pool) continue;
+      for_segment(object, segment, [&](const ConstraintPlace& at, const std::int32_t* number) {
+        if (plastic.kind[static_cast<std::size_t>(at.batch * batch_width + at.lane)] >= 0) visit(at, number);
+      });
+    }
+}
+
+/// The slots of a constraint in the order that its type prefers, and the rest data in that order.
+struct Ordered {
+  std::vector<int> slots;
+  std::vector<float> rest;
+};
+
+Ordered in_order(const Pool& pool, std::vector<int> slots, std::vector<float> rest) {
+  const ConstraintDefinition& type = constraint_type(pool.type);
+  if (type.canonical != nullptr) type.canonical(slots.data(), rest.data());
+  return {std::move(slots), std::move(rest)};
+}
+
+std::vector<int> key_of(const Pool& pool, const std::vector<int>& slots) {
+  std::vector<int> key{pool.type};
+  key.insert(key.end(), slots.begin(), slots.end());
+  return key;
+}
+
+}  // namespace
+
+void follow_rest_factors(WorldData& world, double time) {
+  for (std::size_t o = 0; o < world.model.objects.size(); ++o) {
+    CompiledObject& object = world.model.objects[o];
+    for (const ScaledGroup& group : object.changing.scaled) {
+      const RestFactor* held = held_factor(world.state, {static_cast<int>(o), group.group, 0});
+      set_factor(object, group, held != nullptr ? held->factor : group.factor_at(time));
+    }
+  }
+}
+
+void keep_flowed(WorldData& world) {
+  world.state.flowed.clear();
+  for (const CompiledObject& object : world.model.objects) append_flowed(object, world.state.flowed);
+}
+
+void require_rest(const Model& model, const State& state) {
+  const RestFactor* before = nullptr;
+  for (const RestFactor& factor : state.rest_factors) {
+    const bool is_known = factor.block >= 0 && static_cast<std::size_t>(factor.block) < model.objects.size() &&
+                          find_group(model.objects[static_cast<std::size_t>(factor.block)], factor.group) != nullptr &&
+                          std::isfinite(factor.factor) && factor.factor >= 0;
+    if (!is_known || (before != nullptr && !is_earlier(*before, factor)))
+      refuse("rest factor " + std::to_string(&factor - state.rest_factors.data()),
+             "is of no group with keyframes, is not in ascending order, or is negative or not finite");
+    before = &factor;
+  }
+  std::int64_t wanted = 0;
+  for (const CompiledObject& object : model.objects) wanted += flowed_size(object);
+  if (static_cast<std::int64_t>(state.flowed.size()) != wanted)
+    refuse("plastic rest data",
+           "have " + std::to_string(state.flowed.size()) + " numbers where the world has " + std::to_string(wanted));
+  if (!std::all_of(state.flowed.begin(), state.flowed.end(), [](float number) { return std::isfinite(number); }))
+    refuse("plastic rest data", "are not finite");
+}
+
+void take_rest_of_state(WorldData& world) {
+  const float* flowed = world.state.flowed.data();
+  for (CompiledObject& object : world.model.objects) flowed = take_flowed(object, flowed);
+  follow_rest_factors(world, world.state.time);
+}
+
+bool any_flows(const Model& model) {
+  return std::any_of(model.objects.begin(), model.objects.end(),
+                     [](const CompiledObject& object) { return !object.changing.plastic.empty(); });
+}
+
+FlowedRest flowed_rest(const CompiledObject& object) {
+  FlowedRest out;
+  for_plastic(object, [&](const ConstraintPlace& at, const std::int32_t* number) {
+    std::vector<float> rest;
+    for (int field = 0; field < at.pool.fields; ++field) rest.push_back(at.value(field));
+    Ordered ordered = in_order(at.pool, {number, number + at.pool.stencil}, std::move(rest));
+    out[key_of(at.pool, ordered.slots)] = std::move(ordered.rest);
+  });
+  return out;
+}
+
+void carry_flowed(const FlowedRest& flowed, const std::vector<int>& slot_before, CompiledObject& object) {
+  if (flowed.empty()) return;
+  for_plastic(object, [&](const ConstraintPlace& at, const std::int32_t* number) {
+    std::vector<int> slots;
+    for (int slot = 0; slot < at.pool.stencil; ++slot) slots.push_back(slot_before[static_cast<std::size_t>(number[slot])]);
+    const std::vector<float> any(static_cast<std::size_t>(at.pool.fields));
+    const auto found = flowed.find(key_of(at.pool, in_order(at.pool, slots, any).slots));
+    if (found == flowed.end()) return;
+    const Ordered back = in_order(at.pool, slots, found->second);  // what ordering changes, it changes back
+    Pool& pool = object.pools[static_cast<std::size_t>(at.pool_number)];
+    for (int field = 0; field < pool.fields; ++field)
+      pool.change(field, at.batch)[at.lane] = back.rest[static_cast<std::size_t>(field)];
+  });
+}
+
+void ObjectHandle::set_rest_factor(int group, float factor) {
+  const int number = world_->number(id());
+  CompiledObject& of = world_->model.objects[static_cast<std::size_t>(number)];
+  const ScaledGroup* scaled = find_group(of, group);
+  const std::string element = "constraint group " + std::to_string(group);
+  if (scaled == nullptr)
+    throw Error({.object = of.name, .element = element}, "does not exist or has no keyframes",
+                "give it `keyframes`, {{0, 1}} for one, to say that its rest data change");
+  if (!std::isfinite(factor) || factor < 0)
+    throw Error({.object = of.name, .element = element}, "is given the factor " + std::to_string(factor),
+                "give a finite number of 0 or more");
+  std::vector<RestFactor>& all = world_->state.rest_factors;
+  const RestFactor wanted{number, group, factor};
+  const auto at = std::lower_bound(all.begin(), all.end(), wanted, is_earlier);
+  if (at != all.end() && !is_earlier(wanted, *at))
+    *at = wanted;
+  else
+    all.insert(at, wanted);
+}
+
+}  // namespace pliant

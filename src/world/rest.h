@@ -1,0 +1,32 @@
+// Rest data that change while a World runs: what keyframes and calls multiply, and what has flowed (model/changing_rest.h).
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "world/world_data.h"
+
+namespace pliant {
+
+/// Multiplies rest data by the factors of a time [s]: those that were set, else those of the keyframes.
+void follow_rest_factors(WorldData& world, double time);
+
+/// Keeps what has flowed in the State.
+void keep_flowed(WorldData& world);
+
+/// Throws an Error unless a State has the factors and the flowed rest data of the World's objects.
+void require_rest(const Model& model, const State& state);
+/// Gives all constraints the rest data of the State.
+void take_rest_of_state(WorldData& world);
+
+/// True if constraints of an object are plastic: then a step may change its compiled form.
+bool any_flows(const Model& model);
+
+/// The rest data of the plastic constraints of an object, by type and slots (storage indices; frames after all particles).
+using FlowedRest = std::map<std::vector<int>, std::vector<float>>;
+FlowedRest flowed_rest(const CompiledObject& object);
+/// Gives each plastic constraint of an object what that one has which had its slots: `slot_before` is the slot of the object before it,
+/// or -1.
+void carry_flowed(const FlowedRest& flowed, const std::vector<int>& slot_before, CompiledObject& object);
+
+}  // namespace pliant

@@ -1,0 +1,174 @@
+// Fibres in soft bodies against known answers, and rest data that keyframes and calls multiply.
+#include <cmath>
+#include <string>
+
+#include "pliant/error.h"
+#include "soft_bodies/soft_body_support.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+constexpr double side = 0.1, length_at_rest = 0.6, modulus = 1e5;
+constexpr float mass_density = 100;
+
+/// A bar that hangs from its top, with fibres along it, and a load at its lower end.
+struct Muscle {
+  Scene scene;
+  std::vector<int> lower;
+
+  double length_now(const World& world) const {
+    const std::vector<Vec3f> positions = positions_of(world);
+    double sum = 0;
+    for (const int i : lower) sum -= static_cast<double>(positions[static_cast<std::size_t>(i)].y);
+    return sum / static_cast<double>(lower.size());
+  }
+};
+
+Muscle muscle_of(const Fibres& fibres, double load, int substeps = 160) {
+  SoftBodyOptions options;
+  options.material = solid_of(static_cast<float>(modulus), 0.3f, mass_density);
+  options.fibres = fibres;
+  TetrahedralMesh mesh =
+      box_tetrahedra({static_cast<float>(side), static_cast<float>(length_at_rest), static_cast<float>(side)}, {2, 12, 2});
+  for (Vec3f& p : mesh.positions) p.y -= static_cast<float>(length_at_rest / 2);
+  Object object = make_soft_body(mesh, options);
+  object.collides = false;
+  object.damping = 3;
+  Muscle muscle;
+  std::vector<int> upper;
+  for (int i = 0; i < static_cast<int>(object.positions.size()); ++i) {
+    const float y = object.positions[static_cast<std::size_t>(i)].y;
+    if (y > -1e-4f) upper.push_back(i);
+    if (y < -static_cast<float>(length_at_rest) + 1e-4f) muscle.lower.push_back(i);
+  }
+  for (const int i : muscle.lower)
+    object.masses[static_cast<std::size_t>(i)] += static_cast<float>(load / 10 / static_cast<double>(muscle.lower.size()));
+  muscle.scene = scene_of(std::move(object), substeps);
+  muscle.scene.gravity = {0, -10, 0};
+  muscle.scene.pin(0, upper);
+  return muscle;
+}
+
+/// The stretch of a bar in which the fibres pull against the solid, and a load and half its own weight bear on both, to first order.
+double stretch_of(double fibre_modulus, double rest, double load) {
+  const double stress = load / (side * side) + 10 * static_cast<double>(mass_density) * length_at_rest / 2;
+  return 1 + (stress - fibre_modulus * (1 - rest)) / (modulus + fibre_modulus);
+}
+
+TEST(Fibres, StiffenABarAlongThem) {
+  const double load = 20;  // newtons
+  for (const double fibre_modulus : {2e4, 2e5}) {
+    const Muscle muscle = muscle_of({.direction = {0, 1, 0}, .modulus = static_cast<float>(fibre_modulus)}, load);
+    World world(muscle.scene);
+    run(world, 240);
+    const double strain = muscle.length_now(world) / length_at_rest - 1;
+    EXPECT_NEAR(strain / (stretch_of(fibre_modulus, 1, load) - 1), 1, 0.06) << fibre_modulus;
+  }
+}
+
+TEST(Fibres, AcrossABarHardlyMatter) {
+  const double load = 20;
+  const Muscle muscle = muscle_of({.direction = {1, 0, 0}, .modulus = 2e4f}, load);
+  World world(muscle.scene);
+  run(world, 240);
+  const double strain = muscle.length_now(world) / length_at_rest - 1;
+  EXPECT_NEAR(strain / (stretch_of(0, 1, load) - 1), 1, 0.06);
+}
+
+TEST(Fibres, AMuscleLiftsItsLoadAsFarAsItsForceSays) {
+  const double load = 20, fibre_modulus = 1e5;
+  Muscle muscle = muscle_of(
+      {.direction = {0, 3, 0}, .modulus = static_cast<float>(fibre_modulus), .stretch = {{0.5f, 1}, {1, 0.9f}}}, load);
+  World world(muscle.scene);
+  run(world, 30);
+  const double before = muscle.length_now(world);
+  run(world, 270);
+  const double after = muscle.length_now(world);
+  EXPECT_GT(before, length_at_rest);  // the load has stretched it
+  EXPECT_NEAR(after / length_at_rest, stretch_of(fibre_modulus, 0.9, load), 0.004);
+}
+
+TEST(Fibres, ACallActivatesThemAsKeyframesDo) {
+  const Muscle by_keyframes = muscle_of({.direction = {0, 1, 0}, .stretch = {{0, 0.9f}}}, 10);
+  const Muscle by_call = muscle_of({.direction = {0, 1, 0}}, 10);
+  World keyed(by_keyframes.scene), called(by_call.scene);
+  const int group = static_cast<int>(by_call.scene.objects[0].constraints.size()) - 1;
+  EXPECT_EQ(by_call.scene.objects[0].constraints.back().type, "fibre");
+  called.object(0).set_rest_factor(group, 0.9f);
+  run(keyed, 20);
+  run(called, 20);
+  EXPECT_EQ(positions_of(keyed), positions_of(called));
+  const State state = called.state();
+  run(called, 10);
+  World other(by_call.scene);
+  other.restore(state);
+  run(other, 10);
+  EXPECT_EQ(hash(other.state()), hash(called.state()));
+}
+
+TEST(Fibres, KeepMomentum) {
+  Fibres fibres{.direction = {1, 2, 3}};
+  fibres.stretch = {{0, 1}, {0.2f, 0.6f}, {0.5f, 1.1f}};
+  SoftBodyOptions options;
+  options.material = solid_of(1e4f, 0.4f);
+  options.fibres = fibres;
+  Object object = make_soft_body(box_tetrahedra({0.3f, 0.2f, 0.2f}, {3, 2, 2}), options);
+  const std::vector<float> masses = object.masses;
+  Scene scene = scene_of(std::move(object), 20);
+  scene.gravity = {};
+  World world(scene);
+  run(world, 60);
+  const Momentum after = momentum_of(world, masses);
+  EXPECT_LT(length(after.linear), 1e-4);
+}
+
+TEST(Fibres, WrongOnesAreRefused) {
+  const TetrahedralMesh mesh = box_tetrahedra({1, 1, 1}, {1, 1, 1});
+  const auto make = [&](const Fibres& fibres) {
+    SoftBodyOptions options;
+    options.fibres = fibres;
+    return make_soft_body(mesh, options);
+  };
+  EXPECT_THROW((void)make({.direction = {0, 0, 0}}), Error);
+  EXPECT_THROW((void)make({.modulus = 0}), Error);
+  EXPECT_THROW((void)make({.directions = {{1, 0, 0}}}), Error);
+  EXPECT_THROW((void)make({.stretch = {{1, 1}, {1, 0.5f}}}), Error);
+  std::vector<Vec3f> some(6);
+  some[2] = {0, 1, 0};
+  EXPECT_EQ(make({.directions = some}).constraints.back().particles.size(), 4u);
+}
+
+// ------------------------------------------------------------------------------------------------ other rest data
+
+TEST(RestFactors, ARopeGrowsToItsKeyframe) {
+  Object rope = make_rope({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  rope.collides = false;
+  rope.constraints[0].keyframes = {{0, 1}, {1, 1.5f}};
+  Scene scene = scene_of(std::move(rope), 10);
+  scene.gravity = {};
+  scene.pin(0, {0});
+  World world(scene);
+  run(world, 30);
+  EXPECT_NEAR(static_cast<double>(positions_of(world)[2].x), 2.5, 1e-3);
+  run(world, 60);
+  EXPECT_NEAR(static_cast<double>(positions_of(world)[2].x), 3, 0.02);
+}
+
+TEST(RestFactors, WrongCallsAreRefused) {
+  Scene scene = scene_of(make_rope({{0, 0, 0}, {1, 0, 0}}), 1);
+  World world(scene);
+  EXPECT_THROW(world.object(0).set_rest_factor(0, 1), Error);  // it has no keyframes
+  scene.objects[0].constraints[0].keyframes = {{0, 1}};
+  World other(scene);
+  EXPECT_THROW(other.object(0).set_rest_factor(1, 1), Error);
+  EXPECT_THROW(other.object(0).set_rest_factor(0, -1), Error);
+  EXPECT_NO_THROW(other.object(0).set_rest_factor(0, 2));
+  State state = other.state();
+  state.rest_factors[0].group = 4;
+  EXPECT_THROW(other.restore(state), Error);
+}
+
+}  // namespace
+}  // namespace pliant
