@@ -207,6 +207,11 @@ bool lies_on_pins(const Object& object) {
   return 10 * (object.pins.size() + object.attachments.size()) > object.positions.size();
 }
 
+bool has_changing_lengths(const Object& object) {
+  return std::any_of(object.constraints.begin(), object.constraints.end(),
+                     [](const ConstraintGroup& group) { return !group.keyframes.empty() && is_length(group.type); });
+}
+
 bool has_ties(const Object& object) {
   return std::any_of(object.constraints.begin(), object.constraints.end(), [](const ConstraintGroup& group) {
     const int type = find_constraint_type(group.type);

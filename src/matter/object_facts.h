@@ -31,6 +31,9 @@ bool lies_on_pins(const Object& object);
 /// True if particles are tied to bodies.
 bool has_ties(const Object& object);
 
+/// True if rest lengths of distances change (ConstraintGroup::keyframes), which multigrid and tethers do not see.
+bool has_changing_lengths(const Object& object);
+
 /// True if pins, attachments or infinite masses hold a part of the object.
 bool has_fixed(const Object& object);
 

@@ -156,6 +156,20 @@ TEST(RestFactors, ARopeGrowsToItsKeyframe) {
   EXPECT_NEAR(static_cast<double>(positions_of(world)[2].x), 3, 0.02);
 }
 
+TEST(RestFactors, ALongRopeIsNotHeldByItsOldLength) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i <= 60; ++i) points.push_back({0, -0.02f * static_cast<float>(i), 0});
+  Object rope = make_rope(points);
+  rope.constraints[0].keyframes = {{0, 1}, {1, 1.5f}};
+  Scene scene;
+  scene.settings.threads = 1;
+  scene.add(std::move(rope));
+  scene.pin(0, {0});
+  World world(scene);
+  run(world, 150);
+  EXPECT_NEAR(static_cast<double>(positions_of(world)[60].y), -1.8, 0.01);
+}
+
 TEST(RestFactors, WrongCallsAreRefused) {
   Scene scene = scene_of(make_rope({{0, 0, 0}, {1, 0, 0}}), 1);
   World world(scene);
