@@ -82,7 +82,7 @@ const Record& plasticity_record() {
       "plasticity",
       "How a deformation becomes permanent. It is a strain of tetrahedra and of rods at their surface, and an angle in "
       "radians of hinges.",
-      {field("yield", number("-", 0), Plasticity{}.yield, "Elastic deformation that does not become permanent."),
+      {needed("yield", number("-", 0), "Elastic deformation that does not become permanent."),
        field(
            "rate", number("1/s", 0), Plasticity{}.rate,
            "How fast what is beyond `yield` flows: exp(-rate t) of it is left. 0: at once. With a `yield` of 0 it creeps."),

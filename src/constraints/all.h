@@ -1,17 +1,14 @@
-// All constraint types of the library with a fixed stencil. To add one, write its header, include it here and add it to
+// All constraint types of the library with a fixed stencil. To add one, write its header, include it here or in in_lanes.h and add it to
 // the list: pools, sweeps, files, tests and docs follow (docs/internals/architecture.md, "Adding a constraint").
 #pragma once
 
 #include "constraints/ball_joint.h"
 #include "constraints/body_anchor.h"
 #include "constraints/cylindrical_joint.h"
-#include "constraints/dihedral_bending.h"
-#include "constraints/distance.h"
-#include "constraints/fibre.h"
 #include "constraints/fixed_joint.h"
 #include "constraints/gear_joint.h"
 #include "constraints/hinge_joint.h"
-#include "constraints/isometric_bending.h"
+#include "constraints/in_lanes.h"
 #include "constraints/joint_angle.h"
 #include "constraints/joint_angle_motor.h"
 #include "constraints/joint_distance.h"
@@ -23,10 +20,6 @@
 #include "constraints/rack_joint.h"
 #include "constraints/rod_joint.h"
 #include "constraints/slider_joint.h"
-#include "constraints/tetrahedron_shear.h"
-#include "constraints/tetrahedron_volume.h"
-#include "constraints/traits.h"
-#include "constraints/type_list.h"
 #include "constraints/universal_joint.h"
 
 namespace pliant {
@@ -34,9 +27,9 @@ namespace pliant {
 /// The types in the order in which a sweep visits them. Of joints, motors and friction come first, then limits, so that what
 /// holds parts together has the last word.
 using AllConstraints =
-    TypeList<Distance, DihedralBending, IsometricBending, Fibre, TetrahedronShear, TetrahedronVolume, JointAngleMotor,
-             JointOffsetMotor, JointAngle, JointOffset, JointSwing, JointDistance, PulleyJointRows, GearJointRows,
-             RackJointRows, PlanarJointRows, CylindricalJointRows, UniversalJointRows, SliderJointRows, BallJointRows,
-             HingeJointRows, RodJointRows, FixedJointRows, BodyAnchor>;
+    Joined<LaneConstraints,
+           TypeList<JointAngleMotor, JointOffsetMotor, JointAngle, JointOffset, JointSwing, JointDistance, PulleyJointRows,
+                    GearJointRows, RackJointRows, PlanarJointRows, CylindricalJointRows, UniversalJointRows,
+                    SliderJointRows, BallJointRows, HingeJointRows, RodJointRows, FixedJointRows, BodyAnchor>>;
 
 }  // namespace pliant

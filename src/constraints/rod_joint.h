@@ -25,9 +25,11 @@ struct RodJointRows {
     joint::Places<R> places;
     Vec3<R> root_of_force;   ///< square roots of the stiffnesses along x, y, z [(N/m)^1/2]
     Vec3<R> root_of_torque;  ///< and about them [(N m/rad)^1/2]
+    R strain_per_angle;  ///< radius over the length of rod that bends: strain at the surface per angle of bending [1/rad]
   };
-  static constexpr auto fields = joint::place_fields_and(std::array<const char*, 6>{
-      "root_of_force_x", "root_of_force_y", "root_of_force_z", "root_of_torque_x", "root_of_torque_y", "root_of_torque_z"});
+  static constexpr auto fields = joint::place_fields_and(
+      std::array<const char*, 7>{"root_of_force_x", "root_of_force_y", "root_of_force_z", "root_of_torque_x",
+                                 "root_of_torque_y", "root_of_torque_z", "strain_per_angle"});
 
   template <class R>
   PLIANT_HD static void evaluate(const SlotValues<slots, R>& at, const Params<R>& p, Rows<slots, rows, R>& out) {
@@ -44,7 +46,7 @@ struct RodJointRows {
   template <class R>
   PLIANT_HD static Params<R> measure(const SlotValues<slots, R>& at) {
     const Vec3<R> one{R(1), R(1), R(1)};
-    return {joint::measure_places(at), one, one};
+    return {joint::measure_places(at), one, one, R(1)};
   }
 
   /// The rest rotation follows that of the segments by what is beyond `yield`, a strain at the surface of a round rod.
@@ -75,13 +77,9 @@ struct RodJointRows {
     const float share = 1 / (1 + dot(m, m));
     return {2 * m.x * share, 2 * m.y * share, 2 * m.z * share, (1 - dot(m, m)) * share};
   }
-  /// The equivalent strain at the surface of a rod of radius r over a length l: r / l sqrt(bend^2 + twist^2 / 3). From its stiffness,
-  /// r = 2 sqrt(I / A).
+  /// The equivalent strain at the surface of a round rod: that of bending, and twisting over the square root of 3.
   static float surface_strain(const Vec3<float>& phi, const Params<float>& p) {
-    const float length = sqrt(dot(p.places.anchor_a, p.places.anchor_a)) + sqrt(dot(p.places.anchor_b, p.places.anchor_b));
-    const float bending = max(p.root_of_torque.y, p.root_of_torque.z);
-    const float radius = 2 * bending / max(p.root_of_force.x, 1e-30f);
-    return radius / max(length, 1e-30f) * sqrt(phi.y * phi.y + phi.z * phi.z + phi.x * phi.x * (1.f / 3));
+    return p.strain_per_angle * sqrt(phi.y * phi.y + phi.z * phi.z + phi.x * phi.x * (1.f / 3));
   }
 
   /// Component `axis` of phi, in row 3 + axis.

@@ -64,6 +64,9 @@ struct TetrahedronShear {
     return {r0.x, r0.y, r0.z, r1.x, r1.y, r1.z, r2.x, r2.y, r2.z};
   }
 
+  /// Greatest permanent strain, whatever `most` says: rest shapes that are longer than this become so flat that rounding decides.
+  static constexpr double largest_permanent = 1.5;
+
   /// D^-1 becomes D^-1 U^-1, where U = exp(s e), of volume 1, is the part of the stretch that flows, and e the logarithmic strain at
   /// constant volume. `yield` and `most` are equivalent strains (von Mises) of it: log(l) for a bar l times as long.
   static bool flow(const SlotValues<slots, float>& at, Params<float>& p, const Params<float>& start,
@@ -72,17 +75,20 @@ struct TetrahedronShear {
     const Matrix3d f = product(edges, matrix(p));
     if (!(determinant(f) > 0) || is_surely_below(f, static_cast<double>(by.yield))) return false;
     const IsochoricStrain strain(f);
-    const double beyond = 1 - static_cast<double>(by.yield) / max(strain.equivalent(), 1e-30);
-    if (!(beyond > 0)) return false;
-    const Matrix3d rest_edges = inverse(matrix(start));
-    double share = static_cast<double>(by.share) * beyond;
-    for (int attempt = 0; attempt < 10; ++attempt, share = share / 2) {  // as much of it as `most` permits
-      const Matrix3d to = product(matrix(p), strain.power(-share));
-      if (by.most < 1e29f && IsochoricStrain(product(rest_edges, to)).equivalent() > static_cast<double>(by.most)) continue;
-      set(p, to);
-      return true;
+    const double equivalent = strain.equivalent(), yield = static_cast<double>(by.yield);
+    if (!(equivalent > yield) || !(equivalent < 1e30)) return false;
+    const double beyond = 1 - yield / equivalent;
+    Matrix3d to = product(matrix(p), strain.power(-static_cast<double>(by.share) * beyond));
+    const double most = min(static_cast<double>(by.most), largest_permanent);
+    const Matrix3d permanent =
+        product(inverse(matrix(start)), to);  // the inverse of what is permanent, so of the same size
+    if (!is_surely_below(permanent, most)) {
+      const IsochoricStrain of(permanent);
+      const double size = of.equivalent();
+      if (size > most) to = product(to, of.power(most / size - 1));
     }
-    return false;
+    set(p, to);
+    return true;
   }
 
  private:

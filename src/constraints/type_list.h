@@ -11,6 +11,19 @@ struct TypeList {
   static constexpr int size = sizeof...(Types);
 };
 
+namespace detail {
+template <class A, class B>
+struct Join;
+template <class... A, class... B>
+struct Join<TypeList<A...>, TypeList<B...>> {
+  using Type = TypeList<A..., B...>;
+};
+}  // namespace detail
+
+/// The types of both lists.
+template <class A, class B>
+using Joined = typename detail::Join<A, B>::Type;
+
 template <class T>
 struct TypeTag {
   using type = T;

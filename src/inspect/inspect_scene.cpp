@@ -143,6 +143,18 @@ void check_collider(Problems& problems, const Collider& collider) {
   if (!is_finite(collider.colour)) problems.grave("colour", "is not finite", "give red, green and blue from 0 to 1");
 }
 
+/// Refuses objects whose rest lengths change under a sweep that holds those of the start.
+void check_changing_lengths(Problems& problems, const Scene& scene) {
+  for (const Object& object : scene.objects) {
+    const Sweep sweep = object.sweep == Sweep::automatic ? scene.settings.sweep : object.sweep;
+    const bool is_held =
+        sweep == Sweep::multigrid || sweep == Sweep::tethered_chains || scene.settings.sweep_options.tethers;
+    if (is_held && has_changing_lengths(object))
+      problems.grave("'" + object.name + "', keyframes", "change rest lengths, which multigrid and tethers do not follow",
+                     "use the sweep chains or tiled without tethers");
+  }
+}
+
 void check_count(Problems& problems, const Scene& scene) {
   std::size_t particles = 0;
   for (const Object& object : scene.objects) particles += object.positions.size() + object.attachments.size();
@@ -182,19 +194,6 @@ void doubt_settings(Problems& problems, const Scene& scene) {
 }
 
 /// Warns of grains for which the named substeps are too few: those at the bottom yield, and heaps are flatter.
-/// Names objects whose rest lengths change under a sweep that holds those of the start.
-void doubt_changing_lengths(Problems& problems, const Scene& scene) {
-  for (const Object& object : scene.objects) {
-    const Sweep sweep = object.sweep == Sweep::automatic ? scene.settings.sweep : object.sweep;
-    const bool is_held =
-        sweep == Sweep::multigrid || sweep == Sweep::tethered_chains || scene.settings.sweep_options.tethers;
-    if (is_held && has_changing_lengths(object))
-      problems.doubtful("'" + object.name + "', keyframes",
-                        "change rest lengths, which multigrid and tethers do not follow",
-                        "use the sweep chains or tiled without tethers");
-  }
-}
-
 /// Says which soft bodies have numbers that are probably in another unit.
 void doubt_soft_bodies(Problems& problems, const Scene& scene) {
   constexpr double most_strain = 1, most_damping = 0.1;  // [-], [s]
@@ -311,6 +310,7 @@ bool look_at_parts(Problems& problems, const Scene& scene) {
   check_settings(problems, scene);
   check_forces(problems, scene);
   check_count(problems, scene);
+  check_changing_lengths(problems, scene);
   for (const Collider& collider : scene.colliders) {
     problems.at(collider.name);
     check_collider(problems, collider);
@@ -343,7 +343,6 @@ void look_through(Problems& problems, const Scene& scene) {
   doubt_bounds(problems, scene);
   doubt_substeps_of_grains(problems, scene);
   if (problems.grave_count() == 0) {
-    doubt_changing_lengths(problems, scene);
     doubt_soft_bodies(problems, scene);
     doubt_substeps_of_soft_bodies(problems, scene);
     doubt_substeps_of_rods(problems, scene);

@@ -1,5 +1,6 @@
 #include "matter/advice_settings.h"
 #include "constraints/registry.h"
+#include "matter/object_facts.h"
 #include "model/object_sets.h"
 
 #include <algorithm>
@@ -54,7 +55,9 @@ bool has_pins(const Scene& scene) {
 }  // namespace
 
 bool may_tether(const Scene& scene) {
-  const auto hangs_and_stretches = [](const Object& object) { return !object.pins.empty() && !is_rigid(object); };
+  const auto hangs_and_stretches = [](const Object& object) {
+    return (!object.pins.empty() && !is_rigid(object)) || has_changing_lengths(object);
+  };
   return has_pins(scene) && std::none_of(scene.objects.begin(), scene.objects.end(), hangs_and_stretches);
 }
 
@@ -62,7 +65,8 @@ std::vector<Sweep> better_sweeps(const Scene& scene) {
   std::vector<Sweep> better{Sweep::chains, Sweep::multigrid};
   if (chosen_settings(scene, left_open(scene.settings)).sweep == Sweep::multigrid) std::swap(better[0], better[1]);
   better.erase(std::remove(better.begin(), better.end(), scene.settings.sweep), better.end());
-  if (has_stiff_sheet(scene) || movers_may_touch(scene) || may_meet_collider(scene))
+  const bool changes = std::any_of(scene.objects.begin(), scene.objects.end(), has_changing_lengths);
+  if (changes || has_stiff_sheet(scene) || movers_may_touch(scene) || may_meet_collider(scene))
     better.erase(std::remove(better.begin(), better.end(), Sweep::multigrid), better.end());
   return better;
 }

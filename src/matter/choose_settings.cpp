@@ -54,9 +54,9 @@ Choice choose(const Given& given, const Object& object, std::size_t number) {
   const std::size_t particles = linked_particles(object);
   // A heavy body stretches even a short rope, unless the rope is solved with the body's inertia, which only chains are.
   const bool is_tied = particles > 0 && has_ties(object);
+  if (has_changing_lengths(object)) return {Sweep::chains, name + ", whose rest lengths change"};
   if (is_coarse(particles) && is_tied) return {Sweep::chains, name + ", which is tied to bodies"};
   if (is_coarse(particles)) return {Sweep::tiled, too_coarse};
-  if (has_changing_lengths(object)) return {Sweep::chains, name + ", whose rest lengths change"};
   if (object.volume) return choose_for_volume(given, object, number);
   // Neither tethers nor multigrid know of bending, which demands more substeps than they need for stretch.
   const bool is_stiff = is_stiff_sheet(object, gravity), is_in_rows = is_regular(object);

@@ -74,9 +74,12 @@ class Parting {
           share > 0 ? static_cast<float>(double(mass) * share) : std::numeric_limits<float>::infinity();
     }
     for (ConstraintGroup& group : edit.object.constraints) group = follow(group);
+    for (Cluster& cluster : edit.object.clusters) leave_out_left_over(cluster);
     for (std::size_t i = 0; i < origins_.size(); ++i)
       hold_like(origins_[i], static_cast<int>(object_.positions.size() + i), edit.object);
-    edit.object.triangles = border_triangles({edit.object.positions, kept()});
+    std::erase_if(edit.object.triangles, [&](const std::array<int, 3>& triangle) { return is_of_tetrahedron(triangle); });
+    const std::vector<std::array<int, 3>> border = border_triangles({edit.object.positions, kept()});
+    edit.object.triangles.insert(edit.object.triangles.end(), border.begin(), border.end());
     return edit;
   }
 
@@ -93,6 +96,27 @@ class Parting {
     const std::vector<int>& around = around_[static_cast<std::size_t>(p)];
     return std::any_of(around.begin(), around.end(),
                        [&](int t) { return part(t) == removed || part(t) != part(around.front()); });
+  }
+
+  /// True if a particle had tetrahedra, and all of them are removed.
+  bool is_left_over(int p) const {
+    const auto share = shares_.find(p);
+    return share != shares_.end() && !(share->second > 0);
+  }
+
+  void leave_out_left_over(Cluster& cluster) const {
+    for (std::size_t i = cluster.particles.size(); i-- > 0;) {
+      if (!is_left_over(cluster.particles[i])) continue;
+      cluster.particles.erase(cluster.particles.begin() + static_cast<std::ptrdiff_t>(i));
+      if (!cluster.rest.empty()) cluster.rest.erase(cluster.rest.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+
+  /// True if a triangle has the corners of a tetrahedron; others are of cloth in the same object.
+  bool is_of_tetrahedron(const std::array<int, 3>& triangle) const {
+    const std::vector<int>& around = around_[static_cast<std::size_t>(triangle[0])];
+    return std::any_of(around.begin(), around.end(),
+                       [&](int t) { return holds(at(t), triangle[1]) && holds(at(t), triangle[2]); });
   }
 
   /// The fans of tetrahedra around a particle, without those that are removed.
@@ -153,12 +177,18 @@ class Parting {
       std::vector<int> stencil = stencil_of(group, slots, c);
       const std::vector<int> with = tetrahedra_with(stencil, *type);
       const auto left = std::find_if(with.begin(), with.end(), [&](int t) { return part(t) != removed; });
-      if (!with.empty() && left == with.end()) continue;
+      if (!with.empty() ? left == with.end() : uses_left_over(stencil, *type)) continue;
       if (!with.empty()) replace_corners(*left, *type, stencil);
       append(group, c, stencil, 1, out);
       if (group.type == "body_anchor" && with.empty()) tie_copies(group, c, stencil, out);
     }
     return out;
+  }
+
+  bool uses_left_over(const std::vector<int>& stencil, const ConstraintType& type) const {
+    for (std::size_t slot = 0; slot < stencil.size(); ++slot)
+      if (type.slots[slot] == SlotKind::point && is_left_over(stencil[slot])) return true;
+    return false;
   }
 
   /// The tetrahedra that have all points of a constraint as corners; none for a constraint of one point.

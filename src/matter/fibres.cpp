@@ -26,10 +26,10 @@ void require(const Object& body, const Fibres& fibres, std::size_t tetrahedra) {
            "give one for each, or one `direction` for all");
   for (std::size_t i = 0; i < fibres.stretch.size(); ++i) {
     const RestKeyframe& key = fibres.stretch[i];
-    if (!std::isfinite(key.time) || !(key.factor >= 0 && key.factor <= 100))
+    if (!std::isfinite(key.time) || !(key.factor >= 0 && key.factor <= 1e6f))
       refuse(body, "stretch " + std::to_string(i),
              "is " + std::to_string(key.factor) + " at " + std::to_string(key.time) + " s",
-             "give finite times, and 0 to 100");
+             "give finite times, and 0 to 1e6");
     if (i > 0 && !(key.time > fibres.stretch[i - 1].time))
       refuse(body, "stretch " + std::to_string(i), "is not after the one before", "times must increase");
   }

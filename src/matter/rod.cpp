@@ -238,6 +238,7 @@ class RodBuilder {
     for (const float of : {stiffness_.stretch, stiffness_.shear, stiffness_.shear, stiffness_.twist, stiffness_.bending,
                            stiffness_.bending_2})
       put({std::sqrt(static_cast<double>(of) / length)});
+    put({static_cast<double>(options_.radius) / length});
     draft.add_raw("rod_joint", {draft.a().point, draft.a().frame, draft.b().point, draft.b().frame}, rest, 1,
                   options_.material.damping, options_.material.plasticity);
   }

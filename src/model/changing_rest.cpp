@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "constraints/registry.h"
@@ -120,8 +121,39 @@ ChangingRest compile_changing_rest(const std::vector<ChangingGroup>& groups, con
   return out;
 }
 
-void set_factor(CompiledObject& object, const ScaledGroup& group, float factor) {
-  for (std::size_t i = 0; i < group.places.size(); ++i) first_field(object, group.places[i]) = group.rest[i] * factor;
+bool is_one_free_piece(const CompiledObject& object) {
+  if (object.frames.size() > 0) return false;
+  for (const Record& position : object.positions)
+    if (!(position.w > 0)) return false;
+  std::vector<int> parent(object.positions.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
+    return i;
+  };
+  for (const Segment& segment : object.segments) {
+    const Pool& pool = object.pools[at(segment.pool)];
+    const std::int32_t* index = pool.indices.data() + segment.index_offset;
+    for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment))
+      for (int lane = 0; lane < batch_width; ++lane)
+        for (int slot = 1; slot < pool.stencil && lane_is_valid(segment, batch, lane); ++slot)
+          parent[at(root(particle_of(segment, index, slot, lane)))] = root(particle_of(segment, index, 0, lane));
+  }
+  const int first = root(0);
+  for (int i = 0; i < static_cast<int>(parent.size()); ++i)
+    if (root(i) != first) return false;
+  return true;
+}
+
+bool set_factor(CompiledObject& object, const ScaledGroup& group, float factor) {
+  bool changes = false;
+  for (std::size_t i = 0; i < group.places.size(); ++i) {
+    float& field = first_field(object, group.places[i]);
+    const float scaled = group.rest[i] * factor;
+    changes = changes || field != scaled;
+    field = scaled;
+  }
+  return changes;
 }
 
 void append_flowed(const CompiledObject& object, std::vector<float>& flowed) {

@@ -54,8 +54,11 @@ struct ChangingRest {
 /// Finds the constraints of these groups in the pools of an object that is compiled.
 ChangingRest compile_changing_rest(const std::vector<ChangingGroup>& groups, const CompiledObject& object);
 
-/// Multiplies the rest data of a group by a factor.
-void set_factor(CompiledObject& object, const ScaledGroup& group, float factor);
+/// True if the particles of an object without frames are free, and joined by its constraints, so that these cannot turn or move it.
+bool is_one_free_piece(const CompiledObject& object);
+
+/// Multiplies the rest data of a group by a factor. False if they had it.
+bool set_factor(CompiledObject& object, const ScaledGroup& group, float factor);
 
 /// The present rest data of all plastic constraints of an object, in the order of its pools.
 void append_flowed(const CompiledObject& object, std::vector<float>& flowed);

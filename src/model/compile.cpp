@@ -100,6 +100,8 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
     out.tethers = find_tethers(lists, slack, anchors_of(object, static_cast<double>(options.gravity), out), out);
   if (options.sweep == Sweep::multigrid) out.multigrid = build_multigrid(lists, out.positions, options.gravity);
   fill_volume(object, options.passes, out);
+  // Stresses that stay, of muscles or after flow, would turn it as those of balloons do (solver/momentum.h).
+  if (!changing.empty() && is_one_free_piece(out)) out.volume.keeps_momentum = true;
   fill_clusters(object, options.passes, out);
   out.fluid = object.fluid;
   out.grains = object.grains;

@@ -1,10 +1,13 @@
 #include "model/soft_body_substeps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <vector>
 
+#include "constraints/fibre.h"
 #include "constraints/tetrahedron_shear.h"
 
 namespace pliant {
@@ -24,6 +27,7 @@ constexpr double share_of_tetrahedra = 0.75;
 
 /// A tetrahedron: its volume, its shear modulus, and 1 over the square of a length that a flat or a short one has small.
 struct Measured {
+  const int* corners;
   double volume, modulus, per_length_squared;
 };
 
@@ -39,7 +43,7 @@ Measured measured(const Object& object, const int* corners, double compliance) {
   const double six = std::fabs(dot(ab, c));
   const Vec3d rest = bc + ca + ab;
   const double squares = length_squared(bc) + length_squared(ca) + length_squared(ab) + length_squared(rest);
-  return {six / 6, 6 / (compliance * six), squares / (six * six) / gradients_of_cube / edges_of_cube};
+  return {corners, six / 6, 6 / (compliance * six), squares / (six * six) / gradients_of_cube / edges_of_cube};
 }
 
 /// What the tetrahedra of an object are like.
@@ -48,6 +52,23 @@ struct MeasuredSolid {
   double volume = 0, mass = 0;        ///< of all
   double stiffness = 0, damping = 0;  ///< sums over the constraints on shear
 };
+
+/// Adds the modulus of fibres to the shear modulus of their tetrahedra: a third, as of an incompressible solid's Young's modulus.
+void stiffen_by_fibres(const Object& object, MeasuredSolid& solid) {
+  std::map<std::array<int, 4>, Measured*> by_corners;
+  const auto corners = [](const int* first) { return std::array<int, 4>{first[0], first[1], first[2], first[3]}; };
+  for (const ConstraintGroup& group : object.constraints) {
+    if (group.type != Fibre::name || group.stiffness.kind != Stiffness::Kind::compliance) continue;
+    if (by_corners.empty())
+      for (Measured& one : solid.tetrahedra) by_corners[corners(one.corners)] = &one;
+    for (std::size_t t = 0; t < group.particles.size() / 4; ++t) {
+      const double compliance = group.compliances.empty() ? group.stiffness.value : group.compliances[t];
+      const auto found = by_corners.find(corners(&group.particles[4 * t]));
+      if (found == by_corners.end() || !(compliance > 0)) continue;
+      found->second->modulus += 1 / (compliance * found->second->volume) / 3;
+    }
+  }
+}
 
 MeasuredSolid solid_of(const Object& object) {
   MeasuredSolid solid;
@@ -65,6 +86,7 @@ MeasuredSolid solid_of(const Object& object) {
       for (std::size_t k = 0; k < 4; ++k) is_corner[static_cast<std::size_t>(group.particles[4 * t + k])] = true;
     }
   }
+  stiffen_by_fibres(object, solid);
   for (std::size_t i = 0; i < is_corner.size(); ++i)  // not those of bodies that it is tied to
     if (is_corner[i] && std::isfinite(object.masses[i])) solid.mass += static_cast<double>(object.masses[i]);
   return solid;

@@ -1,7 +1,7 @@
 // The sweeps in sixteen lanes. This unit is compiled once for each instruction set level (cmake/PliantLanes.cmake); the
 // macro PLIANT_LEVEL gives each table its own name. It uses only always-inlined functions and the inline namespace of
 // its level, so that the linker never mixes code of two levels.
-#include "constraints/all.h"
+#include "constraints/in_lanes.h"
 #include "math/wide.h"
 #include "solver/kernels.h"
 #include "solver/project.h"
@@ -208,19 +208,11 @@ void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, co
   }
 }
 
-/// The sweep of type T; null for types that are projected one at a time, because their pools are never swept in lanes.
-template <class T, bool general>
-constexpr auto sweep_of() -> void (*)(const Pool&, const Segment&, float*, const SweepArguments&) {
-  if constexpr (in_lanes<T>)
-    return &sweep_type<T, general>;
-  else
-    return nullptr;
-}
-
 template <bool general, class... Types>
 void sweep_any(TypeList<Types...>, const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   using Function = void (*)(const Pool&, const Segment&, float*, const SweepArguments&);
-  static constexpr Function table[] = {sweep_of<Types, general>()...};
+  static_assert((in_lanes<Types> && ...), "other types are projected one at a time");
+  static constexpr Function table[] = {&sweep_type<Types, general>...};
   table[pool.type](pool, segment, multipliers, a);
 }
 
@@ -228,7 +220,7 @@ template <bool general>
 void sweep(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& a) {
   for (const Segment* segment = first; segment != last; ++segment) {
     float* multipliers = a.multipliers != nullptr ? a.multipliers[segment->pool] : nullptr;
-    sweep_any<general>(AllConstraints{}, pools[segment->pool], *segment, multipliers, a);
+    sweep_any<general>(LaneConstraints{}, pools[segment->pool], *segment, multipliers, a);
   }
 }
 

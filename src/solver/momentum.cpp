@@ -71,13 +71,12 @@ struct Inflated {
   }
   bool has_object_of(int task) const { return has(s.model.tiles()[task].object); }
 
-  /// Scenes without them should not pay. `multigrid` includes contacts, whose momentum must not be removed.
+  /// `multigrid` includes contacts, whose momentum must not be removed.
   bool empty() const {
-    if (s.work.volume_gradients.empty() || (s.group != nullptr && s.group->sweep == Sweep::multigrid)) return true;
-    return std::none_of(s.phases().begin(), s.phases().end(), [&](const Phase& phase) {
-      return phase.driver == Driver::volume &&
-             std::any_of(phase.tasks.begin(), phase.tasks.end(), [&](const Task& task) { return has(task.object); });
-    });
+    if (s.group != nullptr && s.group->sweep == Sweep::multigrid) return true;
+    bool found = false;
+    for_objects(s, [&](int object) { found = found || has(object); });
+    return !found;
   }
 };
 

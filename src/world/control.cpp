@@ -132,13 +132,6 @@ void stop_fixed(WorldData& world) {
   }
 }
 
-/// Wakes the bodies of an object, so that what is set acts in the next step.
-void wake_bodies(WorldData& world, int number) {
-  std::vector<float>& times = world.state.rest_times;
-  if (times.empty()) return;
-  std::fill(times.begin() + world.model.first_frame[number], times.begin() + world.model.end_of_frames(number), 0.f);
-}
-
 struct MotorPlace {
   std::size_t joint = 0, motor = 0;
 };
@@ -168,6 +161,12 @@ MotorPlace find_motor(const CompiledObject& of, const std::string& joint, const 
 }
 
 }  // namespace
+
+void wake_bodies(WorldData& world, int number) {
+  std::vector<float>& times = world.state.rest_times;
+  if (times.empty()) return;
+  std::fill(times.begin() + world.model.first_frame[number], times.begin() + world.model.end_of_frames(number), 0.f);
+}
 
 Posed pose_now(const WorldData& world, ColliderId id) {
   const HeldPose* pose = held_pose(world, false, id.slot);

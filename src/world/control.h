@@ -18,6 +18,9 @@ void end_control(WorldData& world, bool was_stopped);
 /// True if a setting of a motor comes before another in State::motors.
 bool is_earlier(const MotorSetting& a, const MotorSetting& b);
 
+/// Wakes the bodies of an object, so that what is set acts in the next step.
+void wake_bodies(WorldData& world, int number);
+
 /// Discards the pose that the user set for a collider that is removed.
 void forget_pose(WorldData& world, bool is_mesh, int slot);
 

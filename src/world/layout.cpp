@@ -9,6 +9,7 @@
 #include "pliant/error.h"
 #include "world/groups.h"
 #include "world/object_store.h"
+#include "world/rest.h"
 
 namespace pliant {
 
@@ -115,6 +116,8 @@ WorldData::WorldData(const Scene& scene, const WorldLayout& layout)
     if (taken[number] == 0) state.blocks[number] = {0, 0, model.generation[number]};
     prepare_object(*this, static_cast<int>(number));
   }
+  keep_flowed(*this);
+  follow_rest_factors(*this, 0);
   groups.all.clear();  // groups of the World without objects
   groups.tables = nullptr;
   bring_up_to_date(*this);

@@ -9,14 +9,13 @@
 #include "pliant/error.h"
 #include "pliant/world.h"
 #include "solver/visit.h"
+#include "world/control.h"
 
 namespace pliant {
 
 namespace {
 
-bool is_earlier(const RestFactor& a, const RestFactor& b) {
-  return std::tie(a.block, a.group) < std::tie(b.block, b.group);
-}
+bool is_before(const RestFactor& a, const RestFactor& b) { return std::tie(a.block, a.group) < std::tie(b.block, b.group); }
 
 const ScaledGroup* find_group(const CompiledObject& object, int group) {
   const auto found = std::find_if(object.changing.scaled.begin(), object.changing.scaled.end(),
@@ -25,24 +24,45 @@ const ScaledGroup* find_group(const CompiledObject& object, int group) {
 }
 
 const RestFactor* held_factor(const State& state, const RestFactor& wanted) {
-  const auto at = std::lower_bound(state.rest_factors.begin(), state.rest_factors.end(), wanted, is_earlier);
-  return at == state.rest_factors.end() || is_earlier(wanted, *at) ? nullptr : &*at;
+  const auto at = std::lower_bound(state.rest_factors.begin(), state.rest_factors.end(), wanted, is_before);
+  return at == state.rest_factors.end() || is_before(wanted, *at) ? nullptr : &*at;
 }
 
 [[noreturn]] void refuse(const std::string& element, const std::string& problem) {
   throw Error({.element = element}, problem, "restore a state of this world");
 }
 
-/// Calls visit(place, slots, lane) for each plastic constraint of an object.
+std::size_t lane_of(const ConstraintPlace& at) { return static_cast<std::size_t>(at.batch * batch_width + at.lane); }
+
+/// Calls visit(place, slots) for each plastic constraint of a pool.
 template <class Visit>
-void for_plastic(const CompiledObject& object, const Visit& visit) {
-  for (const PlasticPool& plastic : object.changing.plastic)
-    for (const Segment& segment : object.segments) {
-      if (segment.pool != plastic.pool) continue;
-      for_segment(object, segment, [&](const ConstraintPlace& at, const std::int32_t* number) {
-        if (plastic.kind[static_cast<std::size_t>(at.batch * batch_width + at.lane)] >= 0) visit(at, number);
-      });
-    }
+void for_plastic(const CompiledObject& object, const PlasticPool& plastic, const Visit& visit) {
+  for (const Segment& segment : object.segments) {
+    if (segment.pool != plastic.pool) continue;
+    for_segment(object, segment, [&](const ConstraintPlace& at, const std::int32_t* number) {
+      if (plastic.kind[lane_of(at)] >= 0) visit(at, number);
+    });
+  }
+}
+
+std::vector<float> rest_of(const ConstraintPlace& at) {
+  std::vector<float> rest;
+  rest.reserve(static_cast<std::size_t>(at.pool.fields));
+  for (int field = 0; field < at.pool.fields; ++field) rest.push_back(at.value(field));
+  return rest;
+}
+
+/// Gives rest data what has flowed, if what they had there at the start is what the others had. Else an edit has given a new rest shape,
+/// which stays.
+bool put_flow(const FlowedData& flowed, std::vector<float>& rest) {
+  std::vector<float> out = rest;
+  for (std::size_t field = 0; field < rest.size(); ++field) {
+    if (flowed.start[field] == flowed.now[field]) continue;
+    if (rest[field] != flowed.start[field]) return false;
+    out[field] = flowed.now[field];
+  }
+  rest = std::move(out);
+  return true;
 }
 
 /// The slots of a constraint in the order that its type prefers, and the rest data in that order.
@@ -70,7 +90,8 @@ void follow_rest_factors(WorldData& world, double time) {
     CompiledObject& object = world.model.objects[o];
     for (const ScaledGroup& group : object.changing.scaled) {
       const RestFactor* held = held_factor(world.state, {static_cast<int>(o), group.group, 0});
-      set_factor(object, group, held != nullptr ? held->factor : group.factor_at(time));
+      if (set_factor(object, group, held != nullptr ? held->factor : group.factor_at(time)))
+        wake_bodies(world, static_cast<int>(o));
     }
   }
 }
@@ -86,7 +107,7 @@ void require_rest(const Model& model, const State& state) {
     const bool is_known = factor.block >= 0 && static_cast<std::size_t>(factor.block) < model.objects.size() &&
                           find_group(model.objects[static_cast<std::size_t>(factor.block)], factor.group) != nullptr &&
                           std::isfinite(factor.factor) && factor.factor >= 0;
-    if (!is_known || (before != nullptr && !is_earlier(*before, factor)))
+    if (!is_known || (before != nullptr && !is_before(*before, factor)))
       refuse("rest factor " + std::to_string(&factor - state.rest_factors.data()),
              "is of no group with keyframes, is not in ascending order, or is negative or not finite");
     before = &factor;
@@ -113,28 +134,34 @@ bool any_flows(const Model& model) {
 
 FlowedRest flowed_rest(const CompiledObject& object) {
   FlowedRest out;
-  for_plastic(object, [&](const ConstraintPlace& at, const std::int32_t* number) {
-    std::vector<float> rest;
-    for (int field = 0; field < at.pool.fields; ++field) rest.push_back(at.value(field));
-    Ordered ordered = in_order(at.pool, {number, number + at.pool.stencil}, std::move(rest));
-    out[key_of(at.pool, ordered.slots)] = std::move(ordered.rest);
-  });
+  for (const PlasticPool& plastic : object.changing.plastic)
+    for_plastic(object, plastic, [&](const ConstraintPlace& at, const std::int32_t* number) {
+      const std::vector<int> slots(number, number + at.pool.stencil);
+      const float* start = &plastic.start[lane_of(at) * static_cast<std::size_t>(at.pool.fields)];
+      const Ordered now = in_order(at.pool, slots, rest_of(at)),
+                    before = in_order(at.pool, slots, {start, start + at.pool.fields});
+      if (now.rest != before.rest) out[key_of(at.pool, now.slots)] = {before.rest, now.rest};
+    });
   return out;
 }
 
 void carry_flowed(const FlowedRest& flowed, const std::vector<int>& slot_before, CompiledObject& object) {
   if (flowed.empty()) return;
-  for_plastic(object, [&](const ConstraintPlace& at, const std::int32_t* number) {
-    std::vector<int> slots;
-    for (int slot = 0; slot < at.pool.stencil; ++slot) slots.push_back(slot_before[static_cast<std::size_t>(number[slot])]);
-    const std::vector<float> any(static_cast<std::size_t>(at.pool.fields));
-    const auto found = flowed.find(key_of(at.pool, in_order(at.pool, slots, any).slots));
-    if (found == flowed.end()) return;
-    const Ordered back = in_order(at.pool, slots, found->second);  // what ordering changes, it changes back
-    Pool& pool = object.pools[static_cast<std::size_t>(at.pool_number)];
-    for (int field = 0; field < pool.fields; ++field)
-      pool.change(field, at.batch)[at.lane] = back.rest[static_cast<std::size_t>(field)];
-  });
+  for (const PlasticPool& plastic : object.changing.plastic)
+    for_plastic(object, plastic, [&](const ConstraintPlace& at, const std::int32_t* number) {
+      std::vector<int> slots;
+      slots.reserve(static_cast<std::size_t>(at.pool.stencil));
+      for (int slot = 0; slot < at.pool.stencil; ++slot)
+        slots.push_back(slot_before[static_cast<std::size_t>(number[slot])]);
+      Ordered ordered = in_order(at.pool, slots, rest_of(at));
+      const auto found = flowed.find(key_of(at.pool, ordered.slots));
+      if (found == flowed.end() || !put_flow(found->second, ordered.rest)) return;
+      const Ordered back = in_order(at.pool, slots, ordered.rest);  // what ordering changes, it changes back
+      Pool& pool = object.pools[static_cast<std::size_t>(at.pool_number)];
+      for (int field = 0; field < pool.fields; ++field)
+        if (pool.row_offset[static_cast<std::size_t>(field)] >= 0)
+          pool.change(field, at.batch)[at.lane] = back.rest[static_cast<std::size_t>(field)];
+    });
 }
 
 void ObjectHandle::set_rest_factor(int group, float factor) {
@@ -150,11 +177,12 @@ void ObjectHandle::set_rest_factor(int group, float factor) {
                 "give a finite number of 0 or more");
   std::vector<RestFactor>& all = world_->state.rest_factors;
   const RestFactor wanted{number, group, factor};
-  const auto at = std::lower_bound(all.begin(), all.end(), wanted, is_earlier);
-  if (at != all.end() && !is_earlier(wanted, *at))
+  const auto at = std::lower_bound(all.begin(), all.end(), wanted, is_before);
+  if (at != all.end() && !is_before(wanted, *at))
     *at = wanted;
   else
     all.insert(at, wanted);
+  wake_bodies(*world_, number);
 }
 
 }  // namespace pliant

@@ -22,11 +22,15 @@ void take_rest_of_state(WorldData& world);
 /// True if constraints of an object are plastic: then a step may change its compiled form.
 bool any_flows(const Model& model);
 
-/// The rest data of the plastic constraints of an object, by type and slots (storage indices; frames after all particles).
-using FlowedRest = std::map<std::vector<int>, std::vector<float>>;
+/// The rest data of a constraint at the start, and what flow has made of them.
+struct FlowedData {
+  std::vector<float> start, now;
+};
+/// Those of an object that have flowed, by type and slots (storage indices; frames after all particles).
+using FlowedRest = std::map<std::vector<int>, FlowedData>;
 FlowedRest flowed_rest(const CompiledObject& object);
-/// Gives each plastic constraint of an object what that one has which had its slots: `slot_before` is the slot of the object before it,
-/// or -1.
+/// Gives the plastic constraints of an edited object what those had that had their slots, unless the edit has changed the rest data that
+/// flowed. `slot_before` is the slot of the object before it, or -1.
 void carry_flowed(const FlowedRest& flowed, const std::vector<int>& slot_before, CompiledObject& object);
 
 }  // namespace pliant

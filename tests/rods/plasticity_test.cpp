@@ -14,11 +14,11 @@ constexpr float radius = 0.01f;
 constexpr int segments = 20;
 
 /// A rod clamped at x = 0 that is loaded across at its tip with a force, then let go: the angle of its last segment afterwards [rad].
-double angle_left(double strain_at_clamp, const Plasticity& plasticity, int substeps) {
+double angle_left(double strain_at_clamp, const Plasticity& plasticity, int substeps, const Vec3f& clamp = {}) {
   RodMaterial material = material_of(1e8, 4e7, 1000);
   material.damping = 0.002f;
   material.plasticity = plasticity;
-  Object rod = make_rod(line({0, 0, 0}, {length_of_rod, 0, 0}, segments), clamped_rod(material, radius));
+  Object rod = make_rod(line(clamp, clamp + Vec3f{length_of_rod, 0, 0}, segments), clamped_rod(material, radius));
   rod.damping = 15;  // over critical: it must not swing beyond where it is to be
   Lone lone(rod, substeps, false);
   const double moment = strain_at_clamp / static_cast<double>(radius) * 1e8 * second_moment(static_cast<double>(radius));
@@ -37,6 +37,12 @@ TEST(PlasticRod, SpringsBackBelowItsYieldStrain) { EXPECT_NEAR(angle_left(0.002,
 
 // The moment falls linearly to the tip. Without hardening nothing bears more than the yield moment: so it folds at the clamp.
 TEST(PlasticRod, StaysBentBeyondIt) { EXPECT_GT(angle_left(0.004, {.yield = 0.0025f}, 20), 0.02); }
+
+TEST(PlasticRod, YieldsAtAClampWhereverThatIs) {
+  const double at_origin = angle_left(0.0027, {.yield = 0.0025f}, 20);
+  EXPECT_GT(at_origin, 1e-3);
+  EXPECT_NEAR(angle_left(0.0027, {.yield = 0.0025f}, 20, {5, 2, -3}) / at_origin, 1, 0.02);
+}
 
 /// The angle that is left of a rod that was held in an arc and is let go. As it springs back it is elastic: its ends overshoot.
 double arc_left(double angle, double yield, int substeps) {

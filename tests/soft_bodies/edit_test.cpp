@@ -149,6 +149,24 @@ TEST(RemoveTetrahedra, TakesTheirMassAndLeavesAClosedSurface) {
   run(world, 10);
 }
 
+TEST(RemoveTetrahedra, LetsGoOfWhatTheyHeld) {
+  Object whole = block();
+  int corner = 0;
+  for (int i = 0; i < static_cast<int>(whole.positions.size()); ++i)
+    if (whole.positions[static_cast<std::size_t>(i)].x > whole.positions[static_cast<std::size_t>(corner)].x) corner = i;
+  whole.positions.push_back({1, 0, 0});
+  whole.masses.push_back(1);
+  ConstraintGroup link;
+  link.type = "distance";
+  link.particles = {corner, static_cast<int>(whole.positions.size()) - 1};
+  whole.constraints.push_back(link);
+  std::vector<int> some;
+  const std::vector<int> right = sides(whole, 0.1f);
+  for (int t = 0; t < static_cast<int>(right.size()); ++t)
+    if (right[static_cast<std::size_t>(t)] != 0) some.push_back(t);
+  EXPECT_TRUE(remove_tetrahedra(whole, some).object.constraints.back().particles.empty());
+}
+
 TEST(EditTetrahedra, WhatCannotBeIsRefused) {
   const Object whole = block();
   const std::vector<int> beyond{100000}, all = [&] {

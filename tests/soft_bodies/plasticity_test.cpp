@@ -176,6 +176,17 @@ TEST(Plasticity, AnEditKeepsWhatHasFlowed) {
   EXPECT_EQ(world.state().flowed, before);
 }
 
+TEST(Plasticity, AnEditOfTheRestShapeReplacesWhatHasFlowed) {
+  World world(dented());
+  run(world, 40);
+  Edit edit = unchanged(dented().objects[0]);
+  for (Vec3f& p : edit.object.positions) p.x *= 1.25f;
+  world.edit(0, edit);
+  Scene scene = dented();
+  scene.objects[0] = edit.object;
+  EXPECT_EQ(world.state().flowed, World(scene).state().flowed);
+}
+
 TEST(Plasticity, AStateWithAnotherNumberOfFlowedDataIsRefused) {
   World world(dented());
   run(world, 2);
@@ -218,6 +229,21 @@ TEST(Plasticity, AFoldBeyondTheYieldAngleStays) {
   const double cosine =
       static_cast<double>(dot(a, b)) / std::sqrt(static_cast<double>(dot(a, a)) * static_cast<double>(dot(b, b)));
   EXPECT_NEAR(std::acos(std::min(1.0, cosine)), 1.5 - 0.4, 0.02);
+}
+
+// Without a limit rest shapes become so flat that a world ends in numbers that are not finite.
+TEST(Plasticity, MatterWithoutAYieldStrainEndsAsAPuddle) {
+  for (const float yield : {0.f, 0.005f, 0.02f}) {
+    SoftBodyOptions options;
+    options.material = elastic_solid("gelatine");
+    options.material.plasticity = Plasticity{.yield = yield};
+    Object object = make_soft_body(box_tetrahedra({0.1f, 0.1f, 0.1f}, {4, 4, 4}), options);
+    for (Vec3f& p : object.positions) p.y += 0.6f;
+    Scene scene = scene_of(std::move(object), 0);
+    scene.colliders.push_back({.name = "floor"});
+    World world(scene);
+    run(world, 150);
+  }
 }
 
 TEST(Plasticity, IsRefusedWhereItMeansNothing) {

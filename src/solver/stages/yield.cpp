@@ -1,4 +1,6 @@
 // Plastic flow: the rest data of constraints follow the shape at the substep's end.
+#include <span>
+
 #include "constraints/registry.h"
 #include "math/functions.h"
 #include "model/changing_rest.h"
@@ -19,6 +21,8 @@ class PoolFlow {
         type_(constraint_type(pool_.type)),
         particles_(arguments(s, number, false)),
         frames_(frame_arguments(s, number)) {
+    const std::vector<std::vector<char>>& broken = s.work.joints[static_cast<std::size_t>(number)].is_broken;
+    if (!broken.empty()) broken_ = broken[static_cast<std::size_t>(plastic.pool)];
     for (const Plasticity& kind : plastic.kinds)
       laws_.push_back(
           {kind.yield, kind.rate > 0 ? static_cast<float>(-expm1(-double(kind.rate) * double(s.h))) : 1.f, kind.most});
@@ -31,7 +35,7 @@ class PoolFlow {
  private:
   void let_flow(const ConstraintPlace& at, const std::int32_t* number) {
     const auto lane = static_cast<std::size_t>(at.batch * batch_width + at.lane);
-    if (plastic_.kind[lane] < 0) return;
+    if (plastic_.kind[lane] < 0 || (!broken_.empty() && broken_[lane] != 0)) return;
     StencilArrays<float> arrays;
     arrays.load_rest(at);
     load_slots(number, arrays);
@@ -63,6 +67,7 @@ class PoolFlow {
   const ConstraintDefinition& type_;
   SweepArguments particles_;
   FrameArguments frames_;
+  std::span<const char> broken_;  ///< [lane] not zero: part of a broken joint; empty: none is
   std::vector<PlasticFlow> laws_;
 };
 
