@@ -1,5 +1,5 @@
-// All constraint types of the library with a fixed stencil. To add one, write its header, include it here or in in_lanes.h and add it to
-// the list: pools, sweeps, files, tests and docs follow (docs/internals/architecture.md, "Adding a constraint").
+// All constraint types of the library with a fixed stencil. To add one, write its header, include it here and add it to the list,
+// or both in in_lanes.h if it has one row over points alone: pools, sweeps, files, tests and docs follow (docs/internals/architecture.md, "Adding a constraint").
 #pragma once
 
 #include "constraints/ball_joint.h"
@@ -24,12 +24,22 @@
 
 namespace pliant {
 
-/// The types in the order in which a sweep visits them. Of joints, motors and friction come first, then limits, so that what
-/// holds parts together has the last word.
-using AllConstraints =
-    Joined<LaneConstraints,
-           TypeList<JointAngleMotor, JointOffsetMotor, JointAngle, JointOffset, JointSwing, JointDistance, PulleyJointRows,
-                    GearJointRows, RackJointRows, PlanarJointRows, CylindricalJointRows, UniversalJointRows,
-                    SliderJointRows, BallJointRows, HingeJointRows, RodJointRows, FixedJointRows, BodyAnchor>>;
+/// The types that are projected one at a time: those with frames, or with more rows than one. Of joints, motors and friction come first,
+/// then limits, so that what holds parts together has the last word.
+using StencilConstraints =
+    TypeList<JointAngleMotor, JointOffsetMotor, JointAngle, JointOffset, JointSwing, JointDistance, PulleyJointRows,
+             GearJointRows, RackJointRows, PlanarJointRows, CylindricalJointRows, UniversalJointRows, SliderJointRows,
+             BallJointRows, HingeJointRows, RodJointRows, FixedJointRows, BodyAnchor>;
+
+namespace detail {
+template <class... Types>
+constexpr bool any_in_lanes(TypeList<Types...>) {
+  return (in_lanes<Types> || ...);
+}
+}  // namespace detail
+static_assert(!detail::any_in_lanes(StencilConstraints{}), "add a type of one row over points to the list of in_lanes.h");
+
+/// The types in the order in which a sweep visits them.
+using AllConstraints = Joined<LaneConstraints, StencilConstraints>;
 
 }  // namespace pliant
