@@ -54,6 +54,9 @@ void leave_out_absent(const std::vector<int>& present, bool keeps_number, std::v
   velocities = std::move(speeds);
 }
 
+/// True if the World tears or cuts an object.
+bool changes_mesh(const Object& object) { return object.tearing || !object.cuts.empty(); }
+
 class WorldWriter final : public FrameWriter {
  public:
   WorldWriter(std::unique_ptr<output::FormatWriter> format, const Scene& scene, std::vector<ObjectId> objects,
@@ -62,9 +65,12 @@ class WorldWriter final : public FrameWriter {
     for (const Object& object : scene.objects) {
       spacings_.push_back(object.fluid && options.liquid_surfaces ? object.fluid->spacing : 0);
       Object part;
+      part.skin = object.skin;
+      part.tearing = object.tearing;
+      part.cuts = object.cuts;
       part.bodies = object.bodies;
       for (ObjectBody& body : part.bodies) body.solids.clear();
-      bodies_.push_back(std::move(part));
+      parts_.push_back(std::move(part));
       has_bodies_ = has_bodies_ || !object.bodies.empty();
     }
   }
@@ -73,8 +79,15 @@ class WorldWriter final : public FrameWriter {
     output::Frame frame{.time = world.state().time, .positions = {}, .velocities = {}, .number = world.state().frame};
     for (std::size_t o = 0; o < objects_.size(); ++o) {
       const ObjectView object = world.object(objects_[o]);
-      add_matter(object, spacings_[o], {world.threads(), has_all_points_}, frame);
-      if (has_bodies_) frame.bodies.push_back(output::body_motions(bodies_[o], object));
+      if (changes_mesh(parts_[o]))
+        add_mesh(object, frame);
+      else
+        add_matter(object, spacings_[o], {world.threads(), has_all_points_}, frame);
+      if (parts_[o].skin) {
+        frame.positions.back() = skinned(*parts_[o].skin, frame.positions.back());
+        frame.velocities.back() = skinned(*parts_[o].skin, frame.velocities.back());
+      }
+      if (has_bodies_) frame.bodies.push_back(output::body_motions(parts_[o], object));
     }
     format_->add(frame);
   }
@@ -88,6 +101,13 @@ class WorldWriter final : public FrameWriter {
     int threads = 1;
     bool has_all_points = false;
   };
+  static void add_mesh(const ObjectView& object, output::Frame& frame) {
+    TriangleMesh mesh = object.mesh();
+    frame.positions.push_back(std::move(mesh.positions));
+    frame.velocities.emplace_back();
+    frame.triangles.push_back(std::move(mesh.triangles));
+  }
+
   static void add_matter(const ObjectView& object, float spacing, const How& how, output::Frame& frame) {
     if (spacing == 0) {
       frame.positions.push_back(object.positions());
@@ -108,8 +128,8 @@ class WorldWriter final : public FrameWriter {
 
   std::unique_ptr<output::FormatWriter> format_;
   std::vector<ObjectId> objects_;  ///< objects at the start of the run
-  std::vector<Object> bodies_;     ///< for each object, which particles and frames are bodies
-  std::vector<float> spacings_;    ///< for each object, that of its liquid if its surface is written, else 0 [m]
+  std::vector<Object> parts_;    ///< for each object, which particles and frames are bodies, its skin, and whether it tears
+  std::vector<float> spacings_;  ///< for each object, that of its liquid if its surface is written, else 0 [m]
   bool has_bodies_ = false;
   bool has_all_points_ = false;  ///< the format has the same number of points in each frame
 };
@@ -129,7 +149,13 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
                     static_cast<int>(world.object(o).orientations().size()));
   output::Objects objects = output::describe(scene);
   for (std::size_t o = 0; o < objects.size(); ++o)
-    objects[o].is_remeshed = options.liquid_surfaces && scene.objects[o].fluid.has_value();
+    objects[o].is_remeshed =
+        (options.liquid_surfaces && scene.objects[o].fluid.has_value()) || changes_mesh(scene.objects[o]);
+  for (const Object& object : scene.objects)
+    if (changes_mesh(object) && object.triangles.empty())
+      throw Error({.file = path, .line = 0, .object = object.name},
+                  "tears and has no triangles, and the lines of a file cannot change",
+                  "leave its `tearing` and `cuts` out, or write no file");
   const auto parts = output::split_path(path);
   const bool has_all_points = parts.suffix == ".glb" || parts.suffix == ".pc2";
   for (std::size_t o = 0; o < objects.size() && !has_all_points; ++o)

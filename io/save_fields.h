@@ -67,6 +67,26 @@ void fields(A& a, Is<Pin> auto& of) {
   a(particle, motion);
 }
 template <class A>
+void fields(A& a, Is<Tearing> auto& of) {
+  auto& [stretch] = of;
+  a(stretch);
+}
+template <class A>
+void fields(A& a, Is<PlaneCut> auto& of) {
+  auto& [start, end, point, normal, along] = of;
+  a(start, end, point, normal, along);
+}
+template <class A>
+void fields(A& a, Is<SkinVertex> auto& of) {
+  auto& [particles, weights] = of;
+  a(particles, weights);
+}
+template <class A>
+void fields(A& a, Is<Skin> auto& of) {
+  auto& [vertices, triangles] = of;
+  a(vertices, triangles);
+}
+template <class A>
 void fields(A& a, Is<Attachment> auto& of) {
   auto& [particle, target, motion, stiffness] = of;
   a(particle, target, motion, stiffness);
@@ -171,13 +191,13 @@ void fields(A& a, Is<Flow> auto& of) {
 template <class A>
 void fields(A& a, Is<Object> auto& of) {
   auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains,
-         clusters, gas, tracers, flow, pins, attachments, thickness, self_collision, collides, groups, mask,
-         static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping,
-         colour] = of;
+         clusters, gas, tracers, flow, pins, attachments, tearing, cuts, skin, thickness, self_collision, collides, groups,
+         mask, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, drag, lift, sweep,
+         damping, colour] = of;
   a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, clusters,
-    gas, tracers, flow, pins, attachments, thickness, self_collision, collides, groups, mask, static_friction,
-    kinetic_friction, restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping);
-  a.aside(colour);
+    gas, tracers, flow, pins, attachments, tearing, cuts, thickness, self_collision, collides, groups, mask,
+    static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping);
+  a.aside(skin, colour);
 }
 template <class A>
 void fields(A&, Is<Plane> auto&) {}

@@ -135,6 +135,23 @@ const JsonValue& one_of(const JsonValue& at, std::initializer_list<const char*> 
   return at;  // not reached: check() has found exactly one
 }
 
+void set_tears(const JsonValue& at, Object& object) {
+  if (const JsonValue* tearing = at.find("tearing")) {
+    object.tearing.emplace();
+    set(*tearing, "stretch", object.tearing->stretch);
+  }
+  for (const JsonValue& item : elements(at, "cuts")) {
+    PlaneCut cut;
+    set(item, "start", cut.start);
+    cut.end = cut.start;
+    set(item, "end", cut.end);
+    set(item, "point", cut.point);
+    set(item, "normal", cut.normal);
+    set(item, "along", cut.along);
+    object.cuts.push_back(cut);
+  }
+}
+
 Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
                  std::vector<std::string>& repairs) {
   const JsonValue& what = one_of(
@@ -146,6 +163,7 @@ Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFo
   set_clusters(document, at, built);
   set_pins(document, at, built);
   set_attachments(document, at, built);
+  set_tears(at, built.object);
   return std::move(built.object);
 }
 

@@ -86,6 +86,29 @@ const Record& tie_record() {
   return result;
 }
 
+const Record& tearing_record() {
+  static const Record result{"tearing",
+                             "The object tears at edges and tetrahedra that become too long.",
+                             {needed("stretch", number("-", 1.000001, 1e6), "Greatest length over that at rest.")},
+                             {}};
+  return result;
+}
+
+const Record& plane_cut_record() {
+  static const Record result{
+      "plane cut",
+      "A cut along a plane of the object's rest shape, by a blade that passes through it. It follows edges of triangles "
+      "and "
+      "faces of tetrahedra.",
+      {field("start", number("s", 0, 1e9), PlaneCut{}.start, "When the blade enters the object."),
+       field("end", number("s", 0, 1e9), "`start`: all at once", "When the blade has passed."),
+       field("point", place(), PlaneCut{}.point, "A point of the plane, in the object's rest shape."),
+       field("normal", vector("-", largest_place), PlaneCut{}.normal, "Normal of the plane, of any length but 0."),
+       field("along", vector("-", largest_place), PlaneCut{}.along, "The way of the blade, not parallel to `normal`.")},
+      {}};
+  return result;
+}
+
 const Record& part_record() {
   static const Record result{
       "part",
@@ -137,6 +160,8 @@ const Record& object_record() {
        field("pins", list(record(pin_record())), "none",
              "Kinematic particles. A body whose particle has a pin turns with it, if a keyframe has a rotation."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
+       field("tearing", record(tearing_record()), "none", "Cloth, ropes and soft bodies: at which stretch they tear."),
+       field("cuts", list(record(plane_cut_record())), "none", "Cuts that are made during the simulation."),
        field("thickness", number("m", 0, largest_place),
              "the material's; 0.005 for a rope, half the spacing for a liquid or gas, the radius of grains, else 0.001",
              "Distance kept from colliders; two surfaces keep the sum of both."),

@@ -87,7 +87,11 @@ const Record& soft_body_record() {
              "Only for a mesh: length of the edges of tetrahedra."),
        field("material", any_of({choice(solid_names()), record(elastic_solid_record())}), "the defaults of elastic solid",
              "The material: the name of a built-in elastic solid, or an elastic solid."),
-       field("fibres", record(fibres_record()), "none", "Fibres in it: a muscle.")},
+       field("fibres", record(fibres_record()), "none", "Fibres in it: a muscle."),
+       field(
+           "skin", any_of({boolean(), record(mesh_record())}), false,
+           "A surface that moves with it, which pictures and files show instead of its border: true for the `mesh` that is "
+           "filled, or another mesh.")},
       {"tetrahedra", "mesh"}};
   return result;
 }

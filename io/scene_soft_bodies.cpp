@@ -95,14 +95,29 @@ float default_size(const TriangleMesh& mesh) {
   return std::clamp(static_cast<float>(thin), longest / 64, longest / 8);
 }
 
-TetrahedralMesh filled(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const Notes& notes) {
-  const SceneMesh surface = make_mesh(document, *at.find("mesh"), folder, notes.object);
-  notes.add("", surface.repairs);
+TetrahedralMesh filled(const JsonValue& at, const SceneMesh& surface, const Notes& notes) {
   float size = 0;
   if (!set(at, "size", size) && !surface.mesh.positions.empty()) size = default_size(surface.mesh);
   FilledMesh result = fill_with_tetrahedra(surface.mesh, size);
   notes.add("", result.notes);
   return std::move(result.mesh);
+}
+
+/// Gives a body the skin of its record `at`, if it has one. `surface` is what it was filled from, or null.
+void set_skin(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const TriangleMesh* surface,
+              const Notes& notes, Object& body) {
+  const JsonValue* skin = at.find("skin");
+  if (skin == nullptr) return;
+  if (skin->kind == JsonValue::Kind::object) {
+    const SceneMesh own = make_mesh(document, *skin, folder, notes.object);
+    notes.add("skin", own.repairs);
+    body.skin = make_skin(body, own.mesh);
+    return;
+  }
+  if (!skin->truth) return;
+  if (surface == nullptr)
+    document.fail_key(*skin, "of `tetrahedra` must say what mesh it is", "give a mesh, such as {\"file\": \"skin.obj\"}");
+  body.skin = make_skin(body, *surface);
 }
 
 }  // namespace
@@ -117,9 +132,15 @@ BuiltObject soft_body_of(const JsonDocument& document, const JsonValue& at, cons
   if (const JsonValue* tetrahedra = at.find("tetrahedra")) {
     if (const JsonValue* size = at.find("size"))
       document.fail_key(*size, "is only for a mesh", "remove it, or scale the tetrahedra");
-    return {make_soft_body(tetrahedra_of(document, *tetrahedra, folder, notes), options)};
+    BuiltObject built{make_soft_body(tetrahedra_of(document, *tetrahedra, folder, notes), options)};
+    set_skin(document, at, folder, nullptr, notes, built.object);
+    return built;
   }
-  return {make_soft_body(filled(document, at, folder, notes), options)};
+  const SceneMesh surface = make_mesh(document, *at.find("mesh"), folder, name);
+  notes.add("", surface.repairs);
+  BuiltObject built{make_soft_body(filled(at, surface, notes), options)};
+  set_skin(document, at, folder, &surface.mesh, notes, built.object);
+  return built;
 }
 
 }  // namespace pliant::scene_file

@@ -111,6 +111,10 @@ FrameObject describe(const Object& object) {
                      .particles = static_cast<int>(object.positions.size()),
                      .triangles = object.triangles,
                      .lines = {}};
+  if (object.skin) {
+    result.particles = static_cast<int>(object.skin->vertices.size());
+    result.triangles = object.skin->triangles;
+  }
   describe_bodies(object, result);
   if (!result.triangles.empty()) return result;
   const std::vector<bool> is_body = body_centres(object);
@@ -228,9 +232,10 @@ std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const 
   const SplitPath parts = split_path(path);
   const std::string& suffix = parts.suffix;
   if (is_any_remeshed(objects) && (suffix == ".glb" || suffix == ".pc2"))
-    throw Error({.file = path, .line = 0, .object = {}, .element = {}},
-                "'" + suffix + "' cannot have the surface of a liquid, which is another mesh in each frame",
-                "end it in .obj, .ply, .usda or .pvd, or write particles");
+    throw Error(
+        {.file = path, .line = 0, .object = {}, .element = {}},
+        "'" + suffix + "' cannot have the surface of a liquid, or of what tears, which is another mesh in each frame",
+        "end it in .obj, .ply, .usda or .pvd, or write particles of the liquid");
   if (suffix == ".glb") return make_glb_writer(path, objects);
   if (suffix == ".usda") return make_usda_writer(path, objects, frame_time);
   const auto surfaces = [&](auto make) { return make_surface_writer(objects, make); };

@@ -102,6 +102,15 @@ Json flow_json(const Scene& scene, const FlowReport& flow) {
           {"refused", flow.refused}, {"blocked", flow.blocked}, {"present", flow.present}};
 }
 
+/// How often what tore, and when at first; null if nothing can tear.
+Json tears_json(const Scene& scene, const Tears& tears) {
+  const auto tears_apart = [](const Object& object) { return object.tearing || !object.cuts.empty(); };
+  if (std::none_of(scene.objects.begin(), scene.objects.end(), tears_apart)) return nullptr;
+  return {{"new_particles", tears.new_particles},
+          {"lost_constraints", tears.lost_constraints},
+          {"first_frame", tears.first_frame < 0 ? Json() : Json(tears.first_frame)}};
+}
+
 /// The tetrahedra of soft bodies at the end, and in their worst frame; null without any.
 Json tetrahedra_json(const World& world, const TetrahedraMeasure& worst, std::int64_t frame) {
   const TetrahedraMeasure last = world.measure().tetrahedra();
@@ -166,6 +175,11 @@ void RunReport::add(const Report& report, const World& world) {
   add(report.compression, report.frame);
   add(world.measure().tetrahedra(), report.frame);
   flow_.add(report.flow);
+  for (const Torn& torn : report.torn) {
+    tears_.new_particles += torn.new_particles;
+    tears_.lost_constraints += torn.lost_constraints;
+    if (tears_.first_frame < 0) tears_.first_frame = report.frame;
+  }
   iterations_.mean += report.iterations.mean;
   milliseconds_.push_back(report.milliseconds);
   most_substeps_ = std::max(most_substeps_, report.substeps);
@@ -257,6 +271,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["overstretch"] = overstretch_json(last_);
   json["widest_tie"] = tie_json(world, widest_tie_, frame_of_tie_);
   json["flow"] = flow_json(scene, flow_);
+  json["tears"] = tears_json(scene, tears_);
   json["compression"] = compression_json(scene, last_.compression, worst_compression_, frame_of_mean_, frame_of_largest_);
   json["tetrahedra"] = tetrahedra_json(world, worst_tetrahedra_, frame_of_tetrahedra_);
   json["nonfinite"] = nonfinite_json(last_);

@@ -14,6 +14,12 @@ namespace pliant::command {
 /// The quantile q, 0..1, of the values, interpolated linearly; 0 if there are none.
 double quantile(std::vector<double> values, double q);
 
+/// What tore and was cut in all frames.
+struct Tears {
+  std::int64_t new_particles = 0, lost_constraints = 0;
+  std::int64_t first_frame = -1;  ///< -1: nothing tore
+};
+
 class RunReport {
  public:
   explicit RunReport(bool hash_frames) : hash_frames_(hash_frames) {}
@@ -46,7 +52,8 @@ class RunReport {
   std::int64_t sum_of_substeps_ = 0;
   TieGap widest_tie_;  ///< of any frame
   std::int64_t frame_of_tie_ = 0;
-  FlowReport flow_;                ///< sums over frames; `present` of the last frame
+  FlowReport flow_;  ///< sums over frames; `present` of the last frame
+  Tears tears_;
   Compression worst_compression_;  ///< the largest mean and the largest maximum of any frame
   std::int64_t frame_of_mean_ = 0, frame_of_largest_ = 0;
   TetrahedraMeasure worst_tetrahedra_;  ///< of the frame with the most inverted ones, or with the smallest

@@ -140,7 +140,9 @@ void add_weights(RenderScene& result, const Object& object, const std::vector<Ve
   const float usual = *middle;
   for (std::size_t i = 0; i < object.masses.size(); ++i) {
     const float mass = object.masses[i];
+    const auto is_centre = [i](const ObjectBody& body) { return body.particle == static_cast<int>(i); };
     if (!std::isfinite(mass) || mass < much * usual) continue;
+    if (std::any_of(object.bodies.begin(), object.bodies.end(), is_centre)) continue;  // drawn with its solids
     const float radius = 2 * object.thickness * std::min(std::cbrt(mass / usual), 10.f);
     result.tubes.push_back({.points = {positions[i]}, .radius = radius, .colour = object.colour});
   }
@@ -175,7 +177,9 @@ void add_smoke(RenderScene& result, const Object& object, const ObjectView& view
   result.smokes.push_back(std::move(smoke));
 }
 
-void add_object(RenderScene& result, const Object& object, const ObjectView& view) {
+void add_object(RenderScene& result, const Object& described, const ObjectView& view) {
+  const bool tears = described.tearing || !described.cuts.empty();
+  const Object& object = tears ? view.description() : described;
   const output::FrameObject shape = output::describe(object);
   std::vector<Vec3f> positions = view.present_positions();
   add_bodies(result, object, shape, view);
@@ -192,6 +196,7 @@ void add_object(RenderScene& result, const Object& object, const ObjectView& vie
   }
   if (object.fluid) return add_liquid(result, object, std::move(positions), shape.colour);
   if (!shape.triangles.empty()) {
+    if (object.skin) positions = skinned(*object.skin, positions);
     result.meshes.push_back({std::move(positions), shape.triangles, shape.colour, false});
     return;
   }

@@ -43,6 +43,15 @@ int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions
 /// the body's object first.
 void attach(Object& object, const std::vector<int>& particles, int body, const Stiffness& stiffness = {});
 
+/// Ties particles of the object to its own triangles, as buttons to a shirt: each to the nearest place on triangles that do not have it as
+/// a corner. It is pulled onto that place. Throws an Error if there are no particles or triangles, or that names a particle that does not
+/// exist. Append the shirt and the buttons to one object first.
+void attach_to_surface(Object& object, const std::vector<int>& particles, const Stiffness& stiffness = {});
+
+/// Ties particles of the object to its own tetrahedra (tetrahedra_of), as a tendon to flesh: each to the place where it is, in the
+/// tetrahedron that it lies in, or the nearest one. Throws an Error as attach_to_surface does.
+void attach_inside(Object& object, const std::vector<int>& particles, const Stiffness& stiffness = {});
+
 /// Adds the particles, frames, bodies, joints, constraints, triangles and pins of another object to an object, whose other
 /// properties stay. Bodies and joints whose names are taken get a number after them, as in "door_2". Returns the index of its first particle.
 /// Throws an Error if it has a volume.

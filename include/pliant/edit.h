@@ -1,6 +1,7 @@
 // Changes of an object of a World: cutting, removing triangles, and changes of your own. World::edit makes them.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,5 +43,17 @@ Edit remove_tetrahedra(const Object& object, std::span<const int> tetrahedra);
 /// particle is split into one for each fan of tetrahedra of one part around it; copies follow all other particles. Masses are divided by
 /// volume, so mass and momentum are conserved. Throws an Error if the sizes differ, or the object has no tetrahedra.
 Edit part_tetrahedra(const Object& object, std::span<const int> part);
+
+/// Parts a surface along edges of its triangles: those of different `part` come apart, one number for each of Object::triangles. Otherwise
+/// as `cut`. Throws an Error if the sizes differ, or the object is a soft body.
+Edit part_triangles(const Object& object, std::span<const int> part);
+
+/// The Edit by which an object tears at these positions of its particles, as Object::tearing says; nothing if it holds. World::step calls
+/// it. Of edges and tetrahedra that are too long the longest come first; what lies around a tear holds until the next call, because the tear
+/// relieves it. A link that belongs to no triangle, as that of a rope, is removed. Throws an Error if the sizes differ.
+std::optional<Edit> tear(const Object& object, std::span<const Vec3f> positions);
+
+/// The Edit that makes what is due of Object::cuts at a time [s]; nothing if all of that is made. World::step calls it.
+std::optional<Edit> make_cuts(const Object& object, double time);
 
 }  // namespace pliant

@@ -47,6 +47,9 @@ class ObjectView {
   ObjectView(const WorldData& world, ObjectId id) : read_(&world), id_(id) {}
   ObjectId id() const { return id_; }
   ObjectInfo info() const;
+  /// The present description of an object with Object::tearing or cuts, which the World changes as it tears; the scene to save the World
+  /// with needs it. Throws an Error for other objects, of which the World keeps none.
+  const Object& description() const;
 
   /// The positions of the particles in the user's order [m].
   std::vector<Vec3f> positions() const;

@@ -148,6 +148,14 @@ struct JointBreak {
   std::string name;  ///< of the joint
 };
 
+/// An object that tore or was cut at the end of a step (Object::tearing, Object::cuts). Its particles keep their indices; new ones follow.
+struct Torn {
+  ObjectId object;
+  int new_particles = 0;  ///< particles that were split off
+  int lost_constraints =
+      0;  ///< how many constraints fewer it has; an edge that came to lie on both sides of the tear is one more
+};
+
 /// The rigid tie of a particle to a body (attach()) that is open farthest: the error that a step leaves. Ties with compliance or PBD
 /// stiffness are left out, because these open by design.
 struct TieGap {
@@ -212,6 +220,7 @@ struct Report {
   TensionActs tension;                         ///< of liquids
   FlowReport flow;                             ///< of liquids and grains whose particles come and go
   int sleeping_bodies = 0;                     ///< rigid bodies that sleep at the end of the step (SleepOptions)
+  std::vector<Torn> torn;                      ///< objects that tore or were cut, by object
   std::vector<JointBreak> broken_joints;       ///< joints that broke in this step, by object and index
   std::optional<NonFinite> nonfinite;
   bool stopped = false;  ///< true if World::stop_when ended the step before the frame was complete

@@ -172,6 +172,33 @@ struct ObjectJoint {
   std::vector<ObjectJointMotor> motors;
 };
 
+/// Where an object tears: at edges and tetrahedra that become too long. World::step splits one of their particles, across the direction of
+/// the greatest stretch (Mueller et al. 2007, section 4.6), and tells in Report::torn.
+struct Tearing {
+  float stretch = 1.5f;  ///< greatest length over that at rest, > 1 [-]
+};
+
+/// A cut along a plane of an object's rest shape, made by World::step as time passes. It follows edges of triangles and faces of tetrahedra.
+struct PlaneCut {
+  float start = 0, end = 0;  ///< when the blade enters the object, and when it has passed; equal: at once [s]
+  Vec3f point{};             ///< of the plane [m]
+  Vec3f normal{1, 0, 0};     ///< of the plane; of any length but 0
+  Vec3f along{0, -1, 0};     ///< the way of the blade, at constant speed; must not be parallel to `normal`
+};
+
+/// A vertex of a Skin: the mean of four particles, with weights.
+struct SkinVertex {
+  std::array<int, 4> particles{};
+  std::array<float, 4> weights{};  ///< their sum is 1; a vertex outside of its tetrahedron has negative ones
+};
+
+/// A surface that moves with an object's particles, finer than its own. Files and pictures show it instead; nothing touches it.
+/// make_skin of pliant/soft_body.h makes one.
+struct Skin {
+  std::vector<SkinVertex> vertices;
+  std::vector<std::array<int, 3>> triangles;  ///< indices of vertices
+};
+
 /// An object: particles and constraints. make_cloth and make_rope make one. Over fifteen members: its whole description.
 struct Object {
   std::string name;
@@ -192,6 +219,9 @@ struct Object {
   Flow flow;                                  ///< how particles of a liquid or grains come and go (pliant/flow.h)
   std::vector<Pin> pins;
   std::vector<Attachment> attachments;
+  std::optional<Tearing> tearing;     ///< none: it stretches as far as it is pulled
+  std::vector<PlaneCut> cuts;         ///< cuts that are made during the simulation
+  std::optional<Skin> skin;           ///< what files and pictures show instead of `triangles`
   float thickness = 0.001f;           ///< distance kept from colliders; two surfaces keep the sum of both [m]
   bool self_collision = false;        ///< the surface cannot pass through itself; without triangles: the links cannot
   bool collides = false;              ///< the surface cannot pass through other objects that also have `collides`

@@ -89,4 +89,11 @@ struct FilledMesh {
 /// without two triangles, encloses nothing at that size, or there would be more than 2^22 nodes.
 FilledMesh fill_with_tetrahedra(const TriangleMesh& mesh, float size);
 
+/// Makes a Skin of a mesh in the rest shape of a soft body: each vertex follows the tetrahedron that it lies in, or the nearest one. Throws
+/// an Error if the object has no tetrahedra, or a vertex is not finite.
+Skin make_skin(const Object& soft_body, const TriangleMesh& mesh);
+
+/// The vertices of a skin where an object's particles have these positions (or velocities, and the like).
+std::vector<Vec3f> skinned(const Skin& skin, const std::vector<Vec3f>& particles);
+
 }  // namespace pliant

@@ -16,6 +16,8 @@
 #include "constraints/joint_offset_motor.h"
 #include "constraints/joint_swing.h"
 #include "constraints/planar_joint.h"
+#include "constraints/point_in_tetrahedron.h"
+#include "constraints/point_on_triangle.h"
 #include "constraints/pulley_joint.h"
 #include "constraints/rack_joint.h"
 #include "constraints/rod_joint.h"
@@ -29,7 +31,7 @@ namespace pliant {
 using StencilConstraints =
     TypeList<JointAngleMotor, JointOffsetMotor, JointAngle, JointOffset, JointSwing, JointDistance, PulleyJointRows,
              GearJointRows, RackJointRows, PlanarJointRows, CylindricalJointRows, UniversalJointRows, SliderJointRows,
-             BallJointRows, HingeJointRows, RodJointRows, FixedJointRows, BodyAnchor>;
+             BallJointRows, HingeJointRows, RodJointRows, FixedJointRows, BodyAnchor, PointOnTriangle, PointInTetrahedron>;
 
 namespace detail {
 template <class... Types>

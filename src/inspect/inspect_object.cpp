@@ -452,6 +452,7 @@ void check_object(Problems& problems, const Object& object) {
   check_volume(problems, object, sound);
   check_clusters(problems, object);
   check_control(problems, object);
+  check_tears(problems, object);
   require_range(problems, "thickness", object.thickness, 0, largest_place);
   check_fluid(problems, object);
   check_flow(problems, object);

@@ -74,6 +74,8 @@ void check_rolling(Problems& problems, float rolling_friction, float spinning_fr
 /// Reports as grave what is wrong with the rigid bodies of an object.
 void check_bodies(Problems& problems, const Object& object);
 void check_clusters(Problems& problems, const Object& object);
+/// Reports as grave what is wrong with how an object tears, is cut, and with its skin.
+void check_tears(Problems& problems, const Object& object);
 /// Reports as grave everything for which a World rejects an object.
 void check_object(Problems& problems, const Object& object);
 /// Reports doubtful settings of an object that has no grave findings.

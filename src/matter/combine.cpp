@@ -68,6 +68,29 @@ void append_joints(Object& object, const Object& other, int bodies, int groups) 
   }
 }
 
+/// The skin of an object; if it has none, its own triangles as one.
+Skin skin_or_surface(const Object& object) {
+  if (object.skin) return *object.skin;
+  Skin skin;
+  skin.triangles = object.triangles;
+  for (int i = 0; i < static_cast<int>(object.positions.size()); ++i) skin.vertices.push_back({{i, i, i, i}, {1, 0, 0, 0}});
+  return skin;
+}
+
+/// If one of two objects has a skin, both get one.
+void append_skin(Object& object, const Object& other) {
+  if (!object.skin && !other.skin) return;
+  Skin skin = skin_or_surface(object);
+  const int particles = static_cast<int>(object.positions.size()), vertices = static_cast<int>(skin.vertices.size());
+  const Skin added = skin_or_surface(other);
+  for (SkinVertex vertex : added.vertices) {
+    for (int& particle : vertex.particles) particle += particles;
+    skin.vertices.push_back(vertex);
+  }
+  for (const auto& [a, b, c] : added.triangles) skin.triangles.push_back({a + vertices, b + vertices, c + vertices});
+  object.skin = std::move(skin);
+}
+
 }  // namespace
 
 int append(Object& object, const Object& other) {
@@ -75,6 +98,7 @@ int append(Object& object, const Object& other) {
     throw Error({"", 0, other.name, "volume"}, "cannot become part of an object", "add the object by itself");
   const int particles = static_cast<int>(object.positions.size()), frames = static_cast<int>(object.frames.size()),
             bodies = static_cast<int>(object.bodies.size()), groups = static_cast<int>(object.constraints.size());
+  append_skin(object, other);
   if (!object.velocities.empty() || !other.velocities.empty()) {
     object.velocities.resize(object.positions.size());
     object.velocities.insert(object.velocities.end(), other.velocities.begin(), other.velocities.end());

@@ -7,9 +7,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
+#include "matter/cut_faces.h"
 #include "matter/edit_parts.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
@@ -20,12 +23,21 @@ namespace pliant {
 namespace {
 
 using Corners = std::array<int, 4>;
-constexpr int removed = std::numeric_limits<int>::min();
 
 bool holds(const Corners& t, int particle) { return std::find(t.begin(), t.end(), particle) != t.end(); }
 
-bool share_a_face(const Corners& a, const Corners& b) {
-  return std::count_if(a.begin(), a.end(), [&](int corner) { return holds(b, corner); }) == 3;
+/// The corners that two tetrahedra share; nothing if these are not three.
+std::optional<Face> shared_face(const Corners& a, const Corners& b) {
+  Face face{};
+  std::size_t count = 0;
+  for (const int corner : a) {
+    if (!holds(b, corner)) continue;
+    if (count == 3) return {};
+    face[count++] = corner;
+  }
+  if (count < 3) return {};
+  std::sort(face.begin(), face.end());
+  return face;
 }
 
 double volume_of(const Object& object, const Corners& t) {
@@ -36,31 +48,26 @@ double volume_of(const Object& object, const Corners& t) {
   return std::fabs(dot(cross(at(1) - at(0), at(2) - at(0)), at(3) - at(0))) / 6;
 }
 
-std::vector<Corners> required_tetrahedra(const Object& object) {
-  std::vector<Corners> out = tetrahedra_of(object);
-  if (out.empty()) throw Error({.object = object.name}, "has no tetrahedra", "use cut or remove_triangles for surfaces");
-  for (const Corners& t : out)
-    for (const int corner : t)
-      if (corner < 0 || corner >= static_cast<int>(object.positions.size()))
-        throw Error({.object = object.name, .element = "particle " + std::to_string(corner)}, "does not exist",
-                    "particles count from 0");
-  return out;
-}
-
-/// A soft body that comes apart: `part` has a number for each tetrahedron, or `removed`.
+/// A soft body that comes apart along some faces, or loses some tetrahedra.
 class Parting {
  public:
-  Parting(const Object& object, std::vector<Corners> tetrahedra, std::vector<int> part)
-      : object_(object), tetrahedra_(std::move(tetrahedra)), part_(std::move(part)), around_(object.positions.size()) {
+  /// Fans are formed around the particles of `reached`.
+  Parting(const Object& object, std::vector<Corners> tetrahedra, std::set<int> removed, std::set<Face> open,
+          const std::set<int>& reached)
+      : object_(object),
+        tetrahedra_(std::move(tetrahedra)),
+        removed_(std::move(removed)),
+        open_(std::move(open)),
+        around_(object.positions.size()) {
     for (int t = 0; t < static_cast<int>(tetrahedra_.size()); ++t)
       for (const int corner : at(t)) around_[static_cast<std::size_t>(corner)].push_back(t);
     after_ = tetrahedra_;
-    for (int p = 0; p < static_cast<int>(around_.size()); ++p)
-      if (is_reached(p)) split(p);
+    for (const int p : reached) split(p);
   }
 
   Edit make() {
     Edit edit = unchanged(object_);
+    edit.object.skin.reset();
     edit.from.insert(edit.from.end(), origins_.begin(), origins_.end());
     for (const int origin : origins_) {
       const auto from = static_cast<std::size_t>(origin);
@@ -85,17 +92,10 @@ class Parting {
 
  private:
   const Corners& at(int t) const { return tetrahedra_[static_cast<std::size_t>(t)]; }
-  int part(int t) const { return part_[static_cast<std::size_t>(t)]; }
+  bool is_removed(int t) const { return removed_.count(t) != 0; }
   int origin_of(int particle) const {
     const auto first = static_cast<int>(object_.positions.size());
     return particle < first ? particle : origins_[static_cast<std::size_t>(particle - first)];
-  }
-
-  /// True if tetrahedra around a particle are of several parts, or some are removed.
-  bool is_reached(int p) const {
-    const std::vector<int>& around = around_[static_cast<std::size_t>(p)];
-    return std::any_of(around.begin(), around.end(),
-                       [&](int t) { return part(t) == removed || part(t) != part(around.front()); });
   }
 
   /// True if a particle had tetrahedra, and all of them are removed.
@@ -123,14 +123,15 @@ class Parting {
   std::vector<std::vector<int>> fans_of(int p) const {
     std::vector<int> left;
     for (const int t : around_[static_cast<std::size_t>(p)])
-      if (part(t) != removed) left.push_back(t);
+      if (!is_removed(t)) left.push_back(t);
     std::vector<std::vector<int>> fans;
     while (!left.empty()) {
       std::vector<int> fan{left.front()};
       left.erase(left.begin());
       for (std::size_t i = 0; i < fan.size(); ++i)
         for (auto other = left.begin(); other != left.end();) {
-          if (part(*other) != part(fan[i]) || !share_a_face(at(*other), at(fan[i]))) {
+          const std::optional<Face> face = shared_face(at(*other), at(fan[i]));
+          if (!face || open_.count(*face) != 0) {
             ++other;
             continue;
           }
@@ -163,7 +164,7 @@ class Parting {
   std::vector<Corners> kept() const {
     std::vector<Corners> out;
     for (std::size_t t = 0; t < after_.size(); ++t)
-      if (part_[t] != removed) out.push_back(after_[t]);
+      if (!is_removed(static_cast<int>(t))) out.push_back(after_[t]);
     return out;
   }
 
@@ -175,8 +176,12 @@ class Parting {
     ConstraintGroup out = empty_like(group);
     for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
       std::vector<int> stencil = stencil_of(group, slots, c);
+      if (std::none_of(stencil.begin(), stencil.end(), [&](int slot) { return shares_.count(slot) != 0; })) {
+        append(group, c, stencil, 1, out);
+        continue;
+      }
       const std::vector<int> with = tetrahedra_with(stencil, *type);
-      const auto left = std::find_if(with.begin(), with.end(), [&](int t) { return part(t) != removed; });
+      const auto left = std::find_if(with.begin(), with.end(), [&](int t) { return !is_removed(t); });
       if (!with.empty() ? left == with.end() : uses_left_over(stencil, *type)) continue;
       if (!with.empty()) replace_corners(*left, *type, stencil);
       append(group, c, stencil, 1, out);
@@ -191,14 +196,15 @@ class Parting {
     return false;
   }
 
-  /// The tetrahedra that have all points of a constraint as corners; none for a constraint of one point.
+  /// The tetrahedra that have all points of a constraint as corners, or four of them; none for a constraint of one point.
   std::vector<int> tetrahedra_with(const std::vector<int>& stencil, const ConstraintType& type) const {
     std::vector<int> points, out;
     for (std::size_t slot = 0; slot < stencil.size(); ++slot)
       if (type.slots[slot] == SlotKind::point) points.push_back(stencil[slot]);
     if (points.size() < 2) return out;
-    for (const int t : around_[static_cast<std::size_t>(points.front())])
-      if (std::all_of(points.begin(), points.end(), [&](int p) { return holds(at(t), p); })) out.push_back(t);
+    const auto needed = static_cast<std::ptrdiff_t>(std::min(points.size(), std::size_t{4}));
+    for (const int t : around_[static_cast<std::size_t>(points.back())])
+      if (std::count_if(points.begin(), points.end(), [&](int p) { return holds(at(t), p); }) == needed) out.push_back(t);
     return out;
   }
 
@@ -206,6 +212,7 @@ class Parting {
     for (std::size_t slot = 0; slot < stencil.size(); ++slot) {
       if (type.slots[slot] != SlotKind::point) continue;
       const auto corner = std::find(at(t).begin(), at(t).end(), stencil[slot]) - at(t).begin();
+      if (corner == 4) continue;
       stencil[slot] = after_[static_cast<std::size_t>(t)][static_cast<std::size_t>(corner)];
     }
   }
@@ -222,7 +229,8 @@ class Parting {
 
   const Object& object_;
   std::vector<Corners> tetrahedra_, after_;  ///< corners before and after the edit
-  std::vector<int> part_;
+  std::set<int> removed_;
+  std::set<Face> open_;
   std::vector<std::vector<int>> around_;  ///< tetrahedra at each particle
   std::vector<int> origins_;              ///< original particle of each copy
   std::map<int, double> shares_;          ///< of particles that the edit reaches: share of the original's mass
@@ -230,18 +238,53 @@ class Parting {
 
 }  // namespace
 
+std::vector<std::array<int, 4>> required_tetrahedra(const Object& object) {
+  std::vector<Corners> out = tetrahedra_of(object);
+  if (out.empty()) throw Error({.object = object.name}, "has no tetrahedra", "use cut or remove_triangles for surfaces");
+  for (const Corners& t : out)
+    for (const int corner : t)
+      if (corner < 0 || corner >= static_cast<int>(object.positions.size()))
+        throw Error({.object = object.name, .element = "particle " + std::to_string(corner)}, "does not exist",
+                    "particles count from 0");
+  return out;
+}
+
+std::vector<InnerFace> inner_faces(const std::vector<std::array<int, 4>>& tetrahedra) {
+  std::vector<std::pair<Face, int>> sides;
+  sides.reserve(4 * tetrahedra.size());
+  for (int t = 0; t < static_cast<int>(tetrahedra.size()); ++t) {
+    const auto& [a, b, c, d] = tetrahedra[static_cast<std::size_t>(t)];
+    for (Face face : {Face{b, c, d}, Face{a, c, d}, Face{a, b, d}, Face{a, b, c}}) {
+      std::sort(face.begin(), face.end());
+      sides.emplace_back(face, t);
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<InnerFace> found;
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i].first == sides[i - 1].first) found.push_back({sides[i].first, sides[i - 1].second, sides[i].second});
+  return found;
+}
+
+Edit cut_faces(const Object& object, const std::set<Face>& faces) {
+  std::set<int> reached;
+  for (const Face& face : faces) reached.insert(face.begin(), face.end());
+  return Parting(object, required_tetrahedra(object), {}, faces, reached).make();
+}
+
 Edit remove_tetrahedra(const Object& object, std::span<const int> tetrahedra) {
   std::vector<Corners> all = required_tetrahedra(object);
-  std::vector<int> part(all.size(), 0);
+  std::set<int> removed, reached;
   for (const int t : tetrahedra) {
     if (t < 0 || t >= static_cast<int>(all.size()))
       throw Error({.object = object.name, .element = "tetrahedron " + std::to_string(t)},
                   "does not exist; there are " + std::to_string(all.size()), "tetrahedra count from 0");
-    part[static_cast<std::size_t>(t)] = removed;
+    removed.insert(t);
+    reached.insert(all[static_cast<std::size_t>(t)].begin(), all[static_cast<std::size_t>(t)].end());
   }
-  if (std::all_of(part.begin(), part.end(), [](int one) { return one == removed; }))
+  if (removed.size() == all.size())
     throw Error({.object = object.name}, "would lose all its tetrahedra", "remove the object with World::remove");
-  return Parting(object, std::move(all), std::move(part)).make();
+  return Parting(object, std::move(all), removed, {}, reached).make();
 }
 
 Edit part_tetrahedra(const Object& object, std::span<const int> part) {
@@ -251,9 +294,15 @@ Edit part_tetrahedra(const Object& object, std::span<const int> part) {
                 "has " + std::to_string(all.size()) + " tetrahedra and is given " + std::to_string(part.size()) +
                     " numbers of parts",
                 "give one for each of tetrahedra_of");
-  std::vector<int> numbers(part.begin(), part.end());
-  for (int& number : numbers) number = std::max(number, removed + 1);
-  return Parting(object, std::move(all), std::move(numbers)).make();
+  std::map<int, int> part_at;  // of the first tetrahedron at each particle
+  std::set<int> reached;       // where parts meet, be it in an edge or a point alone
+  for (std::size_t t = 0; t < all.size(); ++t)
+    for (const int corner : all[t])
+      if (part_at.try_emplace(corner, part[t]).first->second != part[t]) reached.insert(corner);
+  std::set<Face> open;
+  for (const InnerFace& inner : inner_faces(all))
+    if (part[static_cast<std::size_t>(inner.a)] != part[static_cast<std::size_t>(inner.b)]) open.insert(inner.face);
+  return Parting(object, std::move(all), {}, open, reached).make();
 }
 
 }  // namespace pliant

@@ -13,6 +13,8 @@
 #include "world/events.h"
 #include "world/intersections.h"
 #include "world/object_store.h"
+#include "world/objects.h"
+#include "world/tearing.h"
 
 namespace pliant {
 
@@ -121,7 +123,9 @@ ObjectId World::add(const Object& object) {
   refuse_intersections(*data_, compiled, {object.groups, object.mask}, false);
   const int number = data_->model.add(std::move(compiled));
   place_object(*data_, number);
-  return data_->ids.objects.add(number);
+  const ObjectId id = data_->ids.objects.add(number);
+  keep_description(*data_, id.slot, &object);
+  return id;
 }
 
 ColliderId World::add(const Collider& collider) {
@@ -144,25 +148,29 @@ MeshColliderId World::add(const MeshCollider& collider) {
   return data_->ids.mesh_colliders.add(number);
 }
 
-std::vector<int> World::edit(ObjectId object, const Edit& edit) {
-  const int number = data_->number(object);
+std::vector<int> edit_object(WorldData& world, ObjectId object, const Edit& edit) {
+  const int number = world.number(object);
   refuse_grave(edit.object);
-  require_origins(*data_, number, edit);
-  const CompiledObject& old = data_->model.objects[number];
+  require_origins(world, number, edit);
+  const CompiledObject& old = world.model.objects[number];
   std::vector<int> news(old.user_particles, -1);
   for (int i = static_cast<int>(edit.from.size()); i-- > 0;)
     if (edit.from[i] >= 0) news[edit.from[i]] = i;
   const Sweep sweep = edit.object.sweep == Sweep::automatic ? old.sweep : edit.object.sweep;
-  require_accelerable(*data_, sweep, edit.object.name);
-  data_->overstretch.forget_object(object.slot);
-  replace_object(*data_, number, compile(edit.object, compile_options(*data_, sweep)), edit.from);
+  require_accelerable(world, sweep, edit.object.name);
+  world.overstretch.forget_object(object.slot);
+  replace_object(world, number, compile(edit.object, compile_options(world, sweep)), edit.from);
+  keep_description(world, object.slot, &edit.object);
   return news;
 }
+
+std::vector<int> World::edit(ObjectId object, const Edit& edit) { return edit_object(*data_, object, edit); }
 
 void World::remove(ObjectId object) {
   remove_object(*data_, data_->number(object));
   data_->overstretch.forget_object(object.slot);
   forget_touching(*data_, object);
+  keep_description(*data_, object.slot, nullptr);
   data_->ids.objects.remove(object);
 }
 

@@ -15,6 +15,7 @@
 #include "world/groups.h"
 #include "world/object_store.h"
 #include "world/rest.h"
+#include "world/tearing.h"
 
 namespace pliant {
 
@@ -40,6 +41,7 @@ WorldData::WorldData(const Scene& scene, const Settings& given, const Settings& 
   for (int c = 0; c < static_cast<int>(scene.colliders.size()); ++c) ids.colliders.add(c);
   const std::vector<Sweep> sweeps = chosen_sweeps(scene, with);  // the sweep of each depends on all objects
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    keep_description(*this, static_cast<int>(o), &scene.objects[o]);
     const CompileOptions options = compile_options(*this, sweeps[o]);
     ids.objects.add(model.add(given_away != nullptr ? compile(std::exchange(given_away->objects[o], {}), options)
                                                     : compile(scene.objects[o], options)));
@@ -124,6 +126,7 @@ Report World::step(float dt) {
     report.stopped = true;
     return report;
   }
+  const double before = data_->state.time;
   let_flow(*data_, static_cast<double>(dt), report.flow);
   follow_pressures(*data_, data_->state.time + static_cast<double>(dt));
   follow_rest_factors(*data_, data_->state.time + static_cast<double>(dt));
@@ -157,6 +160,7 @@ Report World::step(float dt) {
     report.residuals = measure().residuals();
     report.stretch = measure().stretch();
   }
+  if (!data_->stopped && !report.stopped) tear_objects(*data_, before, report);
   return report;
 }
 

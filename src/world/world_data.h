@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -75,6 +76,7 @@ struct WorldData {
   WorldGroups groups;
   OverstretchRecord overstretch;
   WorldEvents events;
+  std::map<int, Object> descriptions;       ///< of objects that tear or are cut, by slot of their id
   bool stopped = false;                     ///< true after a value that is not finite, until a State is restored
   const std::atomic<bool>* stop = nullptr;  ///< flag given to World::stop_when
   bool may_drift = false;  ///< fixed particles may have a velocity from a frame in which the user moved them

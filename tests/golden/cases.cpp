@@ -67,7 +67,7 @@ Scene scene_of(const SweepWay& way) {
 namespace {
 
 /// Scenes in folders of scenes/ that run code of their own: rigid bodies on meshes, on cloth, in piles and with joints, edges on
-/// primitives, heightfields, a deforming collider, distance grids, untangling, liquids, grains, cloth that holds both, soft bodies, and rods.
+/// primitives, heightfields, a deforming collider, distance grids, untangling, liquids, grains, cloth that holds both, soft bodies, rods, and tears.
 const char* const contact_scenes[] = {
     "bodies/bowl",        "bodies/hammock",      "bodies/pyramid",     "bodies/ragdoll",
     "contact/corners",    "contact/heightfield", "contact/sleeve",     "contact/solids",
@@ -78,8 +78,8 @@ const char* const contact_scenes[] = {
     "soft_bodies/stairs", "soft_bodies/squeeze", "soft_bodies/finger", "soft_bodies/mattress",
     "soft_bodies/bumper", "soft_bodies/muscle",  "bodies/turntable",   "gas/pump",
     "rods/springs",       "rods/stalks",         "rods/hair",          "rods/winch",
-    "rods/bent_wire"};
-constexpr int contact_frames = 16;
+    "rods/bent_wire",     "soft_bodies/dancer",  "tears/block",        "tears/sheet"};
+constexpr int contact_frames = 16, tearing_frames = 40;
 
 /// Upper limit of grid nodes along a side: grids as fine as those of the scenes would take seconds to make.
 constexpr float nodes_a_side = 12;
@@ -123,6 +123,7 @@ Case make_case(const std::string& name) {
     if (name == sweep_prefix + way.name) return {name, scene_of(way), sweep_frames};
   Case found{name, read_scene(PLIANT_SOURCE_DIR "/scenes/" + name + ".json"), scene_frames};
   if (name.find('/') != std::string::npos) found.frames = contact_frames;
+  if (name.rfind("tears/", 0) == 0) found.frames = tearing_frames;
   for (MeshCollider& collider : found.scene.mesh_colliders) coarsen(collider);
   return found;
 }

@@ -41,6 +41,29 @@ TEST(SceneSoftBodies, AreReadWithEveryField) {
   EXPECT_EQ(bar.static_friction, 0.75f);
   EXPECT_EQ(bar.kinetic_friction, 0.5f);
   EXPECT_TRUE(bar.collides);
+  ASSERT_TRUE(bar.tearing);
+  EXPECT_EQ(bar.tearing->stretch, 1.75f);
+  ASSERT_EQ(bar.cuts.size(), 1u);
+  EXPECT_EQ(bar.cuts[0].start, 0.5f);
+  EXPECT_EQ(bar.cuts[0].end, 1.5f);
+  EXPECT_EQ(bar.cuts[0].point, (Vec3f{1, 2, 3}));
+  EXPECT_EQ(bar.cuts[0].normal, (Vec3f{0, 2, 0}));
+  EXPECT_EQ(bar.cuts[0].along, (Vec3f{1, 0, 0.5f}));
+}
+
+TEST(SceneSoftBodies, HaveASkin) {
+  const Scene scene = parse_scene(test::full_scene(), "every_field.json", ".");
+  const Object& ball = named(scene, "ball");
+  ASSERT_TRUE(ball.skin) << "true: that of the mesh that is filled";
+  EXPECT_EQ(ball.skin->vertices.size(), 162u);
+  const std::vector<Vec3f> skin = skinned(*ball.skin, ball.positions);
+  for (const Vec3f& p : skin) EXPECT_NEAR(length_squared(p - Vec3f{-24, 9, 1}), 1, 1e-4);
+  const std::string other = R"({"objects": [{"soft_body": {"tetrahedra": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
+    "skin": {"sphere": {"subdivisions": 1, "radius": 0.5}}}}]})";
+  EXPECT_EQ(parse_scene(other, "x.json", ".").objects[0].skin->vertices.size(), 42u);
+  const std::string none =
+      R"({"objects": [{"soft_body": {"tetrahedra": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}}, "skin": true}}]})";
+  EXPECT_THROW(parse_scene(none, "x.json", "."), Error);
 }
 
 TEST(SceneSoftBodies, OfAClosedMeshAreFilled) {

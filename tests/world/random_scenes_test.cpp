@@ -54,9 +54,12 @@ Stiffness random_stiffness(Dice& dice) {
   }
 }
 
-void add_random_constraints(Dice& dice, Object& object, float scale) {
+void add_random_constraints(Dice& all, Object& object, float scale) {
   const int particles = static_cast<int>(object.positions.size());
   for (const ConstraintType& type : constraint_types()) {
+    // Types of several rows use a copy of the dice, so that a new one leaves everything else in the scenes as it was.
+    Dice copy = all;
+    Dice& dice = type.rows > 1 ? copy : all;
     const bool has_frames = std::find(type.slots.begin(), type.slots.end(), SlotKind::frame) != type.slots.end();
     if (has_frames || type.stencil_size > particles || dice.one_in(3)) continue;  // these objects have no frames
     ConstraintGroup group{type.name, {}, {}, random_stiffness(dice), {}};

@@ -1,0 +1,85 @@
+// Errors in how an object tears, is cut, and what skin it has.
+#include <cmath>
+#include <string>
+
+#include "constraints/registry.h"
+#include "inspect/problems.h"
+
+namespace pliant {
+
+namespace {
+
+bool has_links(const Object& object) {
+  for (const ConstraintGroup& group : object.constraints)
+    if (find_constraint_type(group.type) >= 0 && is_length(group.type)) return true;
+  return false;
+}
+
+void check_tearing(Problems& problems, const Object& object) {
+  if (!object.tearing) return;
+  if (!(object.tearing->stretch > 1 && object.tearing->stretch <= 1e6f))
+    problems.grave("tearing, stretch", "is " + words(static_cast<double>(object.tearing->stretch)),
+                   "give the greatest length over that at rest, above 1");
+  bool is_solid = false;
+  for (const ConstraintGroup& group : object.constraints) {
+    is_solid = is_solid || group.type == "tetrahedron_shear";
+    if (!group.keyframes.empty() && group.type == "distance")
+      problems.grave("tearing", "is of an object whose rest lengths change, which a stretch cannot be measured by",
+                     "leave the keyframes or the tearing out");
+  }
+  if (!is_solid && !has_links(object))
+    problems.grave("tearing", "is of an object without distance constraints or tetrahedra, so nothing can tear",
+                   "give it to cloth, a rope or a soft body");
+}
+
+void check_cut(Problems& problems, const PlaneCut& cut, const std::string& name) {
+  require_range(problems, name + ", start", static_cast<double>(cut.start), 0, static_cast<double>(largest_place));
+  require_range(problems, name + ", end", static_cast<double>(cut.end), static_cast<double>(cut.start),
+                static_cast<double>(largest_place));
+  require_place(problems, name + ", point", cut.point);
+  require_place(problems, name + ", normal", cut.normal);
+  require_place(problems, name + ", along", cut.along);
+  const Vec3f across = cross(cut.normal, cut.along);
+  const float sizes = length_squared(cut.normal) * length_squared(cut.along);
+  if (!(length_squared(cut.normal) > 1e-12f) || !(length_squared(across) > 1e-8f * sizes))
+    problems.grave(name, "has a normal of no direction, or a blade that moves along it",
+                   "let `along` be a direction in the plane");
+}
+
+void check_skin(Problems& problems, const Object& object) {
+  if (!object.skin) return;
+  const Skin& skin = *object.skin;
+  if (object.tearing || !object.cuts.empty())
+    problems.grave("skin", "is of an object that tears or is cut, which a skin cannot follow", "leave the skin out");
+  Tally bad_vertices, bad_triangles;
+  for (std::size_t i = 0; i < skin.vertices.size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int particle = skin.vertices[i].particles[k];
+      if (particle >= 0 && static_cast<std::size_t>(particle) < object.positions.size() &&
+          std::isfinite(skin.vertices[i].weights[k]))
+        continue;
+      bad_vertices.add(static_cast<std::int64_t>(i));
+      break;
+    }
+  for (std::size_t t = 0; t < skin.triangles.size(); ++t)
+    for (const int corner : skin.triangles[t])
+      if (corner < 0 || static_cast<std::size_t>(corner) >= skin.vertices.size()) {
+        bad_triangles.add(static_cast<std::int64_t>(t));
+        break;
+      }
+  problems.grave(bad_vertices, "skin vertex", "uses a particle that does not exist, or a weight that is not finite",
+                 "make_skin makes sound ones");
+  problems.grave(bad_triangles, "skin triangle", "uses a vertex that does not exist", "indices count from 0");
+}
+
+}  // namespace
+
+void check_tears(Problems& problems, const Object& object) {
+  check_tearing(problems, object);
+  for (std::size_t i = 0; i < object.cuts.size(); ++i) check_cut(problems, object.cuts[i], "cut " + std::to_string(i));
+  if (!object.cuts.empty() && object.triangles.empty() && !has_links(object))
+    problems.grave("cuts", "are of an object without triangles or links, so there is nothing to cut", "leave them out");
+  check_skin(problems, object);
+}
+
+}  // namespace pliant

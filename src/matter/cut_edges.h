@@ -1,0 +1,36 @@
+// Cuts surfaces along edges of their triangles.
+#pragma once
+
+#include <array>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "pliant/edit.h"
+
+namespace pliant {
+
+/// Two particles, the lower one first.
+using Edge = std::pair<int, int>;
+inline Edge edge_of(int a, int b) { return a < b ? Edge{a, b} : Edge{b, a}; }
+
+inline bool has_corner(const std::array<int, 3>& t, int particle) {
+  return t[0] == particle || t[1] == particle || t[2] == particle;
+}
+
+/// The triangles at each particle.
+using Around = std::vector<std::vector<int>>;
+/// Throws an Error if a triangle uses a particle that does not exist. `present`: leaves out triangles that have 0 there.
+Around triangles_around(const Object& object, const std::vector<char>* present = nullptr);
+
+/// The triangles of a stencil: those that contain both of its two particles, or for larger stencils those with all corners in it.
+std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& object, const Around& around);
+
+/// The edges between triangles of different `part`, one number for each triangle.
+std::set<Edge> edges_between(const Object& object, std::span<const int> part);
+
+/// The Edit that opens a surface along these edges (pliant/edit.h: cut).
+Edit cut_edges(const Object& object, const std::set<Edge>& edges);
+
+}  // namespace pliant

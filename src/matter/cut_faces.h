@@ -1,0 +1,31 @@
+// Cuts soft bodies along faces of their tetrahedra.
+#pragma once
+
+#include <array>
+#include <set>
+#include <vector>
+
+#include "pliant/edit.h"
+
+namespace pliant {
+
+/// Three particles, ascending.
+using Face = std::array<int, 3>;
+
+/// A face between two tetrahedra.
+struct InnerFace {
+  Face face{};
+  int a = 0, b = 0;  ///< the tetrahedra; a < b
+};
+
+/// The tetrahedra of an object. Throws an Error if it has none, or one uses a particle that does not exist.
+std::vector<std::array<int, 4>> required_tetrahedra(const Object& object);
+
+/// The faces between tetrahedra, ascending.
+std::vector<InnerFace> inner_faces(const std::vector<std::array<int, 4>>& tetrahedra);
+
+/// The Edit that opens a soft body along these faces. A particle of them is split into one for each fan of tetrahedra around it that share
+/// other faces.
+Edit cut_faces(const Object& object, const std::set<Face>& faces);
+
+}  // namespace pliant

@@ -1,0 +1,173 @@
+// Tears and cuts objects at the end of a step (Object::tearing, Object::cuts).
+#include "world/tearing.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "matter/edit_parts.h"
+#include "pliant/edit.h"
+#include "pliant/error.h"
+#include "pliant/soft_body.h"
+#include "world/objects.h"
+#include "world/rest.h"
+
+namespace pliant {
+
+namespace {
+
+/// True if a blade is in the object during a step.
+bool is_due(const PlaneCut& cut, double before, double now) {
+  return static_cast<double>(cut.start) <= now && static_cast<double>(cut.end) >= before;
+}
+
+int constraint_count(const Object& object) {
+  std::size_t count = 0;
+  for (const ConstraintGroup& group : object.constraints)
+    count += group.particles.size() / static_cast<std::size_t>(slots_of(group, object));
+  return static_cast<int>(count);
+}
+
+/// What the user set for an object by call, which an edit forgets and a tear must not.
+class Settled {
+ public:
+  Settled(const State& state, int number) : number_(number) {
+    const auto is_its = [number](const auto& setting) { return setting.block == number; };
+    std::copy_if(state.motors.begin(), state.motors.end(), std::back_inserter(motors_), is_its);
+    std::copy_if(state.rest_factors.begin(), state.rest_factors.end(), std::back_inserter(factors_), is_its);
+  }
+
+  void put_back(WorldData& world) const {
+    CompiledObject& object = world.model.objects[static_cast<std::size_t>(number_)];
+    for (const MotorSetting& setting : motors_) {
+      const CompiledJoint& joint = object.joints[static_cast<std::size_t>(setting.joint)];
+      set_motor(object, joint, joint.motors[static_cast<std::size_t>(setting.motor)], setting.target, setting.most);
+      world.state.motors.push_back(setting);
+    }
+    world.state.rest_factors.insert(world.state.rest_factors.end(), factors_.begin(), factors_.end());
+    std::sort(world.state.motors.begin(), world.state.motors.end(), [](const MotorSetting& a, const MotorSetting& b) {
+      return std::tie(a.block, a.joint, a.motor) < std::tie(b.block, b.joint, b.motor);
+    });
+    std::sort(
+        world.state.rest_factors.begin(), world.state.rest_factors.end(),
+        [](const RestFactor& a, const RestFactor& b) { return std::tie(a.block, a.group) < std::tie(b.block, b.group); });
+    if (!factors_.empty()) follow_rest_factors(world, world.state.time);
+  }
+
+ private:
+  int number_;
+  std::vector<MotorSetting> motors_;
+  std::vector<RestFactor> factors_;
+};
+
+/// For each particle of an object the mean place of those that share a triangle or tetrahedron with it.
+std::vector<Vec3d> middles_around(const Object& object, const std::vector<Vec3f>& positions) {
+  std::vector<Vec3d> sums(positions.size());
+  std::vector<int> counts(positions.size());
+  const auto add = [&](const auto& corners) {
+    Vec3d sum{};
+    for (const int p : corners) sum = sum + convert<double>(positions[static_cast<std::size_t>(p)]);
+    for (const int p : corners) {
+      sums[static_cast<std::size_t>(p)] = sums[static_cast<std::size_t>(p)] + sum;
+      counts[static_cast<std::size_t>(p)] += static_cast<int>(corners.size());
+    }
+  };
+  const std::vector<std::array<int, 4>> tetrahedra = tetrahedra_of(object);
+  for (const auto& t : tetrahedra) add(t);
+  if (tetrahedra.empty())
+    for (const auto& t : object.triangles) add(t);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    sums[i] = counts[i] > 0 ? sums[i] * (1. / counts[i]) : convert<double>(positions[i]);
+  return sums;
+}
+
+/// Moves particles that were one a little apart, each towards what it belongs to: contact must know on which side surfaces are. Their
+/// centre of mass stays.
+void open_gaps(WorldData& world, ObjectId id, const std::vector<int>& from) {
+  constexpr double share = 0.01;  // of the way to the middle of what is around a particle
+  std::map<int, std::vector<int>> copies;
+  for (int i = 0; i < static_cast<int>(from.size()); ++i) copies[from[static_cast<std::size_t>(i)]].push_back(i);
+  const Object& object = world.descriptions.at(id.slot);
+  const std::vector<Vec3d> middles = middles_around(object, ObjectView(world, id).positions());
+  const int number = world.number(id), first = world.model.first[number];
+  for (const auto& [origin, all] : copies) {
+    if (origin < 0 || all.size() < 2) continue;
+    double mass = 0;
+    Vec3d moment{};
+    std::vector<Record*> records;
+    std::vector<Vec3d> ways;
+    for (const int one : all) {
+      Record& x = world.state.positions[first + world.model.objects[number].place[one]];
+      const Vec3d way = (middles[static_cast<std::size_t>(one)] - Vec3d{x.x, x.y, x.z}) * share;
+      const double weight = x.w > 0 ? 1 / static_cast<double>(x.w) : 0;
+      mass += weight;
+      moment = moment + way * weight;
+      records.push_back(&x);
+      ways.push_back(way);
+    }
+    const Vec3d shift = mass > 0 ? moment * (1 / mass) : Vec3d{};
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      if (!(records[i]->w > 0)) continue;
+      const Vec3f way = convert<float>(ways[i] - shift);
+      *records[i] = {records[i]->x + way.x, records[i]->y + way.y, records[i]->z + way.z, records[i]->w};
+    }
+  }
+}
+
+/// Makes an edit of an object that tears, unless it cannot: then it stays whole, and a warning says so.
+void open_up(WorldData& world, ObjectId id, const Edit& edit, Report& report) {
+  const Object& before = world.descriptions.at(id.slot);
+  const Torn torn{id, static_cast<int>(edit.object.positions.size() - before.positions.size()),
+                  constraint_count(before) - constraint_count(edit.object)};
+  const Settled settled(world.state, world.number(id));
+  try {
+    edit_object(world, id, edit);
+  } catch (const Error& error) {
+    report.warnings.push_back("object '" + edit.object.name + "' could not tear: " + error.what());
+    return;
+  }
+  settled.put_back(world);
+  open_gaps(world, id, edit.from);
+  const auto same = std::find_if(report.torn.begin(), report.torn.end(), [&](const Torn& one) { return one.object == id; });
+  if (same == report.torn.end()) return report.torn.push_back(torn);
+  same->new_particles += torn.new_particles;
+  same->lost_constraints += torn.lost_constraints;
+}
+
+}  // namespace
+
+void keep_description(WorldData& world, int slot, const Object* object) {
+  if (object != nullptr && is_torn_by_world(*object))
+    world.descriptions.insert_or_assign(slot, *object);
+  else
+    world.descriptions.erase(slot);
+}
+
+void tear_objects(WorldData& world, double before, Report& report) {
+  if (world.descriptions.empty()) return;
+  for (const ObjectId id : world.ids.objects.all()) {
+    const auto found = world.descriptions.find(id.slot);
+    if (found == world.descriptions.end()) continue;
+    const Object& object = found->second;
+    const double now = world.state.time;
+    if (std::any_of(object.cuts.begin(), object.cuts.end(), [&](const PlaneCut& cut) { return is_due(cut, before, now); }))
+      if (const std::optional<Edit> edit = make_cuts(object, now)) open_up(world, id, *edit, report);
+    if (!object.tearing) continue;
+    if (const std::optional<Edit> edit = tear(object, ObjectView(world, id).positions())) open_up(world, id, *edit, report);
+  }
+}
+
+const Object& ObjectView::description() const {
+  const auto found = read_->descriptions.find((void(read_->number(id_)), id_.slot));
+  if (found == read_->descriptions.end())
+    throw Error({.object = read_->object(id_).name}, "has no description in the World",
+                "keep the Object that you added; only those that tear or are cut are kept");
+  return found->second;
+}
+
+}  // namespace pliant
