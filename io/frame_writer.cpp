@@ -70,6 +70,7 @@ class WorldWriter final : public FrameWriter {
       part.cuts = object.cuts;
       part.bodies = object.bodies;
       for (ObjectBody& body : part.bodies) body.solids.clear();
+      particles_.push_back(object.positions.size());
       parts_.push_back(std::move(part));
       has_bodies_ = has_bodies_ || !object.bodies.empty();
     }
@@ -84,6 +85,9 @@ class WorldWriter final : public FrameWriter {
       else
         add_matter(object, spacings_[o], {world.threads(), has_all_points_}, frame);
       if (parts_[o].skin) {
+        if (frame.positions.back().size() != particles_[o])
+          throw Error({.object = object.info().name}, "has another number of particles than its skin was made for",
+                      "make another writer after an edit");
         frame.positions.back() = skinned(*parts_[o].skin, frame.positions.back());
         frame.velocities.back() = skinned(*parts_[o].skin, frame.velocities.back());
       }
@@ -128,8 +132,9 @@ class WorldWriter final : public FrameWriter {
 
   std::unique_ptr<output::FormatWriter> format_;
   std::vector<ObjectId> objects_;  ///< objects at the start of the run
-  std::vector<Object> parts_;    ///< for each object, which particles and frames are bodies, its skin, and whether it tears
-  std::vector<float> spacings_;  ///< for each object, that of its liquid if its surface is written, else 0 [m]
+  std::vector<Object> parts_;  ///< for each object, which particles and frames are bodies, its skin, and whether it tears
+  std::vector<std::size_t> particles_;  ///< of each object at the start
+  std::vector<float> spacings_;         ///< for each object, that of its liquid if its surface is written, else 0 [m]
   bool has_bodies_ = false;
   bool has_all_points_ = false;  ///< the format has the same number of points in each frame
 };

@@ -231,11 +231,12 @@ std::string frame_number(std::int64_t frame) {
 std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time) {
   const SplitPath parts = split_path(path);
   const std::string& suffix = parts.suffix;
-  if (is_any_remeshed(objects) && (suffix == ".glb" || suffix == ".pc2"))
-    throw Error(
-        {.file = path, .line = 0, .object = {}, .element = {}},
-        "'" + suffix + "' cannot have the surface of a liquid, or of what tears, which is another mesh in each frame",
-        "end it in .obj, .ply, .usda or .pvd, or write particles of the liquid");
+  const auto remeshed =
+      std::find_if(objects.begin(), objects.end(), [](const FrameObject& one) { return one.is_remeshed; });
+  if (remeshed != objects.end() && (suffix == ".glb" || suffix == ".pc2"))
+    throw Error({.file = path, .line = 0, .object = remeshed->name, .element = {}},
+                "is the surface of a liquid, or tears: another mesh in each frame, which '" + suffix + "' cannot have",
+                "end it in .obj, .ply, .usda or .pvd");
   if (suffix == ".glb") return make_glb_writer(path, objects);
   if (suffix == ".usda") return make_usda_writer(path, objects, frame_time);
   const auto surfaces = [&](auto make) { return make_surface_writer(objects, make); };

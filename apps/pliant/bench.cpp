@@ -214,7 +214,10 @@ std::string bench_default(const BenchOptions& options) {
     wanted.against = options.settings;
   pliant::bench::refuse_unknown_settings(wanted.against);
   std::vector<pliant::bench::NamedScene> scenes;
-  for (const std::string& path : options.scenes) scenes.push_back({path, read_scene_with(path, {}, true)});
+  for (const std::string& path : options.scenes) {
+    scenes.push_back({path, read_scene_with(path, {}, true)});
+    refuse_tears(scenes.back().scene, path, "this benchmark");
+  }
   if (!options.meshes.empty())
     for (pliant::bench::NamedScene& draped : pliant::bench::draped_meshes(options.meshes))
       scenes.push_back(std::move(draped));

@@ -192,7 +192,13 @@ Checked check_scene(const std::string& path, double seconds) {
   std::vector<Vec3f> points;
   for (const Object& object : scene.objects) {
     particles += object.positions.size();
-    points.insert(points.end(), object.positions.begin(), object.positions.end());
+    std::vector<char> is_world(
+        object.positions.size());  // a fixed body without solids: what joints to the world hold on to
+    for (const ObjectBody& body : object.bodies)
+      if (body.solids.empty() && std::isinf(object.masses[static_cast<std::size_t>(body.particle)]))
+        is_world[static_cast<std::size_t>(body.particle)] = 1;
+    for (std::size_t i = 0; i < object.positions.size(); ++i)
+      if (is_world[i] == 0) points.push_back(object.positions[i]);
     for (int body = 0; body < static_cast<int>(object.bodies.size()); ++body) add_solids(object, body, points);
   }
   print(one_line(path) + ": " + counted(scene.objects.size(), "object") + " of " + counted(particles, "particle") +

@@ -63,6 +63,7 @@ pliant::compare::Result measured(const CompareOptions& options, const Scene& sce
 int compare(const CompareOptions& options) {
   refuse_same_file_twice({options.scene}, options.out);
   const Scene scene = read_scene_with(options.scene, options.overrides, false);
+  refuse_tears(scene, options.scene, "a comparison of sweeps from one State");
   if (options.frame) require_frame(scene, options.scene, *options.frame);
   const Outputs outputs = open_outputs(options.out);
   const pliant::compare::Result result = measured(options, scene);

@@ -102,16 +102,15 @@ void draw_strip(const RenderOptions& options, const Scene& scene, Size size) {
 }
 
 // A view that shows the scene at the start, at the end and at some times between.
-View view_of_movie(const RenderOptions& options, const Scene& scene, World& world, Size size) {
+View view_of_movie(const RenderOptions& options, const Scene& scene, Size size) {
   const int every = std::max(1, scene.frames / 24);
-  const State start = world.state();
+  World world = make_world(scene, options.scene);  // its own: once something is torn, the start cannot be restored
   std::vector<RenderScene> moments{make_render_scene(scene, world)};
   int frame = 0;
   simulate_finite(world, scene, options.scene, true, [&] {
     ++frame;
     if (frame % every == 0 || frame == scene.frames) moments.push_back(make_render_scene(scene, world));
   });
-  world.restore(start);
   return view_of(moments, options, size.width, size.height);
 }
 
@@ -119,8 +118,8 @@ void draw_movie(const RenderOptions& options, const Scene& scene, Size size) {
   Renderer renderer(size.width, size.height);
   const double rate = std::clamp(1.0 / static_cast<double>(scene.frame_time), 1.0, 240.0);
   MovieWriter movie(options.out, size.width, size.height, rate);
+  const View view = view_of_movie(options, scene, size);
   World world = make_world(scene, options.scene);
-  const View view = view_of_movie(options, scene, world, size);
   const auto draw = [&] {
     RenderScene picture = make_render_scene(scene, world);
     view.apply(picture);

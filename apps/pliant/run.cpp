@@ -44,15 +44,6 @@ void check_files(const RunOptions& options) {
   for (const std::string& file : files) refuse_unwritable(file);
 }
 
-/// A checkpoint has the State alone, which does not fit the scene once something is torn.
-void refuse_checkpoint_of_tears(const RunOptions& options, const Scene& scene) {
-  if (options.checkpoint.empty() && options.resume.empty()) return;
-  for (const Object& object : scene.objects)
-    if (object.tearing || !object.cuts.empty())
-      throw Error({.file = options.scene, .object = object.name}, "tears or is cut, and a checkpoint does not hold where",
-                  "run it without a checkpoint");
-}
-
 void resume(World& world, const std::string& path, const Scene& scene) {
   try {
     world.restore(load_state(path, scene));
@@ -89,7 +80,7 @@ int run(const RunOptions& options) {
   check_files(options);
   const SceneFile file = read_file_with(options.scene, options.overrides, options.quiet);
   const Scene& scene = file.scene;
-  refuse_checkpoint_of_tears(options, scene);
+  if (!options.checkpoint.empty() || !options.resume.empty()) refuse_tears(scene, options.scene, "a checkpoint");
   World world = make_world(scene, options.scene);
   if (!options.resume.empty()) resume(world, options.resume, scene);
   for (const std::string& path : options.out) make_folder_of(path);

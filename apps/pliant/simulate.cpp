@@ -114,6 +114,13 @@ void require_frame(const Scene& scene, const std::string& path, int frame) {
       "name one from 0, the start, to " + std::to_string(scene.frames) + ", or raise the scene's \"frames\"");
 }
 
+void refuse_tears(const Scene& scene, const std::string& path, const std::string& who) {
+  for (const Object& object : scene.objects)
+    if (object.tearing || !object.cuts.empty())
+      throw Error({.file = path, .line = 0, .object = object.name}, "tears or is cut, which " + who + " cannot follow",
+                  "leave its `tearing` and `cuts` out");
+}
+
 bool has_suffix(const std::string& path, std::string_view suffix) {
   if (path.size() < suffix.size()) return false;
   for (std::size_t i = 0; i < suffix.size(); ++i) {

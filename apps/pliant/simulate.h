@@ -31,6 +31,9 @@ bool simulate(World& world, const Scene& scene, bool quiet, const std::function<
 /// Throws an Error if the scene has fewer frames than `frame`.
 void require_frame(const Scene& scene, const std::string& path, int frame);
 
+/// Throws an Error if the World of the scene tears or cuts an object, which `who` cannot follow.
+void refuse_tears(const Scene& scene, const std::string& path, const std::string& who);
+
 /// True if `path` ends with `suffix` (".png"), in upper or lower case.
 bool has_suffix(const std::string& path, std::string_view suffix);
 

@@ -50,7 +50,7 @@ Edit part_triangles(const Object& object, std::span<const int> part);
 
 /// The Edit by which an object tears at these positions of its particles, as Object::tearing says; nothing if it holds. World::step calls
 /// it. Of edges and tetrahedra that are too long the longest come first; what lies around a tear holds until the next call, because the tear
-/// relieves it. A link that belongs to no triangle, as that of a rope, is removed. Throws an Error if the sizes differ.
+/// relieves it. Of a chain of links without triangles, as a rope, one is removed. Held particles stay whole. Throws an Error if sizes differ.
 std::optional<Edit> tear(const Object& object, std::span<const Vec3f> positions);
 
 /// The Edit that makes what is due of Object::cuts at a time [s]; nothing if all of that is made. World::step calls it.

@@ -151,9 +151,8 @@ struct JointBreak {
 /// An object that tore or was cut at the end of a step (Object::tearing, Object::cuts). Its particles keep their indices; new ones follow.
 struct Torn {
   ObjectId object;
-  int new_particles = 0;  ///< particles that were split off
-  int lost_constraints =
-      0;  ///< how many constraints fewer it has; an edge that came to lie on both sides of the tear is one more
+  int new_particles = 0;     ///< particles that were split off
+  int lost_constraints = 0;  ///< links of ropes and hinges of cloth that are gone
 };
 
 /// The rigid tie of a particle to a body (attach()) that is open farthest: the error that a step leaves. Ties with compliance or PBD

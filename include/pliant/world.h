@@ -82,7 +82,7 @@ class World {
   void remove(MeshColliderId collider);
 
   /// Changes an object that moves: its id stays valid, and every particle with an origin keeps position and velocity
-  /// exactly. Pass a changed copy of the description with which it was added, because the World keeps none. Returns for
+  /// exactly. Pass a changed copy of the description with which it was added, or of description() if it tears. Returns for
   /// each old particle the first new index, or -1. The cost is that of compiling the object. Throws an Error if the
   /// description cannot be simulated or `from` does not fit.
   std::vector<int> edit(ObjectId object, const Edit& edit);

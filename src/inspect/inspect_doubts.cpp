@@ -303,6 +303,7 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   doubt_masses(doubts);
   doubt_pins(doubts);
   doubt_joints(problems, object);
+  doubt_tears(problems, object, scene);
   doubt_references(doubts);
   doubt_places(doubts);
   for (const ConstraintGroup& group : object.constraints) {

@@ -4,6 +4,7 @@
 
 #include "constraints/registry.h"
 #include "inspect/problems.h"
+#include "model/soft_body_substeps.h"
 
 namespace pliant {
 
@@ -20,14 +21,12 @@ void check_tearing(Problems& problems, const Object& object) {
   if (!(object.tearing->stretch > 1 && object.tearing->stretch <= 1e6f))
     problems.grave("tearing, stretch", "is " + words(static_cast<double>(object.tearing->stretch)),
                    "give the greatest length over that at rest, above 1");
-  bool is_solid = false;
   for (const ConstraintGroup& group : object.constraints) {
-    is_solid = is_solid || group.type == "tetrahedron_shear";
     if (!group.keyframes.empty() && group.type == "distance")
       problems.grave("tearing", "is of an object whose rest lengths change, which a stretch cannot be measured by",
                      "leave the keyframes or the tearing out");
   }
-  if (!is_solid && !has_links(object))
+  if (!is_soft_body(object) && !has_links(object))
     problems.grave("tearing", "is of an object without distance constraints or tetrahedra, so nothing can tear",
                    "give it to cloth, a rope or a soft body");
 }
@@ -49,6 +48,9 @@ void check_cut(Problems& problems, const PlaneCut& cut, const std::string& name)
 void check_skin(Problems& problems, const Object& object) {
   if (!object.skin) return;
   const Skin& skin = *object.skin;
+  if (skin.triangles.empty()) problems.grave("skin", "has no triangles", "leave it out");
+  if (object.fluid || object.grains || object.tracers)
+    problems.grave("skin", "is of a liquid, a gas, grains or tracers", "leave it out");
   if (object.tearing || !object.cuts.empty())
     problems.grave("skin", "is of an object that tears or is cut, which a skin cannot follow", "leave the skin out");
   Tally bad_vertices, bad_triangles;
@@ -74,10 +76,38 @@ void check_skin(Problems& problems, const Object& object) {
 
 }  // namespace
 
+void doubt_tears(Problems& problems, const Object& object, const Scene& scene) {
+  if (object.tearing && object.tearing->stretch < 1.02f)
+    problems.doubtful("tearing, stretch",
+                      "is " + words(static_cast<double>(object.tearing->stretch)) +
+                          ", which the error of the solve exceeds, so it may tear by itself",
+                      "give 1.05 or more");
+  for (std::size_t i = 0; i < object.cuts.size(); ++i) {
+    const PlaneCut& cut = object.cuts[i];
+    const std::string name = "cut " + std::to_string(i);
+    if (static_cast<double>(cut.start) > scene.frames * static_cast<double>(scene.frame_time))
+      problems.doubtful(name, "starts after the last frame", "give more frames, or an earlier time");
+    bool is_before = false, is_behind = false;
+    for (const Vec3f& p : object.positions) (dot(p - cut.point, cut.normal) > 0 ? is_before : is_behind) = true;
+    if (!is_before || !is_behind)
+      problems.doubtful(name, "misses the object", "let `point` lie in the object's rest shape");
+  }
+  if (!object.skin) return;
+  Tally far;
+  for (std::size_t v = 0; v < object.skin->vertices.size(); ++v)
+    for (const float weight : object.skin->vertices[v].weights)
+      if (std::fabs(weight) > 4) {
+        far.add(static_cast<std::int64_t>(v));
+        break;
+      }
+  problems.doubtful(far, "skin vertex", "lies far outside of the tetrahedra, and will exaggerate how they move",
+                    "move the skin to where the body is");
+}
+
 void check_tears(Problems& problems, const Object& object) {
   check_tearing(problems, object);
   for (std::size_t i = 0; i < object.cuts.size(); ++i) check_cut(problems, object.cuts[i], "cut " + std::to_string(i));
-  if (!object.cuts.empty() && object.triangles.empty() && !has_links(object))
+  if (!object.cuts.empty() && object.triangles.empty() && !has_links(object) && !is_soft_body(object))
     problems.grave("cuts", "are of an object without triangles or links, so there is nothing to cut", "leave them out");
   check_skin(problems, object);
 }

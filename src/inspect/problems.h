@@ -76,6 +76,8 @@ void check_bodies(Problems& problems, const Object& object);
 void check_clusters(Problems& problems, const Object& object);
 /// Reports as grave what is wrong with how an object tears, is cut, and with its skin.
 void check_tears(Problems& problems, const Object& object);
+/// Warns of cuts that do nothing, and of skins far from their body.
+void doubt_tears(Problems& problems, const Object& object, const Scene& scene);
 /// Reports as grave everything for which a World rejects an object.
 void check_object(Problems& problems, const Object& object);
 /// Reports doubtful settings of an object that has no grave findings.

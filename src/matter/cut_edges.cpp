@@ -27,11 +27,12 @@ double area_of(const Object& object, int t) {
 /// Which copy of a particle each triangle uses after a cut, and of which particle it is a copy.
 class Cut {
  public:
-  Cut(const Object& object, const std::set<Edge>& edges)
+  Cut(const Object& object, const std::set<Edge>& edges, const std::vector<char>& whole)
       : object_(object), edges_(edges), around_(triangles_around(object)) {
     std::set<int> ends;
     for (const auto& [a, b] : edges_) ends.insert({a, b});
-    for (const int p : ends) split(p);
+    for (const int p : ends)
+      if (whole.empty() || whole[static_cast<std::size_t>(p)] == 0) split(p);
   }
 
   Edit make() {
@@ -120,15 +121,16 @@ class Cut {
   /// Distributes a group's constraints: those on one side of the cut follow it, edges on the cut are doubled, others
   /// are removed.
   ConstraintGroup split(const ConstraintGroup& group) const {
-    const int slots = slots_of(group, object_);
+    const ConstraintType& type = type_of(group, object_);
+    const int slots = type.stencil_size;
     ConstraintGroup out = empty_like(group);
     for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
-      const std::vector<int> stencil = stencil_of(group, slots, c);
-      if (std::none_of(stencil.begin(), stencil.end(), [&](int slot) { return is_split(slot); })) {
+      const std::vector<int> stencil = stencil_of(group, slots, c), points = points_of(type, stencil, object_);
+      if (std::none_of(points.begin(), points.end(), [&](int p) { return is_split(p); })) {
         append(group, c, stencil, 1, out);
         continue;
       }
-      const std::vector<int> triangles = triangles_of(stencil, object_, around_);
+      const std::vector<int> triangles = triangles_of(points, object_, around_);
       if (triangles.empty()) {
         append_for_copies(group, c, stencil, out);
         continue;
@@ -136,7 +138,10 @@ class Cut {
       std::map<std::vector<int>, double> sides;  // area of the triangles on each side; key: stencil on that side
       double whole = 0;
       for (const int t : triangles) {
-        sides[copies(stencil, t, triangles)] += area_of(object_, t);
+        std::vector<int> side = copies(points, t, triangles);
+        for (std::size_t slot = 0; slot < side.size(); ++slot)
+          if (side[slot] < 0) side[slot] = stencil[slot];
+        sides[side] += area_of(object_, t);
         whole += area_of(object_, t);
       }
       if (sides.size() > 1 && slots > 2) continue;
@@ -162,6 +167,10 @@ class Cut {
   std::vector<int> copies(const std::vector<int>& stencil, int t, const std::vector<int>& triangles) const {
     std::vector<int> out;
     for (const int p : stencil) {
+      if (p < 0) {
+        out.push_back(p);
+        continue;
+      }
       int sees = t;
       for (const int other : triangles)
         if (!has_corner(object_.triangles[static_cast<std::size_t>(sees)], p)) sees = other;
@@ -196,6 +205,7 @@ Around triangles_around(const Object& object, const std::vector<char>* present) 
 std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& object, const Around& around) {
   std::set<int> found;
   for (const int particle : stencil) {
+    if (particle < 0) continue;
     for (const int t : around[static_cast<std::size_t>(particle)]) {
       const std::array<int, 3>& corners = object.triangles[static_cast<std::size_t>(t)];
       const auto inside =
@@ -217,6 +227,9 @@ std::set<Edge> edges_between(const Object& object, std::span<const int> part) {
   return found;
 }
 
-Edit cut_edges(const Object& object, const std::set<Edge>& edges) { return Cut(object, edges).make(); }
+Edit cut_edges(const Object& object, const std::set<Edge>& edges, const std::vector<char>& whole) {
+  require_masses(object);
+  return Cut(object, edges, whole).make();
+}
 
 }  // namespace pliant

@@ -24,13 +24,14 @@ using Around = std::vector<std::vector<int>>;
 /// Throws an Error if a triangle uses a particle that does not exist. `present`: leaves out triangles that have 0 there.
 Around triangles_around(const Object& object, const std::vector<char>* present = nullptr);
 
-/// The triangles of a stencil: those that contain both of its two particles, or for larger stencils those with all corners in it.
+/// The triangles of a stencil: those that contain both of its two particles, or for larger stencils those with all corners in it. Slots
+/// below 0 are none.
 std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& object, const Around& around);
 
 /// The edges between triangles of different `part`, one number for each triangle.
 std::set<Edge> edges_between(const Object& object, std::span<const int> part);
 
-/// The Edit that opens a surface along these edges (pliant/edit.h: cut).
-Edit cut_edges(const Object& object, const std::set<Edge>& edges);
+/// The Edit that opens a surface along these edges (pliant/edit.h: cut). Particles that have 1 in `whole` are not split.
+Edit cut_edges(const Object& object, const std::set<Edge>& edges, const std::vector<char>& whole = {});
 
 }  // namespace pliant

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "pliant/edit.h"
@@ -18,14 +19,15 @@ struct InnerFace {
   int a = 0, b = 0;  ///< the tetrahedra; a < b
 };
 
-/// The tetrahedra of an object. Throws an Error if it has none, or one uses a particle that does not exist.
-std::vector<std::array<int, 4>> required_tetrahedra(const Object& object);
+/// The tetrahedra of an object. Throws an Error, with this advice, if it has none, or if one uses a particle that does not exist.
+std::vector<std::array<int, 4>> required_tetrahedra(const Object& object,
+                                                    const std::string& advice = "use cut or part_triangles for surfaces");
 
 /// The faces between tetrahedra, ascending.
 std::vector<InnerFace> inner_faces(const std::vector<std::array<int, 4>>& tetrahedra);
 
 /// The Edit that opens a soft body along these faces. A particle of them is split into one for each fan of tetrahedra around it that share
-/// other faces.
-Edit cut_faces(const Object& object, const std::set<Face>& faces);
+/// other faces, unless it has 1 in `whole`.
+Edit cut_faces(const Object& object, const std::set<Face>& faces, const std::vector<char>& whole = {});
 
 }  // namespace pliant

@@ -56,11 +56,12 @@ Edit remove_triangles(const Object& object, std::span<const int> triangles) {
   for (std::size_t t = 0; t < present.size(); ++t)
     if (present[t] != 0) edit.object.triangles.push_back(object.triangles[t]);
   for (ConstraintGroup& group : edit.object.constraints) {
-    const int slots = slots_of(group, object);
+    const ConstraintType& type = type_of(group, object);
+    const int slots = type.stencil_size;
     ConstraintGroup kept = empty_like(group);
     for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
-      const std::vector<int> stencil = stencil_of(group, slots, c);
-      const auto had = triangles_of(stencil, object, before).size(), has = triangles_of(stencil, object, after).size();
+      const std::vector<int> stencil = stencil_of(group, slots, c), points = points_of(type, stencil, object);
+      const auto had = triangles_of(points, object, before).size(), has = triangles_of(points, object, after).size();
       if (had == has || (slots == 2 && has > 0)) append(group, c, stencil, 1, kept);
     }
     group = std::move(kept);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 
 #include "pliant/error.h"
 
@@ -35,11 +36,34 @@ void add_to_clusters(int of, int copy, Object& object) {
 
 }  // namespace
 
-int slots_of(const ConstraintGroup& group, const Object& object) {
+void require_masses(const Object& object) {
+  if (object.masses.size() != object.positions.size())
+    throw Error({.object = object.name},
+                "has " + std::to_string(object.masses.size()) + " masses for " + std::to_string(object.positions.size()) +
+                    " particles",
+                "give one for each");
+}
+
+const ConstraintType& type_of(const ConstraintGroup& group, const Object& object) {
   for (const ConstraintType& type : constraint_types())
-    if (type.name == group.type) return type.stencil_size;
+    if (type.name == group.type) return type;
   throw Error({.object = object.name, .element = group.type + " constraints"}, "have an unknown type",
               "constraint_types() lists the known ones");
+}
+
+int slots_of(const ConstraintGroup& group, const Object& object) { return type_of(group, object).stencil_size; }
+
+std::vector<int> points_of(const ConstraintType& type, const std::vector<int>& stencil, const Object& object) {
+  std::vector<int> points = stencil;
+  for (std::size_t slot = 0; slot < points.size(); ++slot) {
+    if (type.slots[slot] == SlotKind::frame) {
+      points[slot] = -1;
+    } else if (points[slot] < 0 || static_cast<std::size_t>(points[slot]) >= object.positions.size()) {
+      throw Error({.object = object.name, .element = type.name + " constraints"},
+                  "use particle " + std::to_string(points[slot]) + ", which does not exist", "particles count from 0");
+    }
+  }
+  return points;
 }
 
 void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to) {

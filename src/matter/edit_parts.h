@@ -7,11 +7,20 @@
 
 namespace pliant {
 
+/// Throws an Error unless an object has a mass for each particle.
+void require_masses(const Object& object);
+
+/// The type of a group's constraints. Throws an Error if it is unknown.
+const ConstraintType& type_of(const ConstraintGroup& group, const Object& object);
+
 /// The number of slots of a group's constraints. Throws an Error if their type is unknown.
 int slots_of(const ConstraintGroup& group, const Object& object);
 
 /// The slots of constraint `number` of a group.
 std::vector<int> stencil_of(const ConstraintGroup& group, int slots, int number);
+
+/// The particles of a constraint; -1 in place of frames. Throws an Error if one does not exist.
+std::vector<int> points_of(const ConstraintType& type, const std::vector<int>& stencil, const Object& object);
 
 /// A group without constraints, otherwise alike.
 ConstraintGroup empty_like(const ConstraintGroup& group);

@@ -12,6 +12,8 @@
 #include <string>
 #include <utility>
 
+#include "constraints/point_in_tetrahedron.h"
+#include "constraints/point_on_triangle.h"
 #include "matter/cut_faces.h"
 #include "matter/edit_parts.h"
 #include "pliant/edit.h"
@@ -196,15 +198,15 @@ class Parting {
     return false;
   }
 
-  /// The tetrahedra that have all points of a constraint as corners, or four of them; none for a constraint of one point.
+  /// The tetrahedra that have all points of a constraint as corners, of a tie those that it ties to; none for a constraint of one point.
   std::vector<int> tetrahedra_with(const std::vector<int>& stencil, const ConstraintType& type) const {
     std::vector<int> points, out;
     for (std::size_t slot = 0; slot < stencil.size(); ++slot)
       if (type.slots[slot] == SlotKind::point) points.push_back(stencil[slot]);
+    if (type.name == PointOnTriangle::name || type.name == PointInTetrahedron::name) points.erase(points.begin());
     if (points.size() < 2) return out;
-    const auto needed = static_cast<std::ptrdiff_t>(std::min(points.size(), std::size_t{4}));
     for (const int t : around_[static_cast<std::size_t>(points.back())])
-      if (std::count_if(points.begin(), points.end(), [&](int p) { return holds(at(t), p); }) == needed) out.push_back(t);
+      if (std::all_of(points.begin(), points.end(), [&](int p) { return holds(at(t), p); })) out.push_back(t);
     return out;
   }
 
@@ -238,9 +240,10 @@ class Parting {
 
 }  // namespace
 
-std::vector<std::array<int, 4>> required_tetrahedra(const Object& object) {
+std::vector<std::array<int, 4>> required_tetrahedra(const Object& object, const std::string& advice) {
+  require_masses(object);
   std::vector<Corners> out = tetrahedra_of(object);
-  if (out.empty()) throw Error({.object = object.name}, "has no tetrahedra", "use cut or remove_triangles for surfaces");
+  if (out.empty()) throw Error({.object = object.name}, "has no tetrahedra", advice);
   for (const Corners& t : out)
     for (const int corner : t)
       if (corner < 0 || corner >= static_cast<int>(object.positions.size()))
@@ -266,9 +269,11 @@ std::vector<InnerFace> inner_faces(const std::vector<std::array<int, 4>>& tetrah
   return found;
 }
 
-Edit cut_faces(const Object& object, const std::set<Face>& faces) {
+Edit cut_faces(const Object& object, const std::set<Face>& faces, const std::vector<char>& whole) {
   std::set<int> reached;
-  for (const Face& face : faces) reached.insert(face.begin(), face.end());
+  for (const Face& face : faces)
+    for (const int p : face)
+      if (whole.empty() || whole[static_cast<std::size_t>(p)] == 0) reached.insert(p);
   return Parting(object, required_tetrahedra(object), {}, faces, reached).make();
 }
 

@@ -10,7 +10,11 @@
 namespace pliant {
 
 Skin make_skin(const Object& soft_body, const TriangleMesh& mesh) {
-  const TetrahedronQuery query(soft_body.positions, required_tetrahedra(soft_body));
+  for (std::size_t i = 0; i < soft_body.positions.size(); ++i)
+    if (const Vec3f& p = soft_body.positions[i]; !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+      throw Error({.object = soft_body.name, .element = "particle " + std::to_string(i)},
+                  "has a position that is not finite", "give finite coordinates in metres");
+  const TetrahedronQuery query(soft_body.positions, required_tetrahedra(soft_body, "make a skin of a soft body"));
   Skin skin;
   skin.triangles = mesh.triangles;
   skin.vertices.reserve(mesh.positions.size());
@@ -34,12 +38,18 @@ Skin make_skin(const Object& soft_body, const TriangleMesh& mesh) {
 }
 
 std::vector<Vec3f> skinned(const Skin& skin, const std::vector<Vec3f>& particles) {
+  for (std::size_t v = 0; v < skin.vertices.size(); ++v)
+    for (const int p : skin.vertices[v].particles)
+      if (p < 0 || static_cast<std::size_t>(p) >= particles.size())
+        throw Error({.element = "skin vertex " + std::to_string(v)},
+                    "uses particle " + std::to_string(p) + " of " + std::to_string(particles.size()),
+                    "give the positions of the object that the skin was made for");
   std::vector<Vec3f> out;
   out.reserve(skin.vertices.size());
   for (const SkinVertex& vertex : skin.vertices) {
     Vec3d sum{};
     for (std::size_t i = 0; i < 4; ++i)
-      sum = sum + convert<double>(particles.at(static_cast<std::size_t>(vertex.particles[i]))) *
+      sum = sum + convert<double>(particles[static_cast<std::size_t>(vertex.particles[i])]) *
                       static_cast<double>(vertex.weights[i]);
     out.push_back(convert<float>(sum));
   }

@@ -36,7 +36,7 @@ std::string words_of(const Model& model, const Triangle& triangle, const Between
   std::string text = name_of(model, a) + ": edge " + number_of(model, found.a) + "-" + number_of(model, found.b) +
                      " passes through triangle (" + corners + ") of " + (a == b ? "the same" : name_of(model, b));
   if (count > 1) text += " and " + std::to_string(count - 1) + " more";
-  text += ": they have intersected since the start and have no contact until they are apart";
+  text += ": they have intersected since the start or a tear, and have no contact until they are apart";
   if (between.stalls) text += "; untangling did not reduce their number in the previous frame";
   if (between.given_up > 0)
     text += "; " + std::to_string(between.given_up) +

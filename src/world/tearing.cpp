@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -21,16 +22,19 @@ namespace pliant {
 
 namespace {
 
-/// True if a blade is in the object during a step.
-bool is_due(const PlaneCut& cut, double before, double now) {
-  return static_cast<double>(cut.start) <= now && static_cast<double>(cut.end) >= before;
+/// True if a blade has been in an object since its cuts were made last.
+bool is_due(const PlaneCut& cut, double made_until, double now) {
+  return static_cast<double>(cut.start) <= now && static_cast<double>(cut.end) >= made_until;
 }
 
-int constraint_count(const Object& object) {
-  std::size_t count = 0;
-  for (const ConstraintGroup& group : object.constraints)
-    count += group.particles.size() / static_cast<std::size_t>(slots_of(group, object));
-  return static_cast<int>(count);
+/// How many constraints fewer each group has, in all; a group that has more counts as none.
+int lost_constraints(const Object& before, const Object& after) {
+  std::size_t lost = 0;
+  for (std::size_t g = 0; g < std::min(before.constraints.size(), after.constraints.size()); ++g) {
+    const std::size_t had = before.constraints[g].particles.size(), has = after.constraints[g].particles.size();
+    if (had > has) lost += (had - has) / static_cast<std::size_t>(slots_of(before.constraints[g], before));
+  }
+  return static_cast<int>(lost);
 }
 
 /// What the user set for an object by call, which an edit forgets and a tear must not.
@@ -92,7 +96,7 @@ void open_gaps(WorldData& world, ObjectId id, const std::vector<int>& from) {
   constexpr double share = 0.01;  // of the way to the middle of what is around a particle
   std::map<int, std::vector<int>> copies;
   for (int i = 0; i < static_cast<int>(from.size()); ++i) copies[from[static_cast<std::size_t>(i)]].push_back(i);
-  const Object& object = world.descriptions.at(id.slot);
+  const Object& object = world.descriptions.at(id.slot).object;
   const std::vector<Vec3d> middles = middles_around(object, ObjectView(world, id).positions());
   const int number = world.number(id), first = world.model.first[number];
   for (const auto& [origin, all] : copies) {
@@ -119,18 +123,15 @@ void open_gaps(WorldData& world, ObjectId id, const std::vector<int>& from) {
   }
 }
 
-/// Makes an edit of an object that tears, unless it cannot: then it stays whole, and a warning says so.
+/// Makes an edit of an object that tears.
 void open_up(WorldData& world, ObjectId id, const Edit& edit, Report& report) {
-  const Object& before = world.descriptions.at(id.slot);
+  const Object& before = world.descriptions.at(id.slot).object;
   const Torn torn{id, static_cast<int>(edit.object.positions.size() - before.positions.size()),
-                  constraint_count(before) - constraint_count(edit.object)};
+                  lost_constraints(before, edit.object)};
   const Settled settled(world.state, world.number(id));
-  try {
-    edit_object(world, id, edit);
-  } catch (const Error& error) {
-    report.warnings.push_back("object '" + edit.object.name + "' could not tear: " + error.what());
-    return;
-  }
+  const OverstretchRecord record = world.overstretch;  // particles keep their indices, so it stays true
+  edit_object(world, id, edit);
+  world.overstretch = record;
   settled.put_back(world);
   open_gaps(world, id, edit.from);
   const auto same = std::find_if(report.torn.begin(), report.torn.end(), [&](const Torn& one) { return one.object == id; });
@@ -139,35 +140,48 @@ void open_up(WorldData& world, ObjectId id, const Edit& edit, Report& report) {
   same->lost_constraints += torn.lost_constraints;
 }
 
+void tear_object(WorldData& world, ObjectId id, Report& report) {
+  const double now = world.state.time;
+  TornObject& torn = world.descriptions.at(id.slot);
+  const std::vector<PlaneCut>& cuts = torn.object.cuts;
+  if (std::any_of(cuts.begin(), cuts.end(), [&](const PlaneCut& cut) { return is_due(cut, torn.cut_until, now); }))
+    if (const std::optional<Edit> edit = make_cuts(torn.object, now)) open_up(world, id, *edit, report);
+  torn.cut_until = now;
+  if (!torn.object.tearing) return;
+  if (const std::optional<Edit> edit = tear(torn.object, ObjectView(world, id).positions()))
+    open_up(world, id, *edit, report);
+}
+
 }  // namespace
 
 void keep_description(WorldData& world, int slot, const Object* object) {
-  if (object != nullptr && is_torn_by_world(*object))
-    world.descriptions.insert_or_assign(slot, *object);
-  else
+  if (object == nullptr || !is_torn_by_world(*object)) {
     world.descriptions.erase(slot);
+    return;
+  }
+  world.descriptions[slot] = {*object, -1};
 }
 
-void tear_objects(WorldData& world, double before, Report& report) {
+void tear_objects(WorldData& world, Report& report) {
   if (world.descriptions.empty()) return;
   for (const ObjectId id : world.ids.objects.all()) {
     const auto found = world.descriptions.find(id.slot);
     if (found == world.descriptions.end()) continue;
-    const Object& object = found->second;
-    const double now = world.state.time;
-    if (std::any_of(object.cuts.begin(), object.cuts.end(), [&](const PlaneCut& cut) { return is_due(cut, before, now); }))
-      if (const std::optional<Edit> edit = make_cuts(object, now)) open_up(world, id, *edit, report);
-    if (!object.tearing) continue;
-    if (const std::optional<Edit> edit = tear(object, ObjectView(world, id).positions())) open_up(world, id, *edit, report);
+    try {
+      tear_object(world, id, report);
+    } catch (const std::exception& error) {  // it stays whole
+      report.warnings.push_back("object '" + found->second.object.name + "' could not tear: " + error.what());
+    }
   }
 }
 
 const Object& ObjectView::description() const {
-  const auto found = read_->descriptions.find((void(read_->number(id_)), id_.slot));
+  const std::string& name = read_->object(id_).name;  // throws an Error if the id is stale
+  const auto found = read_->descriptions.find(id_.slot);
   if (found == read_->descriptions.end())
-    throw Error({.object = read_->object(id_).name}, "has no description in the World",
+    throw Error({.object = name}, "has no description in the World",
                 "keep the Object that you added; only those that tear or are cut are kept");
-  return found->second;
+  return found->second.object;
 }
 
 }  // namespace pliant

@@ -11,7 +11,7 @@ inline bool is_torn_by_world(const Object& object) { return object.tearing.has_v
 /// Keeps the description of an object that tears or is cut; forgets that of others, and of one that was removed (null).
 void keep_description(WorldData& world, int slot, const Object* object);
 
-/// Tears and cuts objects after a step that began at time `before` [s].
-void tear_objects(WorldData& world, double before, Report& report);
+/// Tears and cuts objects at the end of a step. What cannot be torn stays whole, and a warning says so.
+void tear_objects(WorldData& world, Report& report);
 
 }  // namespace pliant

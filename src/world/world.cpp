@@ -126,7 +126,6 @@ Report World::step(float dt) {
     report.stopped = true;
     return report;
   }
-  const double before = data_->state.time;
   let_flow(*data_, static_cast<double>(dt), report.flow);
   follow_pressures(*data_, data_->state.time + static_cast<double>(dt));
   follow_rest_factors(*data_, data_->state.time + static_cast<double>(dt));
@@ -160,7 +159,7 @@ Report World::step(float dt) {
     report.residuals = measure().residuals();
     report.stretch = measure().stretch();
   }
-  if (!data_->stopped && !report.stopped) tear_objects(*data_, before, report);
+  if (!data_->stopped && !report.stopped) tear_objects(*data_, report);
   return report;
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "pliant/body.h"
+#include "pliant/edit.h"
 #include "pliant/error.h"
 #include "soft_bodies/soft_body_support.h"
 
@@ -140,6 +141,37 @@ TEST(Ties, StretchByTheirCompliance) {
   EXPECT_NEAR(positions_of(world)[static_cast<std::size_t>(at)].y, -0.5 * 9.81 * 0.01, 2e-4) << "m g alpha";
 }
 
+TEST(Ties, OnTheSurfaceOfABodyFollowItsCut) {
+  Object body = block();
+  std::vector<int> buttons;
+  for (int i = 0; i < 8; ++i) {
+    Object button;
+    button.positions = {{-0.19f + 0.05f * static_cast<float>(i), 0.1f, 0.03f}};
+    button.masses = {0.01f};
+    buttons.push_back(append(body, button));
+  }
+  attach_to_surface(body, buttons);
+  std::vector<int> side;
+  for (const auto& t : tetrahedra_of(body)) {
+    float x = 0;
+    for (const int corner : t) x += body.positions[static_cast<std::size_t>(corner)].x;
+    side.push_back(x > 0 ? 1 : 0);
+  }
+  const Object after = part_tetrahedra(body, side).object;
+  const ConstraintGroup& ties = after.constraints.back();
+  ASSERT_EQ(ties.particles.size(), 32u);
+  for (std::size_t tie = 0; tie < 8; ++tie) {
+    std::array<int, 3> wanted{ties.particles[4 * tie + 1], ties.particles[4 * tie + 2], ties.particles[4 * tie + 3]};
+    std::sort(wanted.begin(), wanted.end());
+    EXPECT_TRUE(std::any_of(after.triangles.begin(), after.triangles.end(),
+                            [&](std::array<int, 3> triangle) {
+                              std::sort(triangle.begin(), triangle.end());
+                              return triangle == wanted;
+                            }))
+        << "tie " << tie << " is of a triangle that exists";
+  }
+}
+
 TEST(Ties, RefuseWhatIsNotThere) {
   Object body = block();
   EXPECT_THROW(attach_inside(body, {}), Error);
@@ -148,6 +180,14 @@ TEST(Ties, RefuseWhatIsNotThere) {
   Object rope = make_rope({{0, 0, 0}, {1, 0, 0}});
   EXPECT_THROW(attach_to_surface(rope, {0}), Error);
   EXPECT_THROW(attach_inside(rope, {0}), Error);
+  Object lost = block();
+  Object nowhere;
+  nowhere.positions = {{std::numeric_limits<float>::quiet_NaN(), 0, 0}};
+  nowhere.masses = {1};
+  const int at = append(lost, nowhere);
+  EXPECT_THROW(attach_inside(lost, {at}), Error);
+  EXPECT_THROW(attach_to_surface(lost, {at}), Error);
+  EXPECT_THROW(skinned(make_skin(block(), ball()), {{0, 0, 0}}), Error);
 }
 
 }  // namespace

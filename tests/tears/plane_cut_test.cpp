@@ -1,4 +1,6 @@
 // Cuts by a blade: where, when, and in how many pieces.
+#include <atomic>
+
 #include "pliant/edit.h"
 #include "tears/tears_support.h"
 
@@ -23,6 +25,23 @@ TEST(PlaneCut, PartsABlockInHalvesAtOnce) {
   EXPECT_EQ(pieces_of(after), 2);
   EXPECT_NEAR(mass_of(after) / mass_of(object), 1, 1e-6);
   EXPECT_EQ(run_and_tear(world, 30).new_particles, 0) << "once";
+}
+
+TEST(PlaneCut, IsMadeAfterAStoppedStepAndForWhatIsAddedLate) {
+  Object object = block();
+  object.cuts.push_back({0.101f, 0.101f, {}, {1, 0, 0}, {0, -1, 0}});
+  World world(weightless(object, 20));
+  run_and_tear(world, 6);
+  std::atomic<bool> stop{false};
+  world.stop_when(&stop);
+  stop = true;
+  world.step(1.f / 60);
+  stop = false;
+  EXPECT_EQ(run_and_tear(world, 3).new_particles, 9);
+  object.cuts[0].start = object.cuts[0].end = 0;
+  for (Vec3f& p : object.positions) p.y += 2;
+  world.add(object);
+  EXPECT_EQ(run_and_tear(world, 1).new_particles, 9) << "a cut of the past";
 }
 
 TEST(PlaneCut, FollowsTheBlade) {

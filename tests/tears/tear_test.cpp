@@ -1,5 +1,7 @@
 // Objects that tear by strain: when, where, and what they keep.
 #include "math/vector.h"
+#include "pliant/body.h"
+#include "pliant/cluster.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
 #include "pliant/save.h"
@@ -96,6 +98,88 @@ TEST(Tear, BreaksARopeWhereItBearsMost) {
   const float before = world.object(ObjectId(0)).positions()[5].y;
   run_and_tear(world, 60);
   EXPECT_LT(world.object(ObjectId(0)).positions()[5].y, before - 0.2f) << "the rest falls";
+}
+
+TEST(Tear, SnapsARopeInOnePlaceAtATime) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 41; ++i) points.push_back({0.025f * static_cast<float>(i), 0, 0});
+  Object rope = make_rope(points);
+  rope.tearing = Tearing{1.2f};
+  std::vector<Vec3f> now = rope.positions;
+  for (Vec3f& p : now) p.x *= 1.3f;
+  const std::optional<Edit> edit = tear(rope, now);
+  ASSERT_TRUE(edit);
+  EXPECT_EQ(pieces_of(edit->object), 2);
+}
+
+TEST(Tear, LeavesHeldParticlesWhole) {
+  Object object = sheet();
+  pull_apart(object, 2, 1);
+  const std::size_t pins = object.pins.size();
+  World world(weightless(object, 20));
+  EXPECT_GT(run_and_tear(world, 240).new_particles, 8);
+  EXPECT_EQ(world.object(ObjectId(0)).description().pins.size(), pins);
+}
+
+TEST(Tear, TearsRopeAndClothBesideTetrahedra) {
+  Object both = make_soft_body(box_tetrahedra({0.2f, 0.2f, 0.2f}, {1, 1, 1}));
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 5; ++i) points.push_back({0.1f * static_cast<float>(i), 1, 0});
+  const int first = append(both, make_rope(points));
+  both.tearing = Tearing{1.2f};
+  std::vector<Vec3f> now = both.positions;
+  for (std::size_t i = static_cast<std::size_t>(first); i < now.size(); ++i) now[i].x *= 1.5f;
+  const std::optional<Edit> edit = tear(both, now);
+  ASSERT_TRUE(edit);
+  EXPECT_EQ(edit->object.positions.size(), both.positions.size());
+  EXPECT_EQ(edit->object.constraints.back().particles.size(), 2u * 3) << "one of four links is gone";
+}
+
+TEST(Tear, DividesClusters) {
+  Object object = make_cloth(grid_mesh(9, 9, 1, 1));
+  add_cluster(object, [] {
+    std::vector<int> all(81);
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }());
+  object.cuts.push_back({0, 0, {0.01f, 0, 0}, {1, 0, 0}, {0, 0, 1}});
+  const std::optional<Edit> edit = make_cuts(object, 0);
+  ASSERT_TRUE(edit);
+  ASSERT_EQ(edit->object.clusters.size(), 2u);
+  EXPECT_EQ(edit->object.clusters[0].particles.size() + edit->object.clusters[1].particles.size(), 90u);
+}
+
+TEST(Tear, NeverThrowsInAStep) {
+  Object bar = make_soft_body(box_tetrahedra({0.4f, 0.1f, 0.1f}, {4, 1, 1}));
+  const ConstraintGroup& shear = bar.constraints[0];
+  ConstraintGroup again;  // a tetrahedron twice: its faces have three
+  again.type = shear.type;
+  again.stiffness = shear.stiffness;
+  again.particles.assign(shear.particles.begin(), shear.particles.begin() + 4);
+  bar.constraints.push_back(again);
+  bar.cuts.push_back({0.01f, 0.01f, {}, {1, 0, 0}, {0, -1, 0}});
+  World world(weightless(bar, 20));
+  Report report;
+  EXPECT_NO_THROW(report = world.step(1.f / 60));
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_NE(report.warnings.back().find("could not tear"), std::string::npos) << report.warnings.back();
+}
+
+TEST(Tear, DoesNotTakeFramesForParticles) {
+  Object object = make_cloth(grid_mesh(3, 3, 1, 1));
+  const int first = static_cast<int>(object.positions.size());
+  for (int i = 0; i < first; ++i)
+    add_body(object, {Solid{Sphere{0.1f}, {}, {}, 1000}}, {.position = {0, 1 + 0.3f * static_cast<float>(i), 0}});
+  const std::array<int, 3> corners = object.triangles[0];  // frames have these numbers too
+  ConstraintGroup gear;
+  gear.type = "gear_joint";
+  gear.particles.assign(corners.begin(), corners.end());
+  object.constraints.push_back(gear);
+  std::vector<int> part(object.triangles.size(), 0);
+  part[0] = 1;
+  const Edit edit = part_triangles(object, part);
+  EXPECT_EQ(edit.object.constraints.back().particles, gear.particles);
+  EXPECT_GT(edit.object.positions.size(), static_cast<std::size_t>(2 * first));
 }
 
 TEST(Tear, BurstsABalloon) {
