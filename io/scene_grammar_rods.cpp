@@ -24,7 +24,9 @@ const Record& material_record() {
        field("kinetic_friction", number("-", 0, 1000), "0.3; at most the static one",
              "Coefficient of kinetic friction, at most the static one."),
        field("plasticity", record(plasticity_record()), "none",
-             "Strain at the surface beyond which it stays bent or twisted.")},
+             "Strain at the surface beyond which it stays bent or twisted."),
+       field("bending_share", number("-", 1e-6, 1), RodMaterial{}.bending_share,
+             "Resistance to bending and twisting over that of a solid rod: less in a rope, whose strands slide.")},
       {}};
   return result;
 }

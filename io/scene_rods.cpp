@@ -27,6 +27,7 @@ RodMaterial material_of(const JsonDocument& document, const JsonValue& at) {
   set(at, "damping", material.damping);
   set_friction(document, at, material.static_friction, material.kinetic_friction);
   set(at, "plasticity", material.plasticity);
+  set(at, "bending_share", material.bending_share);
   return material;
 }
 

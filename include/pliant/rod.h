@@ -30,9 +30,11 @@ struct RodMaterial {
   std::string source;             ///< where the numbers come from
   /// Strain at the surface of a bent or twisted rod beyond which it stays so, and how fast that flows; none: elastic.
   std::optional<Plasticity> plasticity{};
+  /// Its resistance to bending and twisting over that of a solid rod: less in a rope or cable, whose strands slide on each other, 0..1 [-]
+  float bending_share = 1;
 };
 
-/// Returns a built-in material: "steel wire", "copper wire", "nylon line", "hair", "rubber cord" or "bamboo". For any other
+/// Returns a built-in material: "steel wire", "copper wire", "nylon line", "hair", "rubber cord", "bamboo" or "rope". For any other
 /// name throws an Error that lists the names.
 const RodMaterial& rod_material(std::string_view name);
 
@@ -48,7 +50,8 @@ struct RodStiffness {
   float twist = 0;      ///< G J: torque per rate of twist [N m^2]
 };
 
-/// Returns the stiffness of a round cross-section: E pi r^2, 0.9 G pi r^2, E pi r^4 / 4, G pi r^4 / 2. The factor of shear is Timoshenko's.
+/// Returns the stiffness of a round cross-section: E pi r^2, 0.9 G pi r^2, and bending_share times E pi r^4 / 4 and G pi r^4 / 2. The factor
+/// of shear is Timoshenko's.
 RodStiffness stiffness_of(const RodMaterial& material, float radius);
 
 /// How an end of a rod is held.

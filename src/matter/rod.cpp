@@ -52,6 +52,10 @@ void check(const RodOptions& options) {
   require_positive(options, options.material.density, "density", "kg/m^3");
   require_positive(options, options.material.youngs_modulus, "youngs_modulus", "Pa");
   require_positive(options, options.material.shear_modulus, "shear_modulus", "Pa");
+  require_positive(options, options.material.bending_share, "bending_share", "of a solid rod");
+  if (options.material.bending_share > 1)
+    throw Error({.object = options.name, .element = "bending_share"}, "is above 1, that of a solid rod",
+                "give more than 0, up to 1");
   require_not_negative(options, options.material.damping, "damping", "s");
   require_limit(options, options.break_force, "break_force", "N");
   require_limit(options, options.break_torque, "break_torque", "N m");
@@ -263,8 +267,9 @@ RodStiffness stiffness_of(const RodMaterial& material, float radius) {
   RodStiffness found;
   found.stretch = static_cast<float>(e * area);
   found.shear = static_cast<float>(shear_factor * g * area);
-  found.bending = found.bending_2 = static_cast<float>(e * second);
-  found.twist = static_cast<float>(g * 2 * second);
+  const auto share = static_cast<double>(material.bending_share);
+  found.bending = found.bending_2 = static_cast<float>(share * e * second);
+  found.twist = static_cast<float>(share * g * 2 * second);
   return found;
 }
 

@@ -23,6 +23,18 @@ std::vector<RodMaterial> make_materials() {
        "typical of vulcanised natural rubber of 50 Shore A at small strain: 2 to 4 MPa, a third of it in shear"},
       {"bamboo", 700, 1.5e10f, 1e9f, 0.0002f, 0.5f, 0.4f,
        "typical of dry bamboo along its fibres: 10 to 20 GPa, and about 1 GPa in shear"},
+      {"rope",
+       790,
+       6e8f,
+       2e8f,
+       0.005f,
+       0.5f,
+       0.4f,
+       "a laid polyamide rope: 62 g/m at 10 mm, and 20 kN at a stretch by about 40 % (ISO 1140:2012); its share of bending "
+       "is a sensible "
+       "choice",
+       {},
+       0.02f},
   };
 }
 

@@ -39,6 +39,25 @@ TEST(MakeRod, HasTheStiffnessOfARoundSection) {
   EXPECT_NEAR(found.twist, 8e8 * 2 * second_moment(0.01), 1e-3);
 }
 
+TEST(MakeRod, BendsARopeMoreEasilyThanASolidRod) {
+  RodMaterial rope = material_of(2e9, 8e8, 1000);
+  const RodStiffness solid = stiffness_of(rope, 0.01f);
+  rope.bending_share = 0.05f;
+  const RodStiffness found = stiffness_of(rope, 0.01f);
+  EXPECT_EQ(found.stretch, solid.stretch);
+  EXPECT_EQ(found.shear, solid.shear);
+  EXPECT_NEAR(found.bending / solid.bending, 0.05, 1e-6);
+  EXPECT_NEAR(found.bending_2 / solid.bending_2, 0.05, 1e-6);
+  EXPECT_NEAR(found.twist / solid.twist, 0.05, 1e-6);
+  const RodMaterial& made = rod_material("rope");
+  EXPECT_NEAR(made.density * pi * 0.005 * 0.005, 0.062, 0.001) << "62 g/m at 10 mm";
+  for (const float share : {0.f, 1.5f}) {
+    RodOptions options = clamped_rod(rope, 0.01f);
+    options.material.bending_share = share;
+    EXPECT_NE(refusal([&] { make_rod(line({0, 0, 0}, {1, 0, 0}, 10), options); }).find("bending_share"), std::string::npos);
+  }
+}
+
 TEST(MakeRod, JoinsItsEndsToBodies) {
   Object object;
   const int block = add_body(object, {{Box{}}}, {.name = "block"});
