@@ -85,7 +85,7 @@ TEST_F(Command, WritesTheSurfaceOfALiquid) {
   EXPECT_EQ(slurp(folder_ / "s_0003.ply").find("element face 0\n"), std::string::npos);
   ASSERT_EQ(pliant("run tank.json --out p.ply --quiet").status, 0);
   EXPECT_NE(slurp(folder_ / "p_0003.ply").find("element face 0\n"), std::string::npos);
-  expect_refused("run tank.json --out s.glb --liquid-surfaces", 1, "cannot have the surface of a liquid");
+  expect_refused("run tank.json --out s.glb --liquid-surfaces", 1, "is the surface of a liquid");
 }
 
 TEST_F(Command, ACheckSaysNothingOfSweepsOfALiquid) {
