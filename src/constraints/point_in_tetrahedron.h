@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "constraints/weighted_place.h"
 #include "pliant/formula.h"
 
 namespace pliant {
@@ -22,13 +23,7 @@ struct PointInTetrahedron {
   template <class R>
   PLIANT_HD static void evaluate(const SlotValues<slots, R>& at, const Params<R>& p, Rows<slots, rows, R>& out) {
     const R weights[5] = {R(1), p.b + p.c + p.d - R(1), -p.b, -p.c, -p.d};
-    const Vec3<R> axes[3] = {{R(1), R(0), R(0)}, {R(0), R(1), R(0)}, {R(0), R(0), R(1)}};
-    Vec3<R> away = at.point[0];
-    for (int slot = 1; slot < 5; ++slot) away = away + at.point[slot] * weights[slot];
-    for (int row = 0; row < rows; ++row) {
-      out.c[row] = dot(axes[row], away);
-      for (int slot = 0; slot < 5; ++slot) out.gradient[row][slot] = axes[row] * weights[slot];
-    }
+    evaluate_weighted_place(at, weights, out);
   }
 
   /// The particle's place, which may be outside of the tetrahedron; the first corner if that is flat.

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "constraints/weighted_place.h"
 #include "pliant/formula.h"
 
 namespace pliant {
@@ -22,13 +23,7 @@ struct PointOnTriangle {
   template <class R>
   PLIANT_HD static void evaluate(const SlotValues<slots, R>& at, const Params<R>& p, Rows<slots, rows, R>& out) {
     const R weights[4] = {R(1), p.b + p.c - R(1), -p.b, -p.c};
-    const Vec3<R> axes[3] = {{R(1), R(0), R(0)}, {R(0), R(1), R(0)}, {R(0), R(0), R(1)}};
-    Vec3<R> away = at.point[0];
-    for (int slot = 1; slot < 4; ++slot) away = away + at.point[slot] * weights[slot];
-    for (int row = 0; row < rows; ++row) {
-      out.c[row] = dot(axes[row], away);
-      for (int slot = 0; slot < 4; ++slot) out.gradient[row][slot] = axes[row] * weights[slot];
-    }
+    evaluate_weighted_place(at, weights, out);
   }
 
   /// The place in the triangle's plane that is nearest to the particle; the first corner if the triangle has no area.

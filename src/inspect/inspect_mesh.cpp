@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/disjoint_sets.h"
 #include "pliant/mesh.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"
@@ -239,12 +240,7 @@ class Inspector {
 
   /// Finds non-manifold vertices: those whose triangles form several fans. Corners are nodes; edges join them.
   void check_corners() {
-    std::vector<std::size_t> parent(3 * mesh_.triangles.size());
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto root = [&](std::size_t i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    };
+    DisjointSets corners(3 * mesh_.triangles.size());
     const auto node = [&](int triangle, int vertex) {
       const Triangle& t = mesh_.triangles[index(triangle)];
       return 3 * index(triangle) + static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
@@ -253,11 +249,11 @@ class Inspector {
       if (edge.triangle_count > 2) return;  // reported already; fans are not defined there
       if (!edge.is_inner()) continue;
       for (const int vertex : {edge.a, edge.b})
-        parent[root(node(edge.triangles[0], vertex))] = root(node(edge.triangles[1], vertex));
+        corners.join(node(edge.triangles[0], vertex), node(edge.triangles[1], vertex));
     }
     std::vector<std::size_t> fans(mesh_.positions.size(), 0);
-    for (std::size_t i = 0; i < parent.size(); ++i)
-      if (root(i) == i) ++fans[index(mesh_.triangles[i / 3][i % 3])];
+    for (std::size_t i = 0; i < corners.count(); ++i)
+      if (corners.root(i) == i) ++fans[index(mesh_.triangles[i / 3][i % 3])];
     Tally pinched;
     for (std::size_t i = 0; i < fans.size(); ++i)
       if (fans[i] > 1) pinched.add(i);
@@ -270,16 +266,11 @@ class Inspector {
   /// The number of parts of the mesh that share no vertex. Parts joined by non-manifold edges or in one vertex count as
   /// one: they cannot separate, and other findings report them.
   std::size_t pieces_apart() const {
-    std::vector<std::size_t> parent(mesh_.positions.size());
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto root = [&](std::size_t i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    };
+    DisjointSets pieces(mesh_.positions.size());
     for (const Triangle& t : mesh_.triangles)
-      for (const int corner : {t[1], t[2]}) parent[root(index(corner))] = root(index(t[0]));
-    std::vector<bool> seen(parent.size(), false);
-    for (const Triangle& t : mesh_.triangles) seen[root(index(t[0]))] = true;
+      for (const int corner : {t[1], t[2]}) pieces.join(index(corner), index(t[0]));
+    std::vector<bool> seen(pieces.count(), false);
+    for (const Triangle& t : mesh_.triangles) seen[pieces.root(index(t[0]))] = true;
     return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
   }
 

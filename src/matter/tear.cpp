@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <string>
 
+#include "math/disjoint_sets.h"
 #include "matter/edit_parts.h"
 #include "matter/plane_sides.h"
 #include "matter/tears.h"
@@ -56,26 +56,16 @@ Object without_links(const Object& object, const std::set<std::pair<int, int>>& 
   return without;
 }
 
-/// For each particle the lowest one of its piece: of those that tetrahedra, triangles and links join.
-std::vector<int> pieces_of(const Object& object) {
-  std::vector<int> parent(object.positions.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[static_cast<std::size_t>(i)] != i)
-      i = parent[static_cast<std::size_t>(i)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
-    return i;
-  };
-  const auto join = [&](int a, int b) {
-    const int x = root(a), y = root(b);
-    parent[static_cast<std::size_t>(std::max(x, y))] = std::min(x, y);
-  };
+/// The pieces of an object: particles that tetrahedra, triangles and links join.
+DisjointSets pieces_of(const Object& object) {
+  DisjointSets pieces(object.positions.size());
+  const auto join = [&](int a, int b) { pieces.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b)); };
   for (const auto& t : tetrahedra_of(object))
     for (const int corner : t) join(t[0], corner);
   for (const auto& t : object.triangles)
     for (const int corner : t) join(t[0], corner);
   for_each_link(object, [&](int, int, int a, int b, double) { join(a, b); });
-  for (int i = 0; i < static_cast<int>(parent.size()); ++i) parent[static_cast<std::size_t>(i)] = root(i);
-  return parent;
+  return pieces;
 }
 
 Cluster part_of(const Cluster& cluster, const std::vector<std::size_t>& indices) {
@@ -93,15 +83,16 @@ Cluster part_of(const Cluster& cluster, const std::vector<std::size_t>& indices)
 /// grains, are a piece together.
 void divide_clusters(Object& object) {
   if (object.clusters.empty()) return;
-  const std::vector<int> piece = pieces_of(object);
-  std::vector<int> size(piece.size());
-  for (const int p : piece) ++size[static_cast<std::size_t>(p)];
+  constexpr auto unjoined = static_cast<std::size_t>(-1);
+  DisjointSets pieces = pieces_of(object);
+  std::vector<int> size(pieces.count());
+  for (std::size_t i = 0; i < pieces.count(); ++i) ++size[pieces.root(i)];
   std::vector<Cluster> divided;
   for (const Cluster& cluster : object.clusters) {
-    std::map<int, std::vector<std::size_t>> members;  // of each piece: indices in the cluster
+    std::map<std::size_t, std::vector<std::size_t>> members;  // of each piece: indices in the cluster
     for (std::size_t i = 0; i < cluster.particles.size(); ++i) {
-      const int of = piece[static_cast<std::size_t>(cluster.particles[i])];
-      members[size[static_cast<std::size_t>(of)] > 1 ? of : -1].push_back(i);
+      const std::size_t piece = pieces.root(static_cast<std::size_t>(cluster.particles[i]));
+      members[size[piece] > 1 ? piece : unjoined].push_back(i);
     }
     for (const auto& [of, indices] : members)
       if (indices.size() > 1) divided.push_back(part_of(cluster, indices));

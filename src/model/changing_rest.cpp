@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "constraints/registry.h"
+#include "math/disjoint_sets.h"
 #include "model/compiled_object.h"
 #include "pliant/error.h"
 
@@ -125,23 +125,17 @@ bool is_one_free_piece(const CompiledObject& object) {
   if (object.frames.size() > 0) return false;
   for (const Record& position : object.positions)
     if (!(position.w > 0)) return false;
-  std::vector<int> parent(object.positions.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-    return i;
-  };
+  DisjointSets pieces(object.positions.size());
   for (const Segment& segment : object.segments) {
     const Pool& pool = object.pools[at(segment.pool)];
     const std::int32_t* index = pool.indices.data() + segment.index_offset;
     for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment))
       for (int lane = 0; lane < batch_width; ++lane)
         for (int slot = 1; slot < pool.stencil && lane_is_valid(segment, batch, lane); ++slot)
-          parent[at(root(particle_of(segment, index, slot, lane)))] = root(particle_of(segment, index, 0, lane));
+          pieces.join(at(particle_of(segment, index, slot, lane)), at(particle_of(segment, index, 0, lane)));
   }
-  const int first = root(0);
-  for (int i = 0; i < static_cast<int>(parent.size()); ++i)
-    if (root(i) != first) return false;
+  for (std::size_t i = 0; i < pieces.count(); ++i)
+    if (pieces.root(i) != 0) return false;
   return true;
 }
 

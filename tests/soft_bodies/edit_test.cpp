@@ -13,12 +13,6 @@ namespace {
 
 using namespace testing_support;
 
-Object block() {
-  SoftBodyOptions options;
-  options.material = solid_of(2e4f, 0.4f);
-  return make_soft_body(box_tetrahedra({0.4f, 0.2f, 0.2f}, {4, 2, 2}), options);
-}
-
 /// The number of the side of x = `at` on which each tetrahedron has its centre.
 std::vector<int> sides(const Object& object, float at) {
   std::vector<int> out;

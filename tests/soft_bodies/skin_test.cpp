@@ -12,12 +12,6 @@ namespace {
 
 using namespace testing_support;
 
-Object block() {
-  SoftBodyOptions options;
-  options.material = solid_of(2e4f, 0.4f);
-  return make_soft_body(box_tetrahedra({0.4f, 0.2f, 0.2f}, {4, 2, 2}), options);
-}
-
 /// Some of it lies inside of the block, some outside.
 TriangleMesh ball() {
   TriangleMesh mesh = sphere_mesh(3);

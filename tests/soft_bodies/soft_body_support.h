@@ -25,6 +25,13 @@ inline ElasticSolid solid_of(float youngs_modulus, float poisson_ratio, float de
   return solid;
 }
 
+/// A block of 0.4 m x 0.2 m x 0.2 m of 96 tetrahedra.
+inline Object block() {
+  SoftBodyOptions options;
+  options.material = solid_of(2e4f, 0.4f);
+  return make_soft_body(box_tetrahedra({0.4f, 0.2f, 0.2f}, {4, 2, 2}), options);
+}
+
 inline double six_volumes(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
   return dot(cross(b - a, c - a), d - a);
 }
