@@ -148,8 +148,13 @@ void fields(A& a, Is<Fluid> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Grains> auto& of) {
-  auto& [radius, density, friction, cohesion] = of;
-  a(radius, density, friction, cohesion);
+  auto& [radius, density, friction, cohesion, mass_scaling] = of;
+  a(radius, density, friction, cohesion, mass_scaling);
+}
+template <class A>
+void fields(A& a, Is<Absorbency> auto& of) {
+  auto& [capacity, uptake, wicking, rise, runoff, seepage, drag] = of;
+  a(capacity, uptake, wicking, rise, runoff, seepage, drag);
 }
 template <class A>
 void fields(A& a, Is<Region> auto& of) {
@@ -185,17 +190,17 @@ void fields(A& a, Is<Drain> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Flow> auto& of) {
-  auto& [emitters, drains, lifetime, spare] = of;
-  a(emitters, drains, lifetime, spare);
+  auto& [emitters, drains, lifetime, spare, open] = of;
+  a(emitters, drains, lifetime, spare, open);
 }
 template <class A>
 void fields(A& a, Is<Object> auto& of) {
   auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains,
-         clusters, gas, tracers, flow, pins, attachments, tearing, cuts, skin, thickness, self_collision, collides, groups,
-         mask, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, drag, lift, sweep,
-         damping, colour] = of;
+         clusters, gas, tracers, absorbency, flow, pins, attachments, tearing, cuts, skin, thickness, self_collision,
+         collides, groups, mask, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, drag,
+         lift, sweep, damping, colour] = of;
   a(name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains, clusters,
-    gas, tracers, flow, pins, attachments, tearing, cuts, thickness, self_collision, collides, groups, mask,
+    gas, tracers, absorbency, flow, pins, attachments, tearing, cuts, thickness, self_collision, collides, groups, mask,
     static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, drag, lift, sweep, damping);
   a.aside(skin, colour);
 }

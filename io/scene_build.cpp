@@ -152,6 +152,19 @@ void set_tears(const JsonValue& at, Object& object) {
   }
 }
 
+void set_absorbency(const JsonValue& at, Object& object) {
+  const JsonValue* found = at.find("absorbency");
+  if (found == nullptr) return;
+  Absorbency& absorbency = object.absorbency.emplace();
+  set(*found, "capacity", absorbency.capacity);
+  set(*found, "uptake", absorbency.uptake);
+  set(*found, "wicking", absorbency.wicking);
+  set(*found, "rise", absorbency.rise);
+  set(*found, "runoff", absorbency.runoff);
+  set(*found, "seepage", absorbency.seepage);
+  set(*found, "drag", absorbency.drag);
+}
+
 Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
                  std::vector<std::string>& repairs) {
   const JsonValue& what = one_of(
@@ -164,6 +177,7 @@ Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFo
   set_pins(document, at, built);
   set_attachments(document, at, built);
   set_tears(at, built.object);
+  set_absorbency(at, built.object);
   return std::move(built.object);
 }
 

@@ -109,6 +109,23 @@ const Record& plane_cut_record() {
   return result;
 }
 
+const Record& absorbency_record() {
+  const Absorbency none;
+  static const Record result{
+      "absorbency",
+      "The surface takes up liquid that touches it, gets heavier, and drips (docs/guide/wet_cloth.md).",
+      {field("capacity", number("kg/m^2", 1e-6, 1e6), none.capacity, "Most liquid that it holds against gravity."),
+       field("uptake", number("m/s", 0, 1e6), none.uptake, "Speed at which liquid soaks in while it is not full."),
+       field("wicking", number("m^2/s", 0, 1e6), none.wicking, "Diffusivity of the liquid along it."),
+       field("rise", number("m", 1e-6, 1e6), none.rise, "How high it draws liquid up against gravity."),
+       field("runoff", number("m/s", 0, 1e6), none.runoff, "Speed at which what is more than `capacity` runs down it."),
+       field("seepage", number("m/s", 0, 1e6), none.seepage,
+             "Speed at which liquid that lies on it passes through where it is full."),
+       field("drag", number("1/s", 0, 1e6), none.drag, "Rate at which liquid that touches it takes on its velocity.")},
+      {}};
+  return result;
+}
+
 const Record& part_record() {
   static const Record result{
       "part",
@@ -162,6 +179,7 @@ const Record& object_record() {
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
        field("tearing", record(tearing_record()), "none", "Cloth, ropes and soft bodies: at which stretch they tear."),
        field("cuts", list(record(plane_cut_record())), "none", "Cuts that are made during the simulation."),
+       field("absorbency", record(absorbency_record()), "none", "Its triangles take up liquid."),
        field("thickness", number("m", 0, largest_place),
              "the material's; 0.005 for a rope, half the spacing for a liquid or gas, the radius of grains, else 0.001",
              "Distance kept from colliders; two surfaces keep the sum of both."),

@@ -208,6 +208,9 @@ const Record& grains_record() {
        field("cohesion", number("Pa", 0, 1e9), "that of `kind`, else 0",
              "Tensile stress at which the bulk parts: each contact of two grains bears a pull of 0.87 diameter^2 times "
              "this."),
+       field("mass_scaling", number("1/m", 0, 1000), Grains{}.mass_scaling,
+             "In contacts with others, a grain counts as lighter by exp(-mass_scaling * height): high piles need fewer "
+             "substeps, but momentum is lost."),
        field("capacity", integer(1, 1 << 26), "those at the start", "Most particles that are there at a time."),
        field("emitters", list(record(emitter_record())), "none", "What adds particles; needs a `capacity`."),
        field("drains", list(record(drain_record())), "none", "Solids that take particles away, as each frame begins."),

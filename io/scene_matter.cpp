@@ -153,6 +153,7 @@ BuiltObject grains_of(const JsonDocument& document, const JsonValue& at, const s
   set(at, "density", options.grains.density);
   set(at, "friction", options.grains.friction);
   set(at, "cohesion", options.grains.cohesion);
+  set(at, "mass_scaling", options.grains.mass_scaling);
   set_flow(document, at, options);
   return {make_grains(places_of({document, folder, name, repairs, 2 * options.grains.radius}, at), options)};
 }

@@ -96,10 +96,11 @@ Json compression_json(const Scene& scene, const Compression& last, const Compres
 
 /// How many particles came and went in all frames; null if none can.
 Json flow_json(const Scene& scene, const FlowReport& flow) {
-  const auto flows = [](const Object& object) { return object.flow.is_used(); };
+  const auto flows = [](const Object& object) { return object.flow.is_used() || object.absorbency; };
   if (std::none_of(scene.objects.begin(), scene.objects.end(), flows)) return nullptr;
   return {{"emitted", flow.emitted}, {"drained", flow.drained}, {"expired", flow.expired},
-          {"refused", flow.refused}, {"blocked", flow.blocked}, {"present", flow.present}};
+          {"refused", flow.refused}, {"blocked", flow.blocked}, {"soaked", flow.soaked},
+          {"seeped", flow.seeped},   {"dripped", flow.dripped}, {"present", flow.present}};
 }
 
 /// How often what tore, and when at first; null if nothing can tear.

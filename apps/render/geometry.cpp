@@ -227,7 +227,10 @@ Geometry build_mesh(const RenderMesh& mesh) {
   const Material material = mesh.is_liquid ? Material::liquid : Material::cloth;
   Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = material};
   const std::vector<Vec3f> normals = output::vertex_normals(mesh.positions, mesh.triangles);
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) geometry.vertices.push_back({mesh.positions[i], normals[i]});
+  constexpr float dark = 0.55f;  // what a full one loses of its colour
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+    geometry.vertices.push_back(
+        {mesh.positions[i], normals[i], mesh.wetness.empty() ? 1 : 1 - dark * std::min(mesh.wetness[i], 1.f)});
   for (const auto& triangle : mesh.triangles)
     for (const int i : triangle) geometry.indices.push_back(static_cast<std::uint32_t>(i));
   return geometry;

@@ -11,6 +11,7 @@ namespace pliant::render {
 
 struct Vertex {
   Vec3f position, normal;
+  float shade = 1;  ///< factor of the colour: less where cloth is wet
 };
 
 /// How a surface is shaded.

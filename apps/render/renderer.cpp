@@ -2,6 +2,7 @@
 // samples.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include "context.h"
@@ -126,6 +127,8 @@ Renderer::Implementation::Implementation(int w, int h)
     glEnableVertexAttribArray(i);
     glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(i * sizeof(Vec3f)));
   }
+  glEnableVertexAttribArray(3);
+  glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(offsetof(Vertex, shade)));
   glVertexAttribDivisor(2, 1);
   shadow.texture =
       make_texture(GL_DEPTH_COMPONENT24, shadow_size, shadow_size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR);

@@ -177,6 +177,20 @@ void add_smoke(RenderScene& result, const Object& object, const ObjectView& view
   result.smokes.push_back(std::move(smoke));
 }
 
+/// What each particle of a surface holds of its capacity.
+std::vector<float> wetness_of(const Object& object, const ObjectView& view) {
+  std::vector<float> areas(object.positions.size()), wetness = view.channel("water");
+  const auto place = [&](int particle) { return object.positions[static_cast<std::size_t>(particle)]; };
+  for (const auto& [a, b, c] : object.triangles) {
+    const Vec3f normal = cross(place(b) - place(a), place(c) - place(a));
+    const float third = std::sqrt(dot(normal, normal)) / 6;
+    for (const int corner : {a, b, c}) areas[static_cast<std::size_t>(corner)] += third;
+  }
+  for (std::size_t i = 0; i < wetness.size(); ++i)
+    wetness[i] = areas[i] > 0 ? wetness[i] / (areas[i] * object.absorbency->capacity) : 0;
+  return wetness;
+}
+
 void add_object(RenderScene& result, const Object& described, const ObjectView& view) {
   const bool tears = described.tearing || !described.cuts.empty();
   const Object& object = tears ? view.description() : described;
@@ -198,6 +212,7 @@ void add_object(RenderScene& result, const Object& described, const ObjectView& 
   if (!shape.triangles.empty()) {
     if (object.skin) positions = skinned(*object.skin, positions);
     result.meshes.push_back({std::move(positions), shape.triangles, shape.colour, false});
+    if (object.absorbency && !object.skin) result.meshes.back().wetness = wetness_of(object, view);
     return;
   }
   for (const auto& line : shape.lines) {

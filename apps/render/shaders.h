@@ -121,11 +121,14 @@ inline constexpr const char* surface_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 place;
+layout(location = 3) in float brightness;
 uniform mat4 view_projection;
 out vec3 at, facing;
+out float shade;
 void main() {
   at = position * place.w + place.xyz;
   facing = normal;
+  shade = brightness;
   gl_Position = view_projection * vec4(at, 1.0);
 }
 )";
@@ -134,6 +137,7 @@ void main() {
 /// sheen at grazing angles and some translucency.
 inline constexpr const char* surface_fragment = R"(
 in vec3 at, facing;
+in float shade;
 out vec4 colour;
 uniform vec3 albedo, sun, centre;
 uniform int material;      // 0 cloth, 1 solid, 2 ground
@@ -171,7 +175,7 @@ float lines(float x) {
 void main() {
   vec3 normal = normalize(facing), view = normalize(eye - at);
   float open = texture(occlusion, gl_FragCoord.xy / picture).r;
-  vec3 base = albedo;
+  vec3 base = albedo * shade;
   bool back = material == 0 && !gl_FrontFacing;
   if (back) {
     normal = -normal;

@@ -40,9 +40,11 @@ struct Flow {
   std::vector<Drain> drains;
   float lifetime = 0;  ///< for which a particle stays [s]; 0: for ever
   int spare = 0;       ///< how many of the last of Object::positions are not there at the start, but may be emitted
+  bool open =
+      false;  ///< true: they may come and go for other reasons. A World sets it for liquids that may soak in (Absorbency)
 
   /// True if particles can come or go.
-  bool is_used() const { return !emitters.empty() || !drains.empty() || lifetime > 0 || spare > 0; }
+  bool is_used() const { return !emitters.empty() || !drains.empty() || lifetime > 0 || spare > 0 || open; }
 };
 
 /// What an emitter makes of its opening: the places of a layer, and how fast they go.

@@ -68,6 +68,23 @@ struct Grains {
   /// Of the bulk: the tensile stress at which it parts; wet sand some 1000 [Pa]. A contact of two grains of diameter d bears a pull of 0.87 d^2
   /// times this (Rumpf 1962, for 0.6 of the volume filled and six contacts a grain). Grains do not stick to anything else.
   float cohesion = 0;
+  /// By how much a grain counts as lighter the higher it lies, in contacts with others: masses times exp(-mass_scaling * height). High piles
+  /// then need fewer substeps (Macklin et al. 2014, section 5.2), but momentum is lost and heavy things sink less. 0: off; at most 1000 [1/m]
+  float mass_scaling = 0;
+};
+
+/// How a surface takes up liquid: what touches it soaks in, spreads along it, makes it heavier, and drips off where it collects. The mass of
+/// liquid at each particle is in the channel "water" of the State [kg]. All liquids count that meet the object by groups and masks: their
+/// particles go as they soak in, and come again as drops. docs/guide/wet_cloth.md explains it.
+struct Absorbency {
+  float capacity = 0.5f;  ///< most liquid that it holds against gravity, > 0 [kg/m^2]
+  float uptake = 0.1f;  ///< speed at which liquid that touches it soaks in while it is not full; 0: it repels liquid [m/s]
+  float wicking = 1e-4f;  ///< diffusivity of the liquid along it; 0: the liquid stays where it is [m^2/s]
+  float rise = 0.3f;      ///< how high it draws liquid up against gravity, > 0 [m]
+  float runoff =
+      0.05f;  ///< speed at which what is more than `capacity` runs down it, to where it drips off; 0: it stays [m/s]
+  float seepage = 0;  ///< speed at which liquid that lies on it passes through where it is full; 0: it is tight [m/s]
+  float drag = 0;     ///< rate at which liquid that touches it takes on its velocity, and the reverse [1/s]
 };
 
 /// An axis-aligned box, or a ball.

@@ -19,6 +19,7 @@
 #include "pliant/measurements.h"
 #include "pliant/mesh.h"
 #include "pliant/motion.h"
+#include "pliant/object.h"
 #include "pliant/queries.h"
 #include "pliant/reference.h"
 #include "pliant/report.h"

@@ -88,6 +88,9 @@ struct FlowReport {
   std::int64_t expired = 0;  ///< their lifetime was over
   std::int64_t refused = 0;  ///< not emitted, because all particles of the object were there
   std::int64_t blocked = 0;  ///< not emitted, because a particle of the object was in the way
+  std::int64_t soaked = 0;   ///< soaked into a surface (Absorbency)
+  std::int64_t seeped = 0;   ///< passed through a full one
+  std::int64_t dripped = 0;  ///< came as drops from one
   std::int64_t present = 0;  ///< particles that are there at the step's end, of objects whose particles come or go
 
   /// Adds a later step: sums what came and went, and takes over who is present.
@@ -97,6 +100,9 @@ struct FlowReport {
     expired += later.expired;
     refused += later.refused;
     blocked += later.blocked;
+    soaked += later.soaked;
+    seeped += later.seeped;
+    dripped += later.dripped;
     present = later.present;
   }
 };

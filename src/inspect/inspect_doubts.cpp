@@ -304,6 +304,7 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   doubt_pins(doubts);
   doubt_joints(problems, object);
   doubt_tears(problems, object, scene);
+  doubt_absorbency(problems, object, scene);
   doubt_references(doubts);
   doubt_places(doubts);
   for (const ConstraintGroup& group : object.constraints) {

@@ -323,6 +323,7 @@ void check_grains(Problems& problems, const Object& object) {
   constexpr double least = 1e-9;  // radius [m] and density [kg/m^3]: their powers must be floats
   if (!object.grains) return;
   require_range(problems, "grains, radius", object.grains->radius, least, largest_place);
+  require_range(problems, "grains, mass_scaling", static_cast<double>(object.grains->mass_scaling), 0, 1000);
   require_range(problems, "grains, density", object.grains->density, least, 1e12);
   require_range(problems, "grains, friction", object.grains->friction, 0, 1000);
   require_range(problems, "grains, cohesion", object.grains->cohesion, 0, 1e9);
@@ -453,6 +454,7 @@ void check_object(Problems& problems, const Object& object) {
   check_clusters(problems, object);
   check_control(problems, object);
   check_tears(problems, object);
+  check_absorbency(problems, object);
   require_range(problems, "thickness", object.thickness, 0, largest_place);
   check_fluid(problems, object);
   check_flow(problems, object);

@@ -78,6 +78,10 @@ void check_clusters(Problems& problems, const Object& object);
 void check_tears(Problems& problems, const Object& object);
 /// Warns of cuts that do nothing, and of skins far from their body.
 void doubt_tears(Problems& problems, const Object& object, const Scene& scene);
+/// Reports as grave what is wrong with how a surface takes up liquid.
+void check_absorbency(Problems& problems, const Object& object);
+/// Warns of surfaces that no liquid meets.
+void doubt_absorbency(Problems& problems, const Object& object, const Scene& scene);
 /// Reports as grave everything for which a World rejects an object.
 void check_object(Problems& problems, const Object& object);
 /// Reports doubtful settings of an object that has no grave findings.

@@ -95,6 +95,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   out.joints = compile_joints(object, out);
   out.changing = compile_changing_rest(changing, out);
   fill_triangles(object, out);
+  compile_absorbency(object, out);
   if (options.air || object.volume) fill_corners(out);
   if (has_tethers(options))
     out.tethers = find_tethers(lists, slack, anchors_of(object, static_cast<double>(options.gravity), out), out);

@@ -10,6 +10,7 @@
 
 #include "model/carrier.h"
 #include "model/changing_rest.h"
+#include "model/compiled_absorbency.h"
 #include "model/compiled_bodies.h"
 #include "model/compiled_clusters.h"
 #include "model/compiled_joints.h"
@@ -124,10 +125,11 @@ struct CompiledObject {
   std::optional<Grains> grains;           ///< its particles are grains
   std::optional<Gas> gas;                 ///< its liquid is a gas
   std::optional<Tracers> tracers;         ///< its particles are tracers
-  Flow flow;                              ///< how its particles come and go
-  std::vector<EmitterLayer> layers;       ///< of flow.emitters
-  float emitted_size = 0;                 ///< smallest distance of a particle that is emitted from others [m]
-  float emitted_jitter = 0;               ///< by how much it is off its place along each axis, at most [m]
+  CompiledAbsorbency absorbency;
+  Flow flow;                         ///< how its particles come and go
+  std::vector<EmitterLayer> layers;  ///< of flow.emitters
+  float emitted_size = 0;            ///< smallest distance of a particle that is emitted from others [m]
+  float emitted_jitter = 0;          ///< by how much it is off its place along each axis, at most [m]
   bool has_volume = false;
   CompiledVolume volume;
   bool self_collision = false, collides = false, is_collider = false;

@@ -226,6 +226,7 @@ void put_at_start(const Model& model, int object, State& state) {
   for (Channel& channel : state.channels) channel.values.resize(particles * static_cast<std::size_t>(channel.components));
   if (from.gas) fill_channel(model, object, temperature_channel, from.gas->temperature, state);
   if (from.tracers) fill_channel(model, object, age_channel, no_age, state);
+  if (from.absorbency.is_used) fill_channel(model, object, water_channel, 0, state);
   put_births(model, object, state);
 }
 

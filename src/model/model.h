@@ -61,7 +61,7 @@ struct Model {
 };
 
 /// Channels of a State: of gases [K], and of tracers [s], where `no_age` says that one is not there.
-inline constexpr const char *temperature_channel = "temperature", *age_channel = "age";
+inline constexpr const char *temperature_channel = "temperature", *age_channel = "age", *water_channel = "water";
 inline constexpr float no_age = -1;
 
 /// The State at time 0.

@@ -243,10 +243,24 @@ double depth_of(const Object& object) {
   return static_cast<double>(of.high - of.low);
 }
 
+namespace {
+
+/// The height of a pile without mass scaling whose lowest contact yields as much as under any pile with it [m]. A grain over others of
+/// r = exp(-k d) times its weight bears (1 + r) / (1 - r) times what one grain moves it, instead of two for each that lies on it.
+double height_borne(const Grains& grains) {
+  const double diameter = 2 * static_cast<double>(grains.radius);
+  const double ratio = pliant::exp(-static_cast<double>(grains.mass_scaling) * diameter);
+  return diameter * (1 + ratio) / (2 * std::max(1 - ratio, 1e-12));
+}
+
+}  // namespace
+
 GrainHeights heights_of_grains(const Object& object, double frame_time) {
   if (!object.grains || object.positions.empty()) return {};
   const Heights of = heights_of(object);
-  return {of.low, of.high, 2 * object.grains->radius, static_cast<float>(frame_time)};
+  const auto high = static_cast<float>(
+      std::min(static_cast<double>(of.high), static_cast<double>(of.low) + height_borne(*object.grains)));
+  return {of.low, high, 2 * object.grains->radius, static_cast<float>(frame_time)};
 }
 
 int substeps_of_grains(const GrainHeights& grains, double height) {
@@ -299,8 +313,9 @@ int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_
   if (object.tracers) return 1;
   if (object.fluid) return std::max(substeps_of_fluid(object, frame_time), substeps_of_tension(object, frame_time));
   if (object.grains)
-    return std::max(substeps_of_grains(heights_of_grains(object, frame_time), depth_of(object)),
-                    substeps_of_cohesion(object, frame_time));
+    return std::max(
+        substeps_of_grains(heights_of_grains(object, frame_time), std::min(depth_of(object), height_borne(*object.grains))),
+        substeps_of_cohesion(object, frame_time));
   if (is_soft_body(object)) return substeps_of_soft_body(object, frame_time);
   const bool is_of_bodies = !object.bodies.empty() && object.bodies.size() == object.positions.size();
   if (is_of_bodies && !has_converted(object)) return substeps_of_bodies;

@@ -10,6 +10,7 @@
 #include "world/groups.h"
 #include "world/object_store.h"
 #include "world/rest.h"
+#include "world/soaking.h"
 #include "world/tearing.h"
 
 namespace pliant {
@@ -114,6 +115,7 @@ WorldData::WorldData(const Scene& scene, const WorldLayout& layout)
   ids.mesh_colliders.restore(layout.mesh_colliders);
   for (std::size_t i = 0; i < of_objects.size(); ++i)
     keep_description(*this, ids.objects.id_of(of_objects[i]).slot, &scene.objects[i]);
+  open_liquids(*this);
   state = initial_state(model);
   for (std::size_t number = 0; number < count; ++number) {
     if (taken[number] == 0) state.blocks[number] = {0, 0, model.generation[number]};

@@ -14,6 +14,7 @@
 #include "world/flow.h"
 #include "world/groups.h"
 #include "world/rest.h"
+#include "world/soaking.h"
 
 namespace pliant {
 
@@ -54,6 +55,7 @@ void fit_state(WorldData& world) {
 bool owns(const CompiledObject& object, const Channel& channel) {
   if (channel.name == temperature_channel) return object.gas.has_value();
   if (channel.name == age_channel) return object.tracers.has_value();
+  if (channel.name == water_channel) return object.absorbency.is_used;
   return true;
 }
 
@@ -118,14 +120,26 @@ std::vector<int> frame_origins(const CompiledObject& old, const CompiledObject& 
   return from;
 }
 
+bool any_comes_or_goes(const WorldData& world) {
+  return std::any_of(world.model.objects.begin(), world.model.objects.end(),
+                     [](const CompiledObject& object) { return object.flow.is_used(); });
+}
+
 void clear_births_if_nothing_flows(WorldData& world) {
-  if (std::none_of(world.model.objects.begin(), world.model.objects.end(),
-                   [](const CompiledObject& object) { return object.flow.is_used(); }))
-    world.state.births.clear();
+  if (!any_comes_or_goes(world)) world.state.births.clear();
+}
+
+/// Of how many particles each old one is the origin.
+std::vector<float> copies_of(const Origins& origins, std::size_t old_particles) {
+  std::vector<float> copies(old_particles, 0.f);
+  for (const int from : origins.particles)
+    if (from >= 0) ++copies[static_cast<std::size_t>(from)];
+  return copies;
 }
 
 /// Gives each particle and frame of an object the kept state of its origin.
 void give_back_state(WorldData& world, int number, const ObjectState& kept, const Origins& origins) {
+  const std::vector<float> copies = copies_of(origins, kept.positions.size());
   for (std::size_t i = 0; i < origins.particles.size(); ++i) {
     if (origins.particles[i] < 0) continue;
     const auto from = static_cast<std::size_t>(origins.particles[i]),
@@ -145,7 +159,9 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
       const auto components = static_cast<std::size_t>(channel.components);
       const auto to = std::find_if(world.state.channels.begin(), world.state.channels.end(),
                                    [&](const Channel& one) { return one.name == channel.name; });
-      for (std::size_t k = 0; k < components; ++k) to->values[at * components + k] = channel.values[from * components + k];
+      const float share = channel.name == water_channel ? 1 / copies[from] : 1;  // a mass, which those that were one share
+      for (std::size_t k = 0; k < components; ++k)
+        to->values[at * components + k] = channel.values[from * components + k] * share;
     }
   }
   if (!world.state.substeps.empty()) world.state.substeps[static_cast<std::size_t>(number)] = kept.substeps;
@@ -253,7 +269,9 @@ void prepare_object(WorldData& world, int number) {
 }
 
 void place_object(WorldData& world, int number) {
+  open_liquids(world);
   put_at_start(world.model, number, world.state);
+  if (any_comes_or_goes(world)) world.state.births.resize(static_cast<std::size_t>(world.model.particles()), 0.0);
   if (number < static_cast<int>(world.state.substeps.size())) world.state.substeps[number] = 0;  // of an earlier object
   fit_state(world);
   if (world.state.time != 0) {
@@ -314,6 +332,7 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   place_object(world, number);
   drop_unused_sweeps(world.model, world.workspace);
   give_back_state(world, number, kept, origins);
+  if (world.model.objects[number].absorbency.is_used) set_wet_masses(world, number);
   break_again(world, number, broken);
   carry_flowed(flowed, slots_before(origins, particles), world.model.objects[number]);
   keep_flowed(world);

@@ -9,6 +9,7 @@
 #include "world/control.h"
 #include "world/flow.h"
 #include "world/rest.h"
+#include "world/soaking.h"
 #include "world/world_data.h"
 
 namespace pliant {
@@ -61,7 +62,15 @@ void require_substeps(const State& state) {
       throw Error({}, "the state has an object of " + std::to_string(substeps) + " substeps", "give 0 to 10000");
 }
 
-/// What gases and tracers read of the State must be there.
+/// A surface cannot hold less than no water.
+void require_no_less_than_none(const CompiledObject& object, const State& state) {
+  for (const Channel& channel : state.channels)
+    if (channel.name == water_channel &&
+        std::any_of(channel.values.begin(), channel.values.end(), [](float m) { return m < 0; }))
+      throw Error({.object = object.name, .element = "channel 'water'"}, "has a negative mass", "restore an earlier state");
+}
+
+/// What gases, tracers and wet surfaces read of the State must be there.
 void require_channels_of(const Model& model, const State& state) {
   const auto require = [&](const CompiledObject& object, const char* name) {
     const auto found = std::find_if(state.channels.begin(), state.channels.end(), [&](const Channel& channel) {
@@ -77,6 +86,8 @@ void require_channels_of(const Model& model, const State& state) {
   for (const CompiledObject& object : model.objects) {
     if (object.gas) require(object, temperature_channel);
     if (object.tracers) require(object, age_channel);
+    if (object.absorbency.is_used) require(object, water_channel);
+    if (object.absorbency.is_used) require_no_less_than_none(object, state);
   }
 }
 
@@ -230,12 +241,23 @@ void require_blocks(const WorldData& world, const State& given) {
               "restore a state that was taken since the last such change");
 }
 
+/// What a particle of a surface with Absorbency holds [kg].
+float water_at(const State& state, std::size_t particle) {
+  for (const Channel& channel : state.channels)
+    if (channel.name == water_channel) return channel.values[particle];
+  return 0;
+}
+
 /// True if a particle of a State may have this inverse mass: none if it is not there, or has just left an opening.
 bool may_have_mass(const WorldData& world, const State& state, std::size_t particle, float inverse_mass) {
-  if (state.births.empty()) return inverse_mass == world.state.positions[particle].w;
+  if (state.births.empty() && state.channels.empty()) return inverse_mass == world.state.positions[particle].w;
   const auto number = static_cast<std::size_t>(world.model.object_of(static_cast<int>(particle)));
   const CompiledObject& object = world.model.objects[number];
-  if (!object.flow.is_used()) return inverse_mass == world.state.positions[particle].w;
+  if (object.absorbency.is_used) {
+    const float dry = object.positions[particle - static_cast<std::size_t>(world.model.first[number])].w;
+    return inverse_mass == (world.state.positions[particle].w > 0 ? wet_inverse_mass(dry, water_at(state, particle)) : 0);
+  }
+  if (state.births.empty() || !object.flow.is_used()) return inverse_mass == world.state.positions[particle].w;
   if (state.births[particle] == not_there) return inverse_mass == 0;
   return inverse_mass == 0 ||
          inverse_mass == object.positions[particle - static_cast<std::size_t>(world.model.first[number])].w;
@@ -277,6 +299,8 @@ void World::restore(const State& state) {
         "restore a state of this world");
   }
   require_births(*data_, state);
+  require_channels(state);
+  require_channels_of(data_->model, state);
   const auto is_finite = [](const Record& r) { return std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z); };
   for (std::size_t i = 0; i < particles; ++i) {
     if (!may_have_mass(*data_, state, i, state.positions[i].w)) {
@@ -293,8 +317,6 @@ void World::restore(const State& state) {
     }
   }
   require_frames_of(data_->state.frames, state.frames);
-  require_channels(state);
-  require_channels_of(data_->model, state);
   require_substeps(state);
   require_body_contacts(state);
   require_grain_contacts(state);

@@ -15,6 +15,7 @@
 #include "world/groups.h"
 #include "world/object_store.h"
 #include "world/rest.h"
+#include "world/soaking.h"
 #include "world/tearing.h"
 
 namespace pliant {
@@ -48,6 +49,7 @@ WorldData::WorldData(const Scene& scene, const Settings& given, const Settings& 
   }
   for (const MeshCollider& collider : scene.mesh_colliders)
     ids.mesh_colliders.add(add_to_model(*this, collider, compile(collider)));
+  open_liquids(*this);
   state = initial_state(model);
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) prepare_object(*this, number);
   keep_flowed(*this);
@@ -127,6 +129,7 @@ Report World::step(float dt) {
     return report;
   }
   let_flow(*data_, static_cast<double>(dt), report.flow);
+  soak(*data_, static_cast<double>(dt), report.flow);
   follow_pressures(*data_, data_->state.time + static_cast<double>(dt));
   follow_rest_factors(*data_, data_->state.time + static_cast<double>(dt));
   begin_control(*data_, dt);

@@ -307,5 +307,47 @@ TEST(Grains, NameWhatIsOutOfRange) {
             std::string::npos);
 }
 
+/// The overlap of the lowest two of grains that stand on one another [m].
+double lowest_overlap(int grains, float mass_scaling, int substeps) {
+  std::vector<Vec3f> places;
+  for (int i = 0; i < grains; ++i) places.push_back({0, radius + static_cast<float>(i) * diameter, 0});
+  Scene scene;
+  GrainsOptions options;
+  options.grains = {.radius = radius, .mass_scaling = mass_scaling};
+  Object column = make_grains(places, options);
+  column.damping = 20;
+  scene.add(std::move(column));
+  scene.add(wall({0, 0, 0}, {0, 0, 0, 1}, 1));
+  scene.settings.substeps = substeps;
+  scene.settings.threads = 1;
+  World world(scene);
+  run(world, 600);
+  const std::vector<Vec3f> at = world.object(0).positions();
+  return static_cast<double>(diameter - (at[1].y - at[0].y));
+}
+
+/// A contact yields by twice g h^2 over the stiffness for each grain that lies on it. With mass scaling, r being the ratio of the masses of
+/// neighbours, the series is geometric: (1 + r) (1 - r^n) / (1 - r) instead of 2 n.
+TEST(Grains, OfAHighPileYieldLittleWithMassScaling) {
+  constexpr int grains = 31, substeps = 40;
+  const double h = 1. / 60 / substeps, of_one = 9.81 * h * h / static_cast<double>(grain_formulas::stiffness);
+  const double plain = lowest_overlap(grains, 0, substeps), scaled = lowest_overlap(grains, 10, substeps);
+  const double r = std::exp(-10 * static_cast<double>(diameter));
+  EXPECT_NEAR(plain, 2 * (grains - 1) * of_one, 0.02 * plain);
+  EXPECT_NEAR(scaled, (1 + r) * (1 - std::pow(r, grains - 1)) / (1 - r) * of_one, 0.02 * scaled);
+  EXPECT_LT(scaled, 0.4 * plain);
+}
+
+TEST(Grains, NeedFewerSubstepsWithMassScaling) {
+  const auto substeps = [](float mass_scaling) {
+    Scene scene;
+    scene.add(make_grains(fill_box({0, 0, 0}, {0.06f, 2, 0.06f}, diameter),
+                          {.grains = {.radius = radius, .mass_scaling = mass_scaling}}));
+    return chosen_substeps(scene)[0];
+  };
+  EXPECT_LT(substeps(10), substeps(0) / 2);
+  EXPECT_EQ(substeps(0.001f), substeps(0));
+}
+
 }  // namespace
 }  // namespace pliant

@@ -277,6 +277,7 @@ TEST_F(FullScene, HasItsGrains) {
   EXPECT_EQ(sand.grains->density, 1500);
   EXPECT_EQ(sand.grains->friction, 0.75f);
   EXPECT_EQ(sand.grains->cohesion, 500);
+  EXPECT_EQ(sand.grains->mass_scaling, 2);
   EXPECT_EQ(sand.positions.size(), 16U);
   EXPECT_EQ(sand.positions.at(1), (Vec3f{-7.625f, 10.125f, 1.125f}));
   EXPECT_NEAR(sand.masses.at(0), 1500 * 3.14159265 / 6 / 64, 1e-4);

@@ -41,6 +41,14 @@ TEST(SceneSoftBodies, AreReadWithEveryField) {
   EXPECT_EQ(bar.static_friction, 0.75f);
   EXPECT_EQ(bar.kinetic_friction, 0.5f);
   EXPECT_TRUE(bar.collides);
+  ASSERT_TRUE(bar.absorbency);
+  EXPECT_EQ(bar.absorbency->capacity, 0.75f);
+  EXPECT_EQ(bar.absorbency->uptake, 0.25f);
+  EXPECT_EQ(bar.absorbency->wicking, 0.0005f);
+  EXPECT_EQ(bar.absorbency->rise, 0.125f);
+  EXPECT_EQ(bar.absorbency->runoff, 0.0625f);
+  EXPECT_EQ(bar.absorbency->seepage, 0.03125f);
+  EXPECT_EQ(bar.absorbency->drag, 4);
   ASSERT_TRUE(bar.tearing);
   EXPECT_EQ(bar.tearing->stretch, 1.75f);
   ASSERT_EQ(bar.cuts.size(), 1u);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/functions.h"
 #include "math/vector.h"
 #include "model/cohesion.h"
 #include "model/object_sets.h"
@@ -26,6 +27,14 @@ inline float most_pull(const GrainTraits& a, const GrainTraits& b, float h) {
   if (!(cohesion > 0)) return 0;
   const float force = pull_of_contact(4 * (a.radius * b.radius) / reach, cohesion);
   return std::min(force * (h * h) * (a.inverse_mass + b.inverse_mass), stiffness * longest_bond * reach);
+}
+
+/// The share of a correction that a grain makes, where higher ones count as lighter (Macklin et al. 2014, section 5.2). `falls`: how far it
+/// lies below its neighbour, times `gravity` [m^2/s^2]. Of two kinds, those with less mass scaling decide.
+inline float scaled_share(const GrainTraits& own, const GrainTraits& other, float falls, float gravity) {
+  const float scaling = std::min(own.mass_scaling, other.mass_scaling);
+  const float heavier = gravity > 0 ? pliant::exp(std::clamp(scaling * falls / gravity, -20.f, 20.f)) : 1.f;
+  return own.inverse_mass / (own.inverse_mass + heavier * other.inverse_mass);
 }
 
 /// From the neighbour to the grain. Grains in one place part along y.

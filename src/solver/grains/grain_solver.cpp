@@ -73,11 +73,13 @@ void GrainSolver::list_points(const Model& model, const State& state) {
                              contact_friction(object.grains->friction),
                              object.grains->cohesion,
                              0,
+                             object.grains->mass_scaling,
                              o,
                              object.groups,
                              object.mask};
     largest_radius_ = std::max(largest_radius_, traits.radius);
     has_cohesion_ = has_cohesion_ || traits.cohesion > 0;
+    scales_masses_ = scales_masses_ || traits.mass_scaling > 0;
     for (int p = model.first[at(o)]; p < model.end_of(o); ++p) {
       if (!is_there(state, at(p))) continue;
       points_.push_back(p);
@@ -206,6 +208,7 @@ void GrainSolver::project(Substep& s, bool is_first) {
 void GrainSolver::project_grain(Substep& s, int slot, bool is_first) {
   const GrainTraits& own = of_grain_[at(slot)];
   const Vec3f place = vector_of(places_[at(slot)]), move = vector_of(moves_[at(slot)]);
+  const float gravity = scales_masses_ ? length(s.model.gravity) : 0;
   Vec3f sum{};
   for (std::int32_t k = first_[at(slot)]; k < first_[at(slot) + 1]; ++k) {
     GrainNeighbour& n = neighbours_[at(k)];
@@ -225,7 +228,9 @@ void GrainSolver::project_grain(Substep& s, int slot, bool is_first) {
     const float gap = dot(between, normal) - reach;
     const float friction = grain_formulas::common_friction(own.friction, other.friction);
     const Vec3f by = grain_formulas::project(gap, normal, move - vector_of(moves_[at(n.slot)]), friction, n);
-    sum = sum + (own.inverse_mass / inverse_mass) * by;
+    const float share = scales_masses_ ? grain_formulas::scaled_share(own, other, dot(between, s.model.gravity), gravity)
+                                       : own.inverse_mass / inverse_mass;
+    sum = sum + share * by;
   }
   Record& d = s.work.displacements[at(of_slot_[at(slot)])];
   d = {d.x + sum.x, d.y + sum.y, d.z + sum.z, d.w};

@@ -33,6 +33,7 @@ struct GrainTraits {
   float friction = 0;      ///< coefficient of a contact [-]
   float cohesion = 0;      ///< [Pa]
   float inverse_mass = 0;  ///< 0: fixed [1/kg]
+  float mass_scaling = 0;  ///< Grains::mass_scaling [1/m]
   int object = 0;
   std::uint32_t groups = 0, mask = 0;
 };
@@ -77,7 +78,7 @@ class GrainSolver {
   std::vector<std::int32_t> points_;  ///< all particles that are there, as in the State
   std::vector<GrainTraits> traits_;   ///< of each of `points_`
   float largest_radius_ = 0;          ///< [m]
-  bool has_cohesion_ = false;
+  bool has_cohesion_ = false, scales_masses_ = false;
 
   NeighbourLists lists_;
   std::vector<std::int32_t> of_slot_;       ///< the particle of each slot
