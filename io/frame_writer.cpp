@@ -164,7 +164,7 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
   const auto parts = output::split_path(path);
   const bool has_all_points = parts.suffix == ".glb" || parts.suffix == ".pc2";
   for (std::size_t o = 0; o < objects.size() && !has_all_points; ++o)
-    objects[o].varies = !objects[o].is_remeshed && scene.objects[o].flow.is_used();
+    objects[o].varies = !objects[o].is_remeshed && world.object(static_cast<int>(o)).flows();
   return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time), scene, world.objects(),
                                        options, has_all_points);
 }

@@ -58,8 +58,8 @@ void fields(A& a, Is<Motion> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Cluster> auto& of) {
-  auto& [particles, rest, mode, share, stiffness] = of;
-  a(particles, rest, mode, share, stiffness);
+  auto& [particles, rest, mode, share, stiffness, plasticity] = of;
+  a(particles, rest, mode, share, stiffness, plasticity);
 }
 template <class A>
 void fields(A& a, Is<Pin> auto& of) {

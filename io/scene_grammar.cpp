@@ -60,7 +60,10 @@ const Record& cluster_record() {
              "What the shape may do to fit: move and turn; also stretch and shear; also bend and twist."),
        field("share", share(), Cluster{}.share, "Share of the deformation that `linear` and `quadratic` keep."),
        field("stiffness", stiffness(), "\"rigid\"",
-             "Stiffness; the compliance is per mass, in s^2: particles swing at 1 / (2 pi sqrt(compliance)) Hz.")},
+             "Stiffness; the compliance is per mass, in s^2: particles swing at 1 / (2 pi sqrt(compliance)) Hz."),
+       field("plasticity", record(plasticity_record()), "none",
+             "How strain becomes permanent: the shape takes on what it is stretched and sheared by. Needs a stiffness that "
+             "yields.")},
       {}};
   return result;
 }
@@ -310,7 +313,7 @@ const Record& settings_record() {
        field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
              "Treatment of surfaces that intersect at the start: leave them, move them apart, or refuse the scene."),
        field("untangling_speed", positive("m/s", 1000), Settings{}.untangling_speed, "Speed limit of depenetration."),
-       field("sleep", record(sleep_record()), "off", "When rigid bodies sleep."),
+       field("sleep", record(sleep_record()), "off", "When rigid bodies and grains sleep."),
        field("measure", boolean(), Settings{}.measure, "Measure residuals and stretch each frame."),
        field("record_residuals", boolean(), Settings{}.record_residuals,
              "Measure both residuals after every iteration of each frame's last substep; slow."),

@@ -20,6 +20,12 @@ const Record& cloth_record() {
        field("bending", stiffness(), "from the material", "Stiffness of every inner edge; overrides the material's."),
        field("bending_model", choice({"none", "dihedral", "isometric"}), "dihedral",
              "Bending by dihedral angles, or by the isometric bending energy."),
+       field("stretch_model", choice({"springs", "woven"}), "springs",
+             "What resists stretching: edges, alike in all directions, or triangles, by warp, weft and shear of the "
+             "material."),
+       field("warp", vector("-", largest_place), ClothOptions{}.warp,
+             "Of woven cloth: direction of the warp in the rest shape; each triangle has its projection."),
+       field("strain_limit", record(strain_limit_record()), "none", "How far its edges may stretch."),
        field("bending_plasticity", record(plasticity_record()), "none",
              "Folds beyond an angle stay, as in paper or sheet metal; of dihedral bending only."),
        field("volume", record(volume_record()), "none", "Makes the cloth a balloon; its surface must be closed.")},

@@ -246,12 +246,25 @@ const Record& fabric_record() {
        field("thickness", positive("m", largest_place), Fabric{}.thickness,
              "Thickness; also the distance kept from colliders."),
        field("stretch_stiffness", any_of({choice({"inextensible"}), positive("N/m")}), Fabric{}.stretch_stiffness,
-             "Membrane stiffness: force per width and strain."),
+             "Membrane stiffness: force per width and strain; of woven cloth along the warp."),
+       field("weft_stiffness", number("N/m", 0), "0: that of `stretch_stiffness`", "Of woven cloth across the warp."),
+       field("shear_stiffness", number("N/m", 0), Fabric{}.shear_stiffness,
+             "Of woven cloth: shear force per width, over the sine of the shear angle."),
        field("bending_stiffness", number("N m", 0), Fabric{}.bending_stiffness, "Flexural rigidity per width."),
        field("bending_damping", share(), Fabric{}.bending_damping, "Fraction of critical damping of bending."),
        field("static_friction", number("-", 0, 1000), Fabric{}.static_friction, "Coefficient of static friction."),
        field("kinetic_friction", number("-", 0, 1000), "0.3; at most the static one",
              "Coefficient of kinetic friction, at most the static one.")},
+      {}};
+  return result;
+}
+
+const Record& strain_limit_record() {
+  static const Record result{
+      "strain limit",
+      "How far edges may become shorter or longer: the object yields freely until there, and hardly beyond.",
+      {field("least", number("-", 0, 1), StrainLimit{}.least, "Least length over that at rest."),
+       field("most", number("-", 1, 1e6), StrainLimit{}.most, "Greatest length over that at rest.")},
       {}};
   return result;
 }

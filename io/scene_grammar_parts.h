@@ -10,6 +10,7 @@ const Record& rotation_record();
 const Record& motion_record();
 const Record& volume_record();
 const Record& plasticity_record();
+const Record& strain_limit_record();
 const Record& rest_keyframe_record();
 const Record& mesh_record();
 const Record& fabric_record();

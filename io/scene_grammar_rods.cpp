@@ -112,6 +112,7 @@ const Record& rod_record() {
        field("translate", place(), Vec3f{}, "Moves the points, after `rotate`."),
        field("rotate", record(rotation_record()), "none", "Turns the points about the origin."),
        field("radius", positive("m", largest_place), RodOptions{}.radius, "Radius of its cross-section."),
+       field("end_radius", positive("m", largest_place), "as `radius`", "Radius at the last point, if the rod tapers."),
        field("material", any_of({choice(material_names()), record(material_record())}), "the defaults of rod material",
              "The name of a built-in material, or a material."),
        field("stiffness", record(stiffness_record()), "that of a round section",

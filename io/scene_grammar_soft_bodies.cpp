@@ -88,6 +88,7 @@ const Record& soft_body_record() {
        field("material", any_of({choice(solid_names()), record(elastic_solid_record())}), "the defaults of elastic solid",
              "The material: the name of a built-in elastic solid, or an elastic solid."),
        field("fibres", record(fibres_record()), "none", "Fibres in it: a muscle."),
+       field("strain_limit", record(strain_limit_record()), "none", "How far the edges of its tetrahedra may stretch."),
        field(
            "skin", any_of({boolean(), record(mesh_record())}), false,
            "A surface that moves with it, which pictures and files show instead of its border: true for the `mesh` that is "

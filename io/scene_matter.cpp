@@ -25,6 +25,11 @@ ClothOptions cloth_options(const JsonDocument& document, const JsonValue& at, co
   options.bending_model = model == "none"        ? ClothOptions::Bending::none
                           : model == "isometric" ? ClothOptions::Bending::isometric
                                                  : ClothOptions::Bending::dihedral;
+  std::string stretch_model = "springs";
+  set(at, "stretch_model", stretch_model);
+  if (stretch_model == "woven") options.stretch_model = ClothOptions::Stretching::woven;
+  set(at, "warp", options.warp);
+  set(at, "strain_limit", options.strain_limit);
   return options;
 }
 

@@ -46,6 +46,7 @@ void set_clusters(const JsonDocument& document, const JsonValue& at, BuiltObject
     if (mode == "quadratic") options.mode = Cluster::Mode::quadratic;
     set(item, "share", options.share);
     set(document, item, "stiffness", options.stiffness);
+    set(item, "plasticity", options.plasticity);
     const JsonValue *particles = item.find("particles"), *size = item.find("size");
     if (particles != nullptr && size != nullptr)
       document.fail_key(*size, "clusters of a size are of all particles", "give `particles` or `size`");

@@ -80,6 +80,7 @@ RodOptions options_of(const JsonDocument& document, const JsonValue& at, const s
   set(at, "name", options.name);
   if (const JsonValue* material = at.find("material")) options.material = material_of(document, *material);
   set(at, "radius", options.radius);
+  set(at, "end_radius", options.end_radius);
   if (const JsonValue* stiffness = at.find("stiffness")) options.stiffness = stiffness_of(*stiffness);
   if (const JsonValue* across = at.find("across")) options.across = vector_of(*across);
   set(at, "straight", options.straight);

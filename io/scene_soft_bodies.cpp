@@ -128,6 +128,7 @@ BuiltObject soft_body_of(const JsonDocument& document, const JsonValue& at, cons
   options.name = name;
   if (const JsonValue* material = at.find("material")) options.material = solid_of(document, *material);
   if (const JsonValue* fibres = at.find("fibres")) options.fibres = fibres_of(document, *fibres);
+  set(at, "strain_limit", options.strain_limit);
   const Notes notes{name, repairs};
   if (const JsonValue* tetrahedra = at.find("tetrahedra")) {
     if (const JsonValue* size = at.find("size"))

@@ -153,12 +153,23 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, Fa
   set(*value, "area_density", target.area_density);
   set(*value, "thickness", target.thickness);
   set(*value, "bending_stiffness", target.bending_stiffness);
+  set(*value, "weft_stiffness", target.weft_stiffness);
+  set(*value, "shear_stiffness", target.shear_stiffness);
   set(*value, "bending_damping", target.bending_damping);
   set_friction(document, *value, target.static_friction, target.kinetic_friction);
   const JsonValue* stretch = value->find("stretch_stiffness");
   if (stretch == nullptr) return true;
   const bool inextensible = stretch->kind == JsonValue::Kind::string;
   target.stretch_stiffness = inextensible ? std::numeric_limits<float>::infinity() : static_cast<float>(stretch->number);
+  return true;
+}
+
+bool set(const JsonValue& at, const char* name, std::optional<StrainLimit>& target) {
+  const JsonValue* value = at.find(name);
+  if (value == nullptr) return false;
+  target.emplace();
+  set(*value, "least", target->least);
+  set(*value, "most", target->most);
   return true;
 }
 

@@ -35,6 +35,7 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, St
 bool set(const JsonDocument& document, const JsonValue& at, const char* name, Motion& target);
 bool set(const JsonDocument& document, const JsonValue& at, const char* name, std::optional<Volume>& target);
 bool set(const JsonValue& at, const char* name, std::optional<Plasticity>& target);
+bool set(const JsonValue& at, const char* name, std::optional<StrainLimit>& target);
 /// Reads factors of rest data. Throws an Error if their times do not increase.
 bool set(const JsonDocument& document, const JsonValue& at, const char* name, std::vector<RestKeyframe>& target);
 /// Reads a fabric: by name, or as a record.

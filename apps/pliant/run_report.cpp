@@ -259,6 +259,7 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["particles"] = particle_count(world);
   json["bodies"] = body_count(scene);
   json["sleeping_bodies"] = last_.sleeping_bodies;
+  json["sleeping_grains"] = last_.sleeping_grains;
   json["constraints"] = constraints_by_type(world);
   json["contacts"] = last_.contacts;
   json["pairs"] = pairs_json(pairs_);

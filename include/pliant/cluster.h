@@ -1,6 +1,7 @@
 // Shape matching: groups of particles that keep their shape.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "pliant/scene.h"
@@ -12,6 +13,7 @@ struct ClusterOptions {
   Cluster::Mode mode = Cluster::Mode::rigid;
   float share = 0.8f;  ///< Cluster::share
   Stiffness stiffness{};
+  std::optional<Plasticity> plasticity{};  ///< Cluster::plasticity
 };
 
 /// Makes the given particles of an object keep the shape in which they are, which is then the rest shape. Throws an Error if a

@@ -137,6 +137,8 @@ struct Fabric {
   float static_friction = 0.4f;     ///< coefficient of friction at rest [-]
   float kinetic_friction = 0.3f;    ///< coefficient of friction while sliding [-]
   std::string source;               ///< where the numbers come from
+  float weft_stiffness = 0;   ///< of woven cloth across the warp, >= 0; 0: that of the warp, `stretch_stiffness` [N/m]
+  float shear_stiffness = 0;  ///< of woven cloth: shear force per width, over the sine of the shear angle, >= 0 [N/m]
 };
 
 /// Returns a built-in fabric: "cotton", "silk", "denim", "wool", "leather" or "rubber sheet". For any other name throws

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pliant/flow.h"
+#include "pliant/formula.h"
 #include "pliant/material.h"
 #include "pliant/motion.h"
 #include "pliant/shape.h"
@@ -16,7 +17,8 @@
 namespace pliant {
 
 /// How a deformation becomes permanent: what is beyond `yield` flows away, in all up to `most`. Of what a constraint measures: of tetrahedra
-/// ("tetrahedron_shear") the strain, of hinges ("dihedral_bending") the angle [rad], of rods ("rod_joint") the strain at their surface.
+/// ("tetrahedron_shear") and clusters the strain, of hinges ("dihedral_bending") the angle [rad], of rods ("rod_joint") the strain at their
+/// surface.
 struct Plasticity {
   float yield = 0;  ///< elastic deformation that does not become permanent, >= 0 [-, or rad of hinges]
   /// How fast the rest flows: exp(-rate t) of what is beyond `yield` is left after t seconds. 0: all of it flows at once, as in metal;
@@ -92,6 +94,15 @@ struct Cluster {
   /// Its compliance is per mass, alpha in s^2: particles swing about their places at 1 / (2 pi sqrt(alpha)) Hz, whatever
   /// their masses. Its damping is per mass too, in 1/s.
   Stiffness stiffness{};
+  /// The rest shape takes on what it is stretched and sheared by, at constant volume; none: it springs back. Not for flat clusters.
+  std::optional<Plasticity> plasticity{};
+};
+
+/// How far the edges of cloth or of tetrahedra may become shorter or longer (Provot 1995, section 4): an elastic object yields freely until
+/// there, and hardly beyond, as cloth does whose yarns are straight. Constraint type "distance_limit".
+struct StrainLimit {
+  float least = 0;    ///< least length over that at rest, 0..1 [-]
+  float most = 1.1f;  ///< greatest length over that at rest, >= 1 [-]
 };
 
 /// A kinematic particle: it has infinite mass and follows `motion` from its rest position. If that turns, so does a body with this particle.

@@ -225,6 +225,7 @@ struct Report {
   TensionActs tension;                         ///< of liquids
   FlowReport flow;                             ///< of liquids and grains whose particles come and go
   int sleeping_bodies = 0;                     ///< rigid bodies that sleep at the end of the step (SleepOptions)
+  int sleeping_grains = 0;                     ///< grains that do
   std::vector<Torn> torn;                      ///< objects that tore or were cut, by object
   std::vector<JointBreak> broken_joints;       ///< joints that broke in this step, by object and index
   std::optional<NonFinite> nonfinite;

@@ -69,7 +69,8 @@ struct RodOptions {
   std::string name = "rod";  ///< segments are called "rod 0", "rod 1", ...; the joint between them "rod 0-1"
   RodMaterial material{};
   float radius = 0.005f;  ///< > 0 [m]
-  /// Instead of that of the material and the radius: of a flat, hollow or stranded cross-section.
+  float end_radius = 0;   ///< at the last point, if the rod tapers from `radius` at the first one; 0: it does not [m]
+  /// Instead of that of the material and the radius: of a flat, hollow or stranded cross-section. Not for a rod that tapers.
   std::optional<RodStiffness> stiffness{};
   /// Direction across the rod about which `bending` acts at its start; from there it follows the rod without twisting. Any, if bending is the
   /// same about both.

@@ -33,10 +33,16 @@ struct ClothOptions {
   std::optional<Stiffness> stretch{};  ///< replaces the stretch stiffness of the material
   std::optional<Stiffness> bending{};  ///< replaces the bending stiffness of the material
   enum class Bending { none, dihedral, isometric } bending_model = Bending::dihedral;
+  /// What resists stretching. `springs`: the edges, alike in all directions. `woven`: each triangle, by the warp, weft and shear stiffness of
+  /// the material (constraint types triangle_stretch and triangle_shear).
+  enum class Stretching { springs, woven } stretch_model = Stretching::springs;
+  /// Of `woven`: direction of the warp in the rest shape, of any length but 0. Each triangle has its projection.
+  Vec3f warp{0, 0, 1};
   std::optional<Volume> volume{};  ///< makes a balloon; needs a closed mesh
   Vec3f velocity{};                ///< initial velocity [m/s]
   /// Of dihedral bending: folds beyond an angle stay, as in paper or sheet metal.
   std::optional<Plasticity> bending_plasticity{};
+  std::optional<StrainLimit> strain_limit{};  ///< of its edges; none: it stretches as far as it is pulled
 };
 
 /// Makes cloth of any triangle mesh, flat or curved, which becomes its rest shape: a distance constraint for each edge,
@@ -194,8 +200,8 @@ struct SweepOptions {
   int multigrid_cycles = 2;  ///< for `multigrid`: conjugate gradient steps per substep, each with a W-cycle, 1..100
 };
 
-/// When rigid bodies sleep: an island of bodies that touch or are jointed, all of which have been slow for some time, rests until
-/// something acts on it (docs/guide/bodies.md).
+/// When rigid bodies and grains sleep. An island of bodies that touch or are jointed, all of which have been slow for some time, rests until
+/// something acts on it (docs/guide/bodies.md, grains.md).
 struct SleepOptions {
   bool on = false;
   float speed = 0.02f;  ///< slow: the centre of mass moves by less than this, > 0 [m/s]

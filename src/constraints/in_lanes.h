@@ -4,15 +4,19 @@
 
 #include "constraints/dihedral_bending.h"
 #include "constraints/distance.h"
+#include "constraints/distance_limit.h"
 #include "constraints/fibre.h"
 #include "constraints/isometric_bending.h"
 #include "constraints/tetrahedron_shear.h"
 #include "constraints/tetrahedron_volume.h"
 #include "constraints/traits.h"
+#include "constraints/triangle_shear.h"
+#include "constraints/triangle_stretch.h"
 #include "constraints/type_list.h"
 
 namespace pliant {
 
-using LaneConstraints = TypeList<Distance, DihedralBending, IsometricBending, Fibre, TetrahedronShear, TetrahedronVolume>;
+using LaneConstraints = TypeList<Distance, DihedralBending, IsometricBending, Fibre, TetrahedronShear, TetrahedronVolume,
+                                 TriangleShear, TriangleStretch, DistanceLimit>;
 
 }  // namespace pliant

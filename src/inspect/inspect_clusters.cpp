@@ -1,8 +1,12 @@
 // Errors in the clusters of an object for which a World rejects it.
+#include <algorithm>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "inspect/problems.h"
+#include "math/vector.h"
+#include "model/cluster_moments.h"
 
 namespace pliant {
 
@@ -19,6 +23,45 @@ void check_rest(Problems& problems, const std::string& name, const Cluster& clus
                        std::to_string(cluster.particles.size()) + " particles",
                    "give one for each particle, or none");
   for (const Vec3f& place : cluster.rest) require_place(problems, name + ", rest", place);
+}
+
+/// True if the rest shape has no volume. Its particles exist.
+bool is_flat_at_rest(const Object& object, const Cluster& cluster) {
+  std::vector<Vec3d> places;
+  Vec3d centre{};
+  for (std::size_t i = 0; i < cluster.particles.size(); ++i) {
+    const auto particle = static_cast<std::size_t>(cluster.particles[i]);
+    places.push_back(convert<double>(cluster.rest.empty() ? object.positions[particle] : cluster.rest[i]));
+    centre += (1 / static_cast<double>(cluster.particles.size())) * places.back();
+  }
+  std::vector<double> moments(9, 0);
+  for (const Vec3d& place : places) {
+    const double q[3] = {place.x - centre.x, place.y - centre.y, place.z - centre.z};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) moments[3 * i + j] += q[i] * q[j];
+  }
+  return is_flat(moments, 3);
+}
+
+void check_plasticity(Problems& problems, const std::string& name, const Object& object, const Cluster& cluster) {
+  if (!cluster.plasticity) return;
+  const Plasticity& p = *cluster.plasticity;
+  const auto is_number = [](float value) { return value >= 0 && value <= 1e30f; };
+  if (!is_number(p.yield) || !is_number(p.rate) || !is_number(p.most))
+    problems.grave(name, "has a plasticity with a number below 0 or not finite", "give numbers of 0 or more");
+  const bool has_rest = cluster.rest.empty() || cluster.rest.size() == cluster.particles.size();
+  const auto exists = [&](int particle) {
+    return particle >= 0 && static_cast<std::size_t>(particle) < object.positions.size();
+  };
+  if (has_rest && std::all_of(cluster.particles.begin(), cluster.particles.end(), exists) &&
+      is_flat_at_rest(object, cluster))
+    problems.grave(name, "has a plasticity but is flat, so it has no strain in one direction",
+                   "give it particles that are not in one plane, or leave the plasticity out");
+  const bool is_rigid =
+      cluster.stiffness.kind == Stiffness::Kind::pbd ? cluster.stiffness.value >= 1 : cluster.stiffness.value == 0;
+  if (is_rigid && (cluster.mode == Cluster::Mode::rigid || cluster.share == 0))
+    problems.doubtful(name, "has a plasticity but is rigid, so nothing of it yields",
+                      "give it a compliance in s^2, or the mode linear or quadratic");
 }
 
 }  // namespace
@@ -39,6 +82,7 @@ void check_clusters(Problems& problems, const Object& object) {
     check_rest(problems, name, cluster);
     require_range(problems, name + ", share", static_cast<double>(cluster.share), 0, 1);
     check_stiffness(problems, name, cluster.stiffness);
+    check_plasticity(problems, name, object, cluster);
   }
   problems.grave(small, "cluster", "has fewer than two particles", "give the particles that keep their shape");
   problems.grave(outside, "cluster",

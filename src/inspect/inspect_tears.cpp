@@ -1,9 +1,12 @@
 // Errors in how an object tears, is cut, and what skin it has.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "constraints/distance_limit.h"
 #include "constraints/registry.h"
 #include "inspect/problems.h"
+#include "math/vector.h"
 #include "model/soft_body_substeps.h"
 
 namespace pliant {
@@ -13,6 +16,20 @@ namespace {
 bool has_links(const Object& object) {
   for (const ConstraintGroup& group : object.constraints)
     if (find_constraint_type(group.type) >= 0 && is_length(group.type)) return true;
+  return false;
+}
+
+/// True if edges are limited to less than the stretch at which they tear.
+bool is_never_reached(const Object& object) {
+  for (const ConstraintGroup& group : object.constraints) {
+    if (group.type != DistanceLimit::name) continue;
+    for (std::size_t i = 0; 2 * i + 1 < std::min(group.particles.size(), group.rest.size()); ++i) {
+      const auto a = static_cast<std::size_t>(group.particles[2 * i]),
+                 b = static_cast<std::size_t>(group.particles[2 * i + 1]);
+      if (a >= object.positions.size() || b >= object.positions.size()) continue;
+      if (group.rest[2 * i + 1] < object.tearing->stretch * length(object.positions[b] - object.positions[a])) return true;
+    }
+  }
   return false;
 }
 
@@ -26,6 +43,9 @@ void check_tearing(Problems& problems, const Object& object) {
       problems.grave("tearing", "is of an object whose rest lengths change, which a stretch cannot be measured by",
                      "leave the keyframes or the tearing out");
   }
+  if (is_never_reached(object))
+    problems.doubtful("tearing", "is of an object whose limits of strain keep it from being stretched so far",
+                      "give a strain_limit whose `most` is above the stretch of the tearing");
   if (!is_soft_body(object) && !has_links(object))
     problems.grave("tearing", "is of an object without distance constraints or tetrahedra, so nothing can tear",
                    "give it to cloth, a rope or a soft body");

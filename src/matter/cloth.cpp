@@ -10,6 +10,8 @@
 
 #include "constraints/dihedral_bending.h"
 #include "constraints/isometric_bending.h"
+#include "math/vector.h"
+#include "matter/strain_limit.h"
 #include "pliant/error.h"
 #include "pliant/scene.h"
 #include "topology/boundary.h"
@@ -71,6 +73,8 @@ void require_material(const Piece& piece) {
   if (!(m.thickness >= 0) || std::isinf(m.thickness)) refuse("thickness", m.thickness, "give 0 m or more");
   if (!(m.stretch_stiffness > 0))
     refuse("stretch_stiffness", m.stretch_stiffness, "give more than 0 N/m; infinity makes it inextensible");
+  if (!(m.weft_stiffness >= 0)) refuse("weft_stiffness", m.weft_stiffness, "give 0 N/m or more");
+  if (!(m.shear_stiffness >= 0)) refuse("shear_stiffness", m.shear_stiffness, "give 0 N/m or more");
   if (!(m.bending_stiffness >= 0)) refuse("bending_stiffness", m.bending_stiffness, "give 0 N m or more");
   require_fraction(piece, "material, bending_damping", m.bending_damping);
 }
@@ -189,6 +193,58 @@ ConstraintGroup stretch_group(const Piece& piece) {
   return group;
 }
 
+/// The two directions of a triangle's yarns at rest, as shares of its first two edges: D^-1 d of the constraint types.
+struct Yarns {
+  std::array<float, 2> warp{}, weft{};
+};
+
+Yarns yarns_of(const Piece& piece, std::size_t triangle) {
+  const Triangle& t = piece.triangles[triangle];
+  const Vec3d edge1 = piece.at(t[1]) - piece.at(t[0]), edge2 = piece.at(t[2]) - piece.at(t[0]);
+  const Vec3d across = cross(edge1, edge2), normal = across * (1 / length(across));
+  const Vec3d given = convert<double>(piece.options.warp);
+  Vec3d warp = given - normal * dot(given, normal);
+  if (length_squared(warp) < 1e-6 * length_squared(given)) warp = edge1;  // the yarns go through the triangle
+  warp = warp * (1 / length(warp));
+  const auto shares = [&](const Vec3d& d) {
+    return std::array<float, 2>{static_cast<float>(dot(cross(d, edge2), normal) / length(across)),
+                                static_cast<float>(dot(cross(edge1, d), normal) / length(across))};
+  };
+  return {shares(warp), shares(cross(normal, warp))};
+}
+
+/// Makes the constraints of woven cloth: of each triangle the stretch of its warp and its weft. A modulus Y of an area A has the compliance
+/// 1 / (Y A).
+ConstraintGroup yarn_group(const Piece& piece) {
+  ConstraintGroup group;
+  group.type = "triangle_stretch";
+  const Fabric& m = piece.options.material;
+  const double warp = m.stretch_stiffness, weft = m.weft_stiffness > 0 ? m.weft_stiffness : m.stretch_stiffness;
+  for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
+    const Yarns yarns = yarns_of(piece, t);
+    for (const bool is_warp : {true, false}) {
+      const std::array<float, 2>& a = is_warp ? yarns.warp : yarns.weft;
+      group.particles.insert(group.particles.end(), piece.triangles[t].begin(), piece.triangles[t].end());
+      group.rest.insert(group.rest.end(), {1, a[0], a[1]});
+      group.compliances.push_back(as_compliance(1 / ((is_warp ? warp : weft) * piece.areas[t])));
+    }
+  }
+  return group;
+}
+
+/// The same for the shear of each triangle.
+ConstraintGroup shear_group(const Piece& piece) {
+  ConstraintGroup group;
+  group.type = "triangle_shear";
+  for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
+    const Yarns yarns = yarns_of(piece, t);
+    group.particles.insert(group.particles.end(), piece.triangles[t].begin(), piece.triangles[t].end());
+    group.rest.insert(group.rest.end(), {yarns.warp[0], yarns.warp[1], yarns.weft[0], yarns.weft[1]});
+    group.compliances.push_back(as_compliance(1 / (piece.options.material.shear_stiffness * piece.areas[t])));
+  }
+  return group;
+}
+
 /// Grinspun et al. 2003 and Bergou et al. 2006 give a hinge the energy B/2 . 3 |e|^2 / (A1 +
 /// A2) . theta^2; here it is a third of that. Theirs holds for equal curvature in all
 /// directions. Cloth hardly stretches, so it curves in one direction: only hinges across the
@@ -269,6 +325,17 @@ bool bends(const ClothOptions& options) {
          (options.bending || options.material.bending_stiffness > 0);
 }
 
+void require_yarns(const Piece& piece) {
+  const ClothOptions& options = piece.options;
+  if (options.stretch_model == ClothOptions::Stretching::springs) return;
+  if (options.stretch)
+    piece.refuse("stretch", "is the stiffness of edges, which woven cloth does not have",
+                 "give the material's stretch_stiffness, weft_stiffness and shear_stiffness, or leave stretch_model out");
+  const double squared = length_squared(convert<double>(options.warp));
+  if (!(squared > 1e-30 && squared < 1e30))
+    piece.refuse("warp", "is not a direction", "give a finite vector of any length but 0");
+}
+
 Object assemble(Piece& piece) {
   const ClothOptions& options = piece.options;
   Object cloth;
@@ -276,8 +343,18 @@ Object assemble(Piece& piece) {
   cloth.positions = piece.mesh.positions;
   cloth.masses.assign(piece.masses.begin(), piece.masses.end());
   if (!(options.velocity == Vec3f{})) cloth.velocities.assign(cloth.positions.size(), options.velocity);
-  cloth.constraints.push_back(stretch_group(piece));
+  if (options.stretch_model == ClothOptions::Stretching::springs) {
+    cloth.constraints.push_back(stretch_group(piece));
+  } else {
+    cloth.constraints.push_back(yarn_group(piece));
+    if (options.material.shear_stiffness > 0) cloth.constraints.push_back(shear_group(piece));
+  }
   if (bends(options)) cloth.constraints.push_back(bending_group(piece));
+  if (options.strain_limit) {
+    std::vector<std::array<int, 2>> edges;
+    for (const Edge& edge : piece.edges) edges.push_back({edge.a, edge.b});
+    cloth.constraints.push_back(limit_edges(cloth.positions, std::move(edges), *options.strain_limit, options.name));
+  }
   if (cloth.constraints.back().particles.empty()) cloth.constraints.pop_back();
   cloth.triangles = std::move(piece.triangles);
   cloth.volume = options.volume;
@@ -305,6 +382,7 @@ Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options) {
   if (options.bending_plasticity && options.bending_model != ClothOptions::Bending::dihedral)
     piece.refuse("bending_plasticity", "needs dihedral bending: other hinges have no angle at rest",
                  "set bending_model to dihedral, or leave the plasticity out");
+  require_yarns(piece);
   lump_masses(piece);
   return assemble(piece);
 }

@@ -53,6 +53,7 @@ Cluster cluster_of(std::vector<int> particles, const ClusterOptions& options) {
   cluster.mode = options.mode;
   cluster.share = options.share;
   cluster.stiffness = options.stiffness;
+  cluster.plasticity = options.plasticity;
   return cluster;
 }
 

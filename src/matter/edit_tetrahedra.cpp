@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "constraints/distance_limit.h"
 #include "constraints/point_in_tetrahedron.h"
 #include "constraints/point_on_triangle.h"
 #include "matter/cut_faces.h"
@@ -183,6 +184,10 @@ class Parting {
         continue;
       }
       const std::vector<int> with = tetrahedra_with(stencil, *type);
+      if (group.type == DistanceLimit::name && !with.empty()) {
+        append_to_all(group, c, stencil, *type, with, out);
+        continue;
+      }
       const auto left = std::find_if(with.begin(), with.end(), [&](int t) { return !is_removed(t); });
       if (!with.empty() ? left == with.end() : uses_left_over(stencil, *type)) continue;
       if (!with.empty()) replace_corners(*left, *type, stencil);
@@ -190,6 +195,18 @@ class Parting {
       if (group.type == "body_anchor" && with.empty()) tie_copies(group, c, stencil, out);
     }
     return out;
+  }
+
+  /// A limit of an edge holds for all of its copies.
+  void append_to_all(const ConstraintGroup& group, int constraint, const std::vector<int>& stencil,
+                     const ConstraintType& type, const std::vector<int>& with, ConstraintGroup& out) const {
+    std::set<std::vector<int>> copies;
+    for (const int t : with) {
+      if (is_removed(t)) continue;
+      std::vector<int> copy = stencil;
+      replace_corners(t, type, copy);
+      if (copies.insert(copy).second) append(group, constraint, copy, 1, out);
+    }
   }
 
   bool uses_left_over(const std::vector<int>& stencil, const ConstraintType& type) const {

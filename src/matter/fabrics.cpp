@@ -14,9 +14,11 @@ namespace pliant {
 
 namespace {
 
-Fabric woven(const char* name, float area_density, float thickness, float stretch, float bending, float static_friction,
-             float kinetic_friction, const char* source) {
-  return {name, area_density, thickness, stretch, bending, 0.05f, static_friction, kinetic_friction, source};
+/// `shear` is in gf/cm for a degree, as KES-F reports it: 9.81e-3 N over 0.01 m and 0.01745.
+Fabric woven(const char* name, float area_density, float thickness, float warp, float weft, float shear, float bending,
+             float static_friction, float kinetic_friction, const char* source) {
+  return {name,   area_density, thickness,    warp, bending, 0.05f, static_friction, kinetic_friction,
+          source, weft,         56.2f * shear};
 }
 
 /// A homogeneous sheet of thickness t: membrane stiffness E t and bending rigidity E t^3 / (12 (1 - nu^2)).
@@ -30,20 +32,22 @@ Fabric sheet(const char* name, double density, double thickness, double young, d
           damping,
           static_friction,
           kinetic_friction,
-          source};
+          source,
+          0,
+          static_cast<float>(young * thickness / (2 * (1 + poisson)))};
 }
 
 std::vector<Fabric> make_fabrics() {
   return {
-      woven("cotton", 0.12f, 0.0003f, 7000, 1.75e-5f, 0.4f, 0.3f,
+      woven("cotton", 0.12f, 0.0003f, 7000, 4500, 0.9f, 1.75e-5f, 0.4f, 0.3f,
             "plain-woven cotton of 120 g/m^2: bending for the measured drape coefficient of plain weave, 80 % (KES-F: 0.18 "
-            "gf cm^2/cm), typical extension at 490 N/m 4 to 12 %"),
-      woven("silk", 0.06f, 0.0002f, 12000, 2.5e-6f, 0.3f, 0.2f,
+            "gf cm^2/cm), typical extension at 490 N/m 4 to 12 %; shear 0.5 to 2 gf/cm a degree"),
+      woven("silk", 0.06f, 0.0002f, 12000, 8000, 0.35f, 2.5e-6f, 0.3f, 0.2f,
             "typical of light plain-woven silk: KES-F bending 0.01 to 0.06 gf cm^2/cm, extension at 490 N/m 2 to 6 %"),
-      woven("denim", 0.4f, 0.0009f, 15000, 6e-5f, 0.5f, 0.4f,
+      woven("denim", 0.4f, 0.0009f, 15000, 10000, 2.2f, 6e-5f, 0.5f, 0.4f,
             "400 g/m^2 cotton denim: bending for the measured drape coefficient of twill 3/1, 80 % (KES-F: 0.61 gf "
             "cm^2/cm), typical extension at 490 N/m 2 to 6 %"),
-      woven("wool", 0.2f, 0.0005f, 6000, 1.2e-5f, 0.45f, 0.35f,
+      woven("wool", 0.2f, 0.0005f, 6000, 4000, 0.65f, 1.2e-5f, 0.45f, 0.35f,
             "typical of worsted suiting: KES-F bending 0.06 to 0.25 gf cm^2/cm, extension at 490 N/m 4 to 12 %"),
       sheet("leather", 650, 0.0009, 1e7, 0.4, 0.1f, 0.6f, 0.5f,
             "a homogeneous sheet with E = 10 MPa, typical of soft chrome-tanned garment leather (5 to 30 MPa at small "

@@ -49,6 +49,10 @@ void require_limit(const RodOptions& options, float value, const char* name, con
 
 void check(const RodOptions& options) {
   require_positive(options, options.radius, "radius", "m");
+  require_not_negative(options, options.end_radius, "end_radius", "m");
+  if (options.end_radius > 0 && options.stiffness)
+    refuse(options, "end_radius", "is of a rod that tapers, but its stiffness is that of one cross-section",
+           "leave out the stiffness, or the end_radius");
   require_positive(options, options.material.density, "density", "kg/m^3");
   require_positive(options, options.material.youngs_modulus, "youngs_modulus", "Pa");
   require_positive(options, options.material.shear_modulus, "shear_modulus", "Pa");
@@ -75,15 +79,33 @@ void check_end(const Object& object, const RodEnd& end, const RodOptions& option
 
 /// A part of a rod between two points.
 struct Segment {
-  double length = 0;  ///< [m]
-  Vec3d tangent{};    ///< unit
-  Vec3d across{};     ///< unit, perpendicular to the tangent
+  double length = 0;                        ///< [m]
+  double start_radius = 0, end_radius = 0;  ///< [m]
+  Vec3d tangent{};                          ///< unit
+  Vec3d across{};                           ///< unit, perpendicular to the tangent
+  double radius() const { return (start_radius + end_radius) / 2; }
 
   /// From the frame whose x-axis is the tangent and whose y-axis is `across`, to the world.
   Quatd frame() const { return rotation_from_xy(tangent, across); }
 };
 
 std::string between(std::size_t i) { return "points " + std::to_string(i) + " and " + std::to_string(i + 1); }
+
+/// Radii change with the length along the points.
+void set_radii(std::vector<Segment>& segments, const RodOptions& options) {
+  const double first = static_cast<double>(options.radius),
+               last = options.end_radius > 0 ? static_cast<double>(options.end_radius) : first;
+  double whole = 0, along = 0;
+  for (const Segment& segment : segments) whole += segment.length;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    segments[i].start_radius = first + (last - first) * (along / whole);
+    along += segments[i].length;
+    segments[i].end_radius = i + 1 == segments.size() ? last : first + (last - first) * (along / whole);
+    if (segments[i].length < least_length_in_radii * segments[i].radius())
+      refuse(options, between(i), "are " + std::to_string(segments[i].length) + " m apart, less than 2.25 radii",
+             "use fewer points, or a smaller radius");
+  }
+}
 
 std::vector<Segment> segments_between(const std::vector<Vec3f>& points, const RodOptions& options) {
   if (points.size() < 3)
@@ -94,14 +116,14 @@ std::vector<Segment> segments_between(const std::vector<Vec3f>& points, const Ro
     const Vec3d along = convert<double>(points[i + 1]) - convert<double>(points[i]);
     const double length = std::sqrt(length_squared(along));
     if (!std::isfinite(length)) refuse(options, between(i), "are not both finite", "give finite coordinates in metres");
-    if (length < least_length_in_radii * static_cast<double>(options.radius))
-      refuse(options, between(i), "are " + std::to_string(length) + " m apart, less than 2.25 radii",
-             "use fewer points, or a smaller radius");
-    segments[i] = {length, along * (1 / length), {}};
+    if (!(length > 0)) refuse(options, between(i), "are in one place", "leave one of them out");
+    segments[i].length = length;
+    segments[i].tangent = along * (1 / length);
     if (i > 0 && dot(segments[i - 1].tangent, segments[i].tangent) < -0.9)
       refuse(options, "point " + std::to_string(i), "is where the rod turns back on itself",
              "use more points for the bend");
   }
+  set_radii(segments, options);
   return segments;
 }
 
@@ -132,9 +154,12 @@ void carry_across(std::vector<Segment>& segments, const RodOptions& options) {
   }
 }
 
+/// A frustum; its moments of inertia are those of a cylinder of its mass and mean radius.
 BodyOptions body_of(const Segment& segment, const Vec3d& middle, const RodOptions& options, std::size_t number) {
-  const double radius = static_cast<double>(options.radius);
-  const double mass = static_cast<double>(options.material.density) * pi * radius * radius * segment.length;
+  const double radius = segment.radius(), a = segment.start_radius, b = segment.end_radius;
+  const double squares = (a * a + a * b + b * b) / 3;
+  const double mass = static_cast<double>(options.material.density) * pi * squares * segment.length;
+  const double centre = segment.length * (b * b - a * a) / (12 * squares);  // from the middle
   const double turning = std::max(radius, least_turning_radius * segment.length);
   const auto about_axis = static_cast<float>(mass * turning * turning / 2),
              about_across = static_cast<float>(mass * (radius * radius / 4 + segment.length * segment.length / 12));
@@ -143,18 +168,19 @@ BodyOptions body_of(const Segment& segment, const Vec3d& middle, const RodOption
   body.position = convert<float>(middle);
   body.rotation = convert<float>(segment.frame());
   body.velocity = options.velocity;
-  body.inertia = BodyInertia{static_cast<float>(mass), {}, {about_axis, about_across, about_across}, {}};
+  body.inertia = BodyInertia{
+      static_cast<float>(mass), {static_cast<float>(centre), 0, 0}, {about_axis, about_across, about_across}, {}};
   return body;
 }
 
 /// A capsule along the segment's x-axis, whose caps reach over its ends, but not over one that is held.
 Solid solid_of(const Segment& segment, const RodOptions& options, bool start_is_held, bool end_is_held) {
-  const double radius = static_cast<double>(options.radius);
+  const double radius = segment.radius();
   const double before = start_is_held ? 0 : radius, after = end_is_held ? 0 : radius;
   const float root = std::sqrt(0.5f);
   Solid solid;
-  solid.shape =
-      Capsule{options.radius, static_cast<float>(std::max((segment.length + before + after) / 2 - radius, 1e-3 * radius))};
+  solid.shape = Capsule{static_cast<float>(radius),
+                        static_cast<float>(std::max((segment.length + before + after) / 2 - radius, 1e-3 * radius))};
   solid.position = {static_cast<float>((after - before) / 2), 0, 0};
   solid.rotation = {0, 0, -root, root};  // y to x
   solid.density = options.material.density;
@@ -167,8 +193,6 @@ class RodBuilder {
   RodBuilder(Object& object, const std::vector<Vec3f>& points, const RodOptions& options)
       : object_(object), points_(points), options_(options), segments_(segments_between(points, options)) {
     carry_across(segments_, options);
-    stiffness_ = options.stiffness.value_or(stiffness_of(options.material, options.radius));
-    if (stiffness_.bending_2 == 0) stiffness_.bending_2 = stiffness_.bending;
   }
 
   int build() {
@@ -203,7 +227,7 @@ class RodBuilder {
     const Segment &before = segments_[i - 1], &after = segments_[i];
     JointDraft draft(object_, "rod", body(i - 1), body(i), joint_options());
     const Quatd of_after = options_.straight ? after.frame() : before.frame();
-    add_rows(draft, points_[i], before.frame(), of_after, (before.length + after.length) / 2);
+    add_rows(draft, points_[i], before.frame(), of_after, (before.length + after.length) / 2, after.start_radius);
     name(draft.finish(), std::to_string(i - 1) + "-" + std::to_string(i));
   }
 
@@ -222,12 +246,21 @@ class RodBuilder {
     }
     JointDraft draft(object_, "rod", end.body, body(segment), joint_options());
     const Segment& held = segments_[segment];
-    add_rows(draft, at, held.frame(), held.frame(), held.length / 2);
+    const double radius_held = segment == 0 ? held.start_radius : held.end_radius;
+    add_rows(draft, at, held.frame(), held.frame(), held.length / 2, (radius_held + held.radius()) / 2);
     name(draft.finish(), called);
   }
 
-  /// A rod_joint over `length` of the rod, between frames that are the same without load.
-  void add_rows(JointDraft& draft, const Vec3f& at, const Quatd& frame_a, const Quatd& frame_b, double length) const {
+  RodStiffness stiffness_at(double radius) const {
+    RodStiffness found = options_.stiffness.value_or(stiffness_of(options_.material, static_cast<float>(radius)));
+    if (found.bending_2 == 0) found.bending_2 = found.bending;
+    return found;
+  }
+
+  /// A rod_joint over `length` of the rod where it has a radius, between frames that are the same without load.
+  void add_rows(JointDraft& draft, const Vec3f& at, const Quatd& frame_a, const Quatd& frame_b, double length,
+                double radius) const {
+    const RodStiffness stiffness = stiffness_at(radius);
     const Vec3d anchor = draft.place(at, "anchor");
     draft.set_frame(anchor, frame_a);
     std::vector<float> rest;
@@ -239,10 +272,10 @@ class RodBuilder {
       put({local.x, local.y, local.z});
     }
     for (const Quatd& q : {draft.a().local(frame_a), draft.b().local(frame_b)}) put({q.x, q.y, q.z, q.w});
-    for (const float of : {stiffness_.stretch, stiffness_.shear, stiffness_.shear, stiffness_.twist, stiffness_.bending,
-                           stiffness_.bending_2})
+    for (const float of :
+         {stiffness.stretch, stiffness.shear, stiffness.shear, stiffness.twist, stiffness.bending, stiffness.bending_2})
       put({std::sqrt(static_cast<double>(of) / length)});
-    put({static_cast<double>(options_.radius) / length});
+    put({radius / length});
     draft.add_raw("rod_joint", {draft.a().point, draft.a().frame, draft.b().point, draft.b().frame}, rest, 1,
                   options_.material.damping, options_.material.plasticity);
   }
@@ -255,7 +288,6 @@ class RodBuilder {
   const std::vector<Vec3f>& points_;
   const RodOptions& options_;
   std::vector<Segment> segments_;
-  RodStiffness stiffness_;
   int first_ = 0;
 };
 

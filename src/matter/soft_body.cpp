@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "matter/fibres.h"
+#include "matter/strain_limit.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -221,6 +222,14 @@ Lame lame_of(const ElasticSolid& material) {
   return {e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))};
 }
 
+std::vector<std::array<int, 2>> edges_of(const std::vector<Tetrahedron>& tetrahedra) {
+  std::vector<std::array<int, 2>> edges;
+  for (const Tetrahedron& t : tetrahedra)
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = 0; k < i; ++k) edges.push_back({t[k], t[i]});
+  return edges;
+}
+
 }  // namespace
 
 std::vector<std::array<int, 4>> tetrahedra_of(const Object& object) {
@@ -268,6 +277,9 @@ Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& option
   add_groups("tetrahedron_shear", solid, lame.mu, damping, options.material.plasticity, body);
   if (lame.lambda > 0) add_groups("tetrahedron_volume", solid, lame.lambda, damping, {}, body);
   if (options.fibres) add_fibres(*options.fibres, damping, solid.tetrahedra, body);
+  if (options.strain_limit)
+    body.constraints.push_back(
+        limit_edges(body.positions, edges_of(solid.tetrahedra), *options.strain_limit, options.name));
   body.thickness = options.thickness;
   body.collides = true;
   body.static_friction = options.material.static_friction;

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 
+#include "constraints/distance_limit.h"
 #include "math/disjoint_sets.h"
 #include "matter/edit_parts.h"
 #include "matter/plane_sides.h"
@@ -43,14 +45,29 @@ void require_sound(const Object& object) {
   }
 }
 
+/// The ends of links, both ways round.
+std::set<std::vector<int>> ends_of(const Object& object, const std::set<std::pair<int, int>>& links) {
+  std::set<std::vector<int>> ends;
+  for (const auto& [group, number] : links) {
+    const std::vector<int>& particles = object.constraints[static_cast<std::size_t>(group)].particles;
+    const int a = particles[static_cast<std::size_t>(2 * number)], b = particles[static_cast<std::size_t>(2 * number + 1)];
+    ends.insert({a, b});
+    ends.insert({b, a});
+  }
+  return ends;
+}
+
 Object without_links(const Object& object, const std::set<std::pair<int, int>>& links) {
   Object without = object;
+  const std::set<std::vector<int>> ends = ends_of(object, links);
   for (std::size_t g = 0; g < object.constraints.size() && !links.empty(); ++g) {
     const ConstraintGroup& group = object.constraints[g];
+    const bool is_limit = group.type == DistanceLimit::name;  // of a link that goes, it goes too
     const int slots = slots_of(group, object);
     ConstraintGroup kept = empty_like(group);
     for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c)
-      if (links.count({static_cast<int>(g), c}) == 0) append(group, c, stencil_of(group, slots, c), 1, kept);
+      if (links.count({static_cast<int>(g), c}) == 0 && !(is_limit && ends.count(stencil_of(group, slots, c)) != 0))
+        append(group, c, stencil_of(group, slots, c), 1, kept);
     without.constraints[g] = std::move(kept);
   }
   return without;

@@ -157,12 +157,15 @@ void append_flowed(const CompiledObject& object, std::vector<float>& flowed) {
       for (int field = 0; field < pool.fields; ++field) flowed.push_back(pool.row(field, batch)[lane]);
     });
   }
+  for (const PlasticCluster& plastic : object.clusters.plastic)
+    flowed.insert(flowed.end(), plastic.stretch.begin(), plastic.stretch.end());
 }
 
 std::int64_t flowed_size(const CompiledObject& object) {
   std::int64_t size = 0;
   for (const PlasticPool& plastic : object.changing.plastic)
     for_plastic(plastic, [&](std::size_t, std::int64_t, int) { size += object.pools[at(plastic.pool)].fields; });
+  for (const PlasticCluster& plastic : object.clusters.plastic) size += static_cast<std::int64_t>(plastic.stretch.size());
   return size;
 }
 
@@ -172,6 +175,11 @@ const float* take_flowed(CompiledObject& object, const float* flowed) {
     for_plastic(plastic, [&](std::size_t, std::int64_t batch, int lane) {
       for (int field = 0; field < pool.fields; ++field) pool.change(field, batch)[lane] = *flowed++;
     });
+  }
+  for (PlasticCluster& plastic : object.clusters.plastic) {
+    std::array<float, 9> stretch;
+    for (float& element : stretch) element = *flowed++;
+    if (stretch != plastic.stretch) set_stretch(object.clusters, plastic, stretch);
   }
   return flowed;
 }
@@ -184,6 +192,7 @@ void forget_flow(CompiledObject& object) {
         pool.change(field, batch)[lane] = plastic.start[number * at(pool.fields) + at(field)];
     });
   }
+  for (PlasticCluster& plastic : object.clusters.plastic) set_stretch(object.clusters, plastic, PlasticCluster{}.stretch);
 }
 
 }  // namespace pliant

@@ -60,7 +60,7 @@ bool is_one_free_piece(const CompiledObject& object);
 /// Multiplies the rest data of a group by a factor. False if they had it.
 bool set_factor(CompiledObject& object, const ScaledGroup& group, float factor);
 
-/// The present rest data of all plastic constraints of an object, in the order of its pools.
+/// The present rest data of all plastic constraints of an object, in the order of its pools, then the stretch of its plastic clusters.
 void append_flowed(const CompiledObject& object, std::vector<float>& flowed);
 /// How many numbers that are.
 std::int64_t flowed_size(const CompiledObject& object);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "math/functions.h"
 #include "model/cluster_moments.h"
@@ -70,16 +71,20 @@ std::vector<ClusterMember> members_of(const Object& object, const Cluster& clust
   for (std::size_t i = 0; i < cluster.particles.size(); ++i) {
     const auto particle = static_cast<std::size_t>(cluster.particles[i]);
     const Vec3f& rest = cluster.rest.empty() ? object.positions[particle] : cluster.rest[i];
-    members.push_back({place[particle], 0, {double(rest.x), double(rest.y), double(rest.z)}});
+    members.push_back({place[particle], 0, convert<double>(rest)});
   }
   std::sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.particle < b.particle; });
   return members;
 }
 
-/// Adds the inverse of the moments sum w q q^T of the rest shape.
-void add_moments(const std::vector<ClusterMember>& members, CompiledCluster& cluster, std::vector<double>& inverses) {
-  const int n = moments_of(cluster.mode);
-  if (n == 0) return;
+std::span<const ClusterMember> members_of(const CompiledClusters& clusters, const CompiledCluster& cluster) {
+  return std::span(clusters.members)
+      .subspan(static_cast<std::size_t>(cluster.first), static_cast<std::size_t>(cluster.last - cluster.first));
+}
+
+/// The inverse of the moments sum w q q^T of the rest shape, n x n. Sets what else of a cluster follows from them.
+std::vector<double> inverse_moments(std::span<const ClusterMember> members, int n, CompiledCluster& cluster) {
+  cluster.means = {};
   for (const ClusterMember& m : members) {
     const std::array<double, 6> products = products_of(m.rest);
     for (std::size_t i = 0; i < 6; ++i) cluster.means[i] += m.weight * products[i];
@@ -91,9 +96,28 @@ void add_moments(const std::vector<ClusterMember>& members, CompiledCluster& clu
       for (int j = 0; j < n; ++j) sums[static_cast<std::size_t>(i) * n + j] += m.weight * q[i] * q[j];
   }
   cluster.is_flat = is_flat(sums, n);
-  cluster.inverse_moments = static_cast<int>(inverses.size());
-  const std::vector<double> inverse = inverse_of_moments(std::move(sums), n);
-  inverses.insert(inverses.end(), inverse.begin(), inverse.end());
+  return inverse_of_moments(std::move(sums), n);
+}
+
+/// Adds the inverse moments of the last cluster, if its mode needs them.
+void add_moments(CompiledClusters& out) {
+  CompiledCluster& cluster = out.clusters.back();
+  const int n = moments_of(cluster.mode);
+  if (n == 0) return;
+  cluster.inverse_moments = static_cast<int>(out.inverse_moments.size());
+  const std::vector<double> inverse = inverse_moments(members_of(out, cluster), n, cluster);
+  out.inverse_moments.insert(out.inverse_moments.end(), inverse.begin(), inverse.end());
+}
+
+/// Notes the last cluster as plastic.
+void add_plastic(const Object& object, const Cluster& from, const std::vector<int>& place, CompiledClusters& out) {
+  if (!from.plasticity) return;
+  PlasticCluster plastic;
+  plastic.cluster = static_cast<int>(out.clusters.size()) - 1;
+  plastic.law = *from.plasticity;
+  for (const ClusterMember& member : members_of(out, out.clusters.back())) plastic.start.push_back(member.rest);
+  for (const ClusterMember& member : members_of(object, from, place)) plastic.given.push_back(convert<float>(member.rest));
+  out.plastic.push_back(std::move(plastic));
 }
 
 }  // namespace
@@ -117,15 +141,32 @@ CompiledClusters compile_clusters(const Object& object, const std::vector<int>& 
       to.response = is_pbd ? stiffness_per_projection(value, passes) : value;
       to.damping = is_pbd ? 0 : static_cast<double>(from.stiffness.damping);
       out.has_multipliers = out.has_multipliers || (!is_pbd && to.response > 0);
-      add_moments(members, to, out.inverse_moments);
       to.first = static_cast<int>(out.members.size());
       out.members.insert(out.members.end(), members.begin(), members.end());
       to.last = static_cast<int>(out.members.size());
       out.clusters.push_back(to);
+      add_moments(out);
+      add_plastic(object, from, place, out);
     }
     out.colours.emplace_back(first, static_cast<int>(out.clusters.size()));
   }
   return out;
+}
+
+void set_stretch(CompiledClusters& clusters, PlasticCluster& plastic, const std::array<float, 9>& stretch) {
+  plastic.stretch = stretch;
+  CompiledCluster& cluster = clusters.clusters[static_cast<std::size_t>(plastic.cluster)];
+  const std::array<double, 9> s = {stretch[0], stretch[1], stretch[2], stretch[3], stretch[4],
+                                   stretch[5], stretch[6], stretch[7], stretch[8]};
+  for (std::size_t i = 0; i < plastic.start.size(); ++i) {
+    const Vec3d& q = plastic.start[i];
+    clusters.members[static_cast<std::size_t>(cluster.first) + i].rest = {
+        s[0] * q.x + s[1] * q.y + s[2] * q.z, s[3] * q.x + s[4] * q.y + s[5] * q.z, s[6] * q.x + s[7] * q.y + s[8] * q.z};
+  }
+  const int n = moments_of(cluster.mode);
+  if (n == 0) return;
+  const std::vector<double> inverse = inverse_moments(members_of(clusters, cluster), n, cluster);
+  std::copy(inverse.begin(), inverse.end(), clusters.inverse_moments.begin() + cluster.inverse_moments);
 }
 
 }  // namespace pliant

@@ -34,6 +34,15 @@ struct ClusterMember {
   Vec3<double> rest{};  ///< about the centre of mass, over the size [-]
 };
 
+/// A cluster whose rest shape flows: its places are the stretch times those of the start.
+struct PlasticCluster {
+  int cluster = 0;
+  Plasticity law{};
+  std::array<float, 9> stretch{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< by rows; its determinant is 1
+  std::vector<Vec3<double>> start;                          ///< ClusterMember::rest at the start
+  std::vector<Vec3f> given;                                 ///< rest places of the members as the user gave them [m]
+};
+
 /// The clusters of an object, by colour; those of one colour share no particle.
 struct CompiledClusters {
   std::vector<CompiledCluster> clusters;
@@ -41,11 +50,15 @@ struct CompiledClusters {
   std::vector<double> inverse_moments;
   std::vector<std::pair<int, int>> colours;  ///< ranges of clusters, half-open
   bool has_multipliers = false;              ///< a cluster yields, or is damped
+  std::vector<PlasticCluster> plastic;
 };
 
 /// `place` is that of CompiledObject, `inverse_masses` has those of particles in storage order, `passes` is that of CompileOptions. A
 /// particle of infinite mass weighs as much as 10 000 of its cluster.
 CompiledClusters compile_clusters(const Object& object, const std::vector<int>& place,
                                   const std::vector<float>& inverse_masses, int passes);
+
+/// Gives a plastic cluster the stretch of its rest shape, and its members the places of that.
+void set_stretch(CompiledClusters& clusters, PlasticCluster& plastic, const std::array<float, 9>& stretch);
 
 }  // namespace pliant

@@ -127,6 +127,12 @@ int substeps_of_stretching(const Object& object) {
   return std::clamp(4 * quarter, substeps_of_others, most_substeps_of_volumes);
 }
 
+/// True if triangles hold a sheet together. Chains do not solve them, so what it hangs from needs many substeps to bear it.
+bool is_woven(const Object& object) {
+  return std::any_of(object.constraints.begin(), object.constraints.end(),
+                     [](const ConstraintGroup& group) { return group.type == "triangle_stretch"; });
+}
+
 /// True if both are liquids that mix.
 bool are_of_a_kind(const SetMember& a, const SetMember& b) {
   return a.spacing > 0 && a.spacing == b.spacing && a.speed_of_sound == b.speed_of_sound && a.groups == b.groups &&
@@ -326,7 +332,8 @@ int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_
     return std::clamp(needed, substeps_of_volumes, most_substeps_of_volumes);
   }
   if (has_converted(object)) return substeps_of_others;
-  if (solves_chains(sweep) && is_meant_to_stretch(object, least_acceleration)) return substeps_of_stretching(object);
+  if (is_woven(object) || (solves_chains(sweep) && is_meant_to_stretch(object, least_acceleration)))
+    return substeps_of_stretching(object);
   if (sweep != Sweep::multigrid) return substeps_of_others;
   const auto moves = [](const auto& one) { return one.motion.keyframes.size() > 1; };  // a pin or an attachment
   const bool is_disturbed = is_blown || object.collides || object.self_collision || swings(object) ||

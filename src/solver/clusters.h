@@ -18,4 +18,8 @@ namespace pliant {
 /// Projects one cluster once. `multipliers` are of all members of the object's clusters, null if none is stored.
 void project_cluster(const CompiledClusters& clusters, int cluster, const SweepArguments& a, Vec3<float>* multipliers);
 
+/// Lets the rest shape of a plastic cluster flow by its strain at the end of a substep of `h` seconds. Strains are von Mises' equivalent ones
+/// at constant volume, as those of tetrahedra (constraints/tetrahedron_shear.h).
+void let_cluster_flow(CompiledClusters& clusters, PlasticCluster& plastic, const SweepArguments& a, double h);
+
 }  // namespace pliant

@@ -12,6 +12,7 @@
 #include "constraints/joint_rows.h"
 #include "math/motion.h"
 #include "pliant/error.h"
+#include "world/resting_grains.h"
 
 namespace pliant {
 
@@ -163,6 +164,7 @@ MotorPlace find_motor(const CompiledObject& of, const std::string& joint, const 
 }  // namespace
 
 void wake_bodies(WorldData& world, int number) {
+  wake_grains(world, number);
   std::vector<float>& times = world.state.rest_times;
   if (times.empty()) return;
   std::fill(times.begin() + world.model.first_frame[number], times.begin() + world.model.end_of_frames(number), 0.f);
@@ -230,7 +232,7 @@ void ObjectHandle::set_targets(std::span<const int> particles, std::span<const V
   const Listed listed{of, "particle", of.user_particles, 0};
   require(listed, particles, positions);
   for (const int particle : particles) {
-    if (world_->state.positions[first + of.place[particle]].w > 0)
+    if (of.positions[of.place[particle]].w > 0)
       refuse(of.name, "particle " + std::to_string(particle), "is dynamic, so it cannot have a target",
              "pin it first (World::edit), or use an attachment");
   }
@@ -264,6 +266,7 @@ void ObjectHandle::add_impulses(std::span<const Vec3f> impulses) {
   const int number = world_->number(id()), first = world_->model.first[number];
   const CompiledObject& of = world_->model.objects[number];
   require(of, impulses, "impulses");
+  wake_bodies(*world_, number);  // one that sleeps has no inverse mass
   std::vector<Vec3f> velocities(impulses.size());
   for (int user = 0; user < of.user_particles; ++user) {
     const int i = first + of.place[user];

@@ -8,6 +8,7 @@
 #include "collision/narrow/contact.h"
 #include "geometry/shapes.h"
 #include "math/motion.h"
+#include "world/resting_grains.h"
 
 namespace pliant {
 
@@ -76,8 +77,10 @@ void drain(WorldData& world, int number, FlowReport& report) {
 /// Frees what has passed its opening, where it was from then on in free fall.
 void release(WorldData& world, int number) {
   State& state = world.state;
+  const float* const rest_times = grain_rest_times(state);
   for_free(world, number, [&](std::size_t i) {
-    if (state.positions[i].w > 0 || state.births[i] > state.time) return;
+    const bool sleeps = rest_times != nullptr && rest_times[i] == asleep;
+    if (state.positions[i].w > 0 || state.births[i] > state.time || sleeps) return;
     const auto since = static_cast<float>(state.time - state.births[i]);
     const Vec3f gravity = world.model.gravity, moved = gravity * (since * since / 2), gained = gravity * since;
     Record &x = state.positions[i], &v = state.velocities[i];
@@ -251,7 +254,10 @@ void let_flow(WorldData& world, double dt, FlowReport& report) {
     expire(world, number, report);
     drain(world, number, report);
   }
-  if (report.expired + report.drained > 0) forget_contacts_of_gone(world.state);
+  if (report.expired + report.drained > 0) {
+    wake_beside_gone(world);
+    forget_contacts_of_gone(world.state);
+  }
   for (int number = 0; number < static_cast<int>(world.model.objects.size()); ++number) {
     const Flow& flow = world.model.objects[at(number)].flow;
     if (!flow.is_used()) continue;

@@ -9,6 +9,7 @@
 #include "solver/visit.h"
 #include "world/advice.h"
 #include "world/groups.h"
+#include "world/resting_grains.h"
 
 namespace pliant {
 
@@ -73,6 +74,15 @@ Overstretch with_slot(const WorldData& world, Overstretch measured) {
   return measured;
 }
 
+namespace {
+
+float inverse_mass_at_start(const Model& model, int particle) {
+  const auto number = static_cast<std::size_t>(model.object_of(particle));
+  return model.objects[number].positions[static_cast<std::size_t>(particle - model.first[number])].w;
+}
+
+}  // namespace
+
 double Measurements::kinetic_energy() const {
   double energy = 0;
   for (std::size_t i = 0; i < world_->state.positions.size(); ++i) {
@@ -91,8 +101,12 @@ double Measurements::kinetic_energy() const {
 double Measurements::potential_energy() const {
   double energy = 0;
   const Vec3f& g = world_->model.gravity;
-  for (const Record& x : world_->state.positions) {
-    if (x.w > 0) energy -= 1.0 / x.w * (double(g.x) * x.x + double(g.y) * x.y + double(g.z) * x.z);
+  const float* const rest_times = grain_rest_times(world_->state);
+  for (std::size_t i = 0; i < world_->state.positions.size(); ++i) {
+    const Record& x = world_->state.positions[i];
+    const bool sleeps = rest_times != nullptr && rest_times[i] == asleep;
+    const float w = sleeps ? inverse_mass_at_start(world_->model, static_cast<int>(i)) : x.w;
+    if (w > 0) energy -= 1.0 / w * (double(g.x) * x.x + double(g.y) * x.y + double(g.z) * x.z);
   }
   return energy;
 }

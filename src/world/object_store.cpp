@@ -14,6 +14,7 @@
 #include "world/flow.h"
 #include "world/groups.h"
 #include "world/rest.h"
+#include "world/resting_grains.h"
 #include "world/soaking.h"
 
 namespace pliant {
@@ -56,6 +57,7 @@ bool owns(const CompiledObject& object, const Channel& channel) {
   if (channel.name == temperature_channel) return object.gas.has_value();
   if (channel.name == age_channel) return object.tracers.has_value();
   if (channel.name == water_channel) return object.absorbency.is_used;
+  if (channel.name == rest_time_channel || channel.name == rest_shift_channel) return false;  // an edit wakes
   return true;
 }
 
@@ -261,6 +263,7 @@ void add_field(WorldData& world, const MeshCollider& collider, std::shared_ptr<c
 
 void prepare_object(WorldData& world, int number) {
   world.state.rest_times.clear();  // what lay on the object, or may touch it now, wakes
+  wake_all_grains(world);
   pliant::prepare(world.model, number, kept_multipliers(world.settings, world.model.objects[number].sweep),
                   world.workspace);
   prepare_sweep(world.model, number, world.settings, world.executor.threads(), world.workspace);
@@ -328,6 +331,7 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   const FlowedRest flowed = flowed_rest(old);
   forget_control(world, number);
   forget_contacts(world, number);
+  if (old.flow.open && by.fluid && !by.gas) by.flow.open = true;  // what has soaked in elsewhere is not there
   world.model.replace(number, std::move(by));
   place_object(world, number);
   drop_unused_sweeps(world.model, world.workspace);

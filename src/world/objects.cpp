@@ -14,6 +14,7 @@
 #include "world/intersections.h"
 #include "world/object_store.h"
 #include "world/objects.h"
+#include "world/resting_grains.h"
 #include "world/tearing.h"
 
 namespace pliant {
@@ -132,6 +133,7 @@ ColliderId World::add(const Collider& collider) {
   refuse_grave(collider);
   data_->model.colliders.push_back(collider);
   data_->state.rest_times.clear();  // bodies may be where it is
+  wake_all_grains(*data_);
   prepare_shape_contacts(*data_);
   return data_->ids.colliders.add(static_cast<int>(data_->model.colliders.size()) - 1);
 }
@@ -183,6 +185,7 @@ void World::remove(ColliderId collider) {
   data_->ids.colliders.close_gap(number);
   data_->model.colliders.erase(data_->model.colliders.begin() + number);
   data_->state.rest_times.clear();  // what lay on it wakes
+  wake_all_grains(*data_);
   prepare_shape_contacts(*data_);
   std::map<int, PoseDrive> drives;  // by new numbers: a removal decreases larger ones by one
   for (const auto& [other, drive] : data_->workspace.control.colliders)

@@ -83,6 +83,28 @@ std::vector<int> key_of(const Pool& pool, const std::vector<int>& slots) {
   return key;
 }
 
+/// A plastic cluster by its particles, in ascending order, and their rest places as given.
+struct KeyedCluster {
+  std::vector<int> key;
+  std::vector<float> given;
+};
+
+/// `name(particle)` is the number by which a particle (storage index) is known.
+template <class Name>
+KeyedCluster key_of(const CompiledClusters& clusters, const PlasticCluster& plastic, const Name& name) {
+  const CompiledCluster& cluster = clusters.clusters[static_cast<std::size_t>(plastic.cluster)];
+  std::vector<std::pair<int, Vec3f>> members;
+  for (std::size_t i = 0; i < plastic.given.size(); ++i)
+    members.emplace_back(name(clusters.members[static_cast<std::size_t>(cluster.first) + i].particle), plastic.given[i]);
+  std::sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  KeyedCluster out{{-1}, {}};  // no constraint type
+  for (const auto& [particle, place] : members) {
+    out.key.push_back(particle);
+    out.given.insert(out.given.end(), {place.x, place.y, place.z});
+  }
+  return out;
+}
+
 }  // namespace
 
 void follow_rest_factors(WorldData& world, double time) {
@@ -128,8 +150,9 @@ void take_rest_of_state(WorldData& world) {
 }
 
 bool any_flows(const Model& model) {
-  return std::any_of(model.objects.begin(), model.objects.end(),
-                     [](const CompiledObject& object) { return !object.changing.plastic.empty(); });
+  return std::any_of(model.objects.begin(), model.objects.end(), [](const CompiledObject& object) {
+    return !object.changing.plastic.empty() || !object.clusters.plastic.empty();
+  });
 }
 
 FlowedRest flowed_rest(const CompiledObject& object) {
@@ -142,6 +165,10 @@ FlowedRest flowed_rest(const CompiledObject& object) {
                     before = in_order(at.pool, slots, {start, start + at.pool.fields});
       if (now.rest != before.rest) out[key_of(at.pool, now.slots)] = {before.rest, now.rest};
     });
+  for (const PlasticCluster& plastic : object.clusters.plastic) {
+    const KeyedCluster keyed = key_of(object.clusters, plastic, [](int particle) { return particle; });
+    out[keyed.key] = {keyed.given, {plastic.stretch.begin(), plastic.stretch.end()}};
+  }
   return out;
 }
 
@@ -162,6 +189,15 @@ void carry_flowed(const FlowedRest& flowed, const std::vector<int>& slot_before,
         if (pool.row_offset[static_cast<std::size_t>(field)] >= 0)
           pool.change(field, at.batch)[at.lane] = back.rest[static_cast<std::size_t>(field)];
     });
+  for (PlasticCluster& plastic : object.clusters.plastic) {
+    const KeyedCluster keyed =
+        key_of(object.clusters, plastic, [&](int particle) { return slot_before[static_cast<std::size_t>(particle)]; });
+    const auto found = flowed.find(keyed.key);
+    if (found == flowed.end() || found->second.start != keyed.given) continue;
+    std::array<float, 9> stretch;
+    std::copy(found->second.now.begin(), found->second.now.end(), stretch.begin());
+    set_stretch(object.clusters, plastic, stretch);
+  }
 }
 
 void ObjectHandle::set_rest_factor(int group, float factor) {

@@ -99,9 +99,13 @@ class Soaking {
   Record& corner(int particle) const { return state_.positions[at(first_ + particle)]; }
   float capacity(int particle) const { return surface_.areas[at(particle)] * surface_.described.capacity; }
   float room(int particle) const { return std::max(capacity(particle) - water_[particle], 0.f); }
-  /// The mass of a particle of a liquid [kg]; 0 if it is infinite.
+  /// The inverse mass that a particle of a liquid has while it is there [1/kg].
+  float inverse_mass_of(int of, std::int64_t particle) const {
+    return liquid(of).positions[at(particle - world_.model.first[at(of)])].w;
+  }
+  /// Its mass [kg]; 0 if that is infinite.
   float mass_of(int of, std::int64_t particle) const {
-    const float w = liquid(of).positions[at(particle - world_.model.first[at(of)])].w;
+    const float w = inverse_mass_of(of, particle);
     return w > 0 ? 1 / w : 0;
   }
   /// The mass of a particle of the surface without water [kg]; 0 if it is infinite.
@@ -319,9 +323,9 @@ class Soaking {
 
   // ---- drops
 
-  /// The first particle that is not there of a liquid that meets the surface; -1: none.
-  std::int64_t find_spare(int of) const {
-    const std::int64_t begin = world_.model.first[at(of)], end = begin + liquid(of).user_particles;
+  /// The first particle that is not there, from one on, of a liquid that meets the surface; -1: none.
+  std::int64_t find_spare(int of, std::int64_t begin) const {
+    const std::int64_t end = world_.model.first[at(of)] + liquid(of).user_particles;
     for (std::int64_t i = begin; i < end; ++i)
       if (!is_there(state_, at(i)) && mass_of(of, i) > 0) return i;
     return -1;
@@ -332,12 +336,13 @@ class Soaking {
     std::vector<int> lowest;
     for (int i = 0; i < static_cast<int>(slopes.down.size()); ++i)
       if (slopes.down[at(i)] < 0 && excess(i) > 0) lowest.push_back(i);
+    if (lowest.empty()) return;
     std::stable_sort(lowest.begin(), lowest.end(), [&](int a, int b) { return excess(a) > excess(b); });
     for (int of = 0; of < static_cast<int>(world_.model.objects.size()); ++of) {
       if (!is_liquid(liquid(of)) || !meet(liquid(of), object_)) continue;
-      std::int64_t spare = find_spare(of);
+      std::int64_t spare = find_spare(of, world_.model.first[at(of)]);
       for (std::size_t k = 0; spare >= 0 && k < lowest.size(); ++k)
-        if (let_fall(lowest[k], of, spare)) spare = find_spare(of);
+        if (let_fall(lowest[k], of, spare)) spare = find_spare(of, spare + 1);
     }
   }
 
@@ -351,17 +356,19 @@ class Soaking {
     if (found.empty()) return false;
     const Vec3f place = place_of(corner(from)) + down_ * ((1 + slack / 2) * contact_distance(of));
     if (!is_free(place, of, -1)) return false;
-    const Record& v = state_.velocities[at(first_ + from)];
-    state_.positions[at(spare)] = {place.x, place.y, place.z, 1 / mass};
-    state_.velocities[at(spare)] = {v.x, v.y, v.z, 0};
-    state_.remainders[at(spare)] = {};
-    state_.births[at(spare)] = state_.time;
     float left = mass;
+    Vec3f momentum{};
     for (const int one : found) {
       const float taken = std::min(excess(one), left);
       left -= taken;
       water_[one] -= taken;
+      momentum = momentum + place_of(state_.velocities[at(first_ + one)]) * taken;
     }
+    const Vec3f v = momentum * (1 / mass);
+    state_.positions[at(spare)] = {place.x, place.y, place.z, inverse_mass_of(of, spare)};
+    state_.velocities[at(spare)] = {v.x, v.y, v.z, 0};
+    state_.remainders[at(spare)] = {};
+    state_.births[at(spare)] = state_.time;
     Touch drop;
     drop.particle = spare;
     near_.push_back(drop);
@@ -392,6 +399,13 @@ void open_liquids(WorldData& world) {
   if (!any) return;
   for (CompiledObject& object : world.model.objects)
     if (is_liquid(object)) object.flow.open = true;
+}
+
+void open_all_liquids(WorldData& world) {
+  bool any = false;
+  for (CompiledObject& object : world.model.objects)
+    if (is_liquid(object)) any = object.flow.open = true;
+  if (any) world.state.births.resize(static_cast<std::size_t>(world.model.particles()), 0.0);
 }
 
 void set_wet_masses(WorldData& world, int number) {

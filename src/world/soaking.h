@@ -10,14 +10,17 @@ namespace pliant {
 /// is made; what has been open stays so.
 void open_liquids(WorldData& world);
 
+/// Does so for every liquid: some has soaked into a surface that is no more.
+void open_all_liquids(WorldData& world);
+
 /// The inverse mass of a particle of a surface that holds a mass of liquid [kg]; 0 stays 0.
 inline float wet_inverse_mass(float dry, float water) { return dry > 0 && water > 0 ? 1 / (1 / dry + water) : dry; }
 
 /// Sets the masses of an object with Absorbency by what it holds; those that the State has fixed stay so.
 void set_wet_masses(WorldData& world, int number);
 
-/// Moves liquid into, along, through and off all surfaces with Absorbency for a step of `dt` seconds that begins now, and counts the particles.
-/// Then sets the masses of these surfaces. The sum of all masses stays, to rounding; so does the momentum of what is free.
+/// Moves liquid into, along, through and off all surfaces with Absorbency after a step of `dt` seconds, and counts the particles. Then sets the
+/// masses of these surfaces. The sum of all masses stays, to rounding; so does the momentum of what is free.
 void soak(WorldData& world, double dt, FlowReport& report);
 
 }  // namespace pliant

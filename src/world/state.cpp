@@ -9,6 +9,7 @@
 #include "world/control.h"
 #include "world/flow.h"
 #include "world/rest.h"
+#include "world/resting_grains.h"
 #include "world/soaking.h"
 #include "world/world_data.h"
 
@@ -118,19 +119,41 @@ void require_body_contacts(const State& state) {
   }
 }
 
-void require_grain_contacts(const State& state) {
+void require_grain_contacts(const Model& model, const State& state) {
+  const auto is_grain = [&](int particle) {
+    const int owner = model.object_of(particle);
+    return owner >= 0 && model.objects[static_cast<std::size_t>(owner)].grains.has_value();
+  };
   const GrainContact* before = nullptr;
   for (const GrainContact& contact : state.grain_contacts) {
-    const bool exists =
-        contact.a >= 0 && contact.a < contact.b && static_cast<std::size_t>(contact.b) < state.positions.size();
+    const bool exists = contact.a >= 0 && contact.a < contact.b &&
+                        static_cast<std::size_t>(contact.b) < state.positions.size() && is_grain(contact.a) &&
+                        is_grain(contact.b);
     const Vec3f& slip = contact.slip;
     const bool is_finite = std::isfinite(slip.x) && std::isfinite(slip.y) && std::isfinite(slip.z);
     if (!exists || !is_finite || (before != nullptr && !in_order_of_particles(*before, contact)))
       throw Error({.element = "grain contact " + std::to_string(&contact - state.grain_contacts.data())},
-                  "names no two particles, is not in ascending order, or has a number that is not finite",
+                  "names no two grains, is not in ascending order, or has a number that is not finite",
                   "restore a state of this world, or clear its grain_contacts");
     before = &contact;
   }
+}
+
+/// The times and shifts of grains that sleep, or may.
+void require_grains_at_rest(const State& state) {
+  for (const Channel& channel : state.channels) {
+    if (channel.name != rest_time_channel && channel.name != rest_shift_channel) continue;
+    const bool is_right = channel.components == 1 &&
+                          std::all_of(channel.values.begin(), channel.values.end(),
+                                      [](float value) { return std::isfinite(value) && (value >= 0 || value == asleep); });
+    if (!is_right)
+      throw Error({.element = "channel '" + channel.name + "'"},
+                  "has more than one component, or a value that is negative or not finite", "restore an earlier state");
+  }
+  const float* const times = grain_rest_times(state);
+  for (std::size_t i = 0; times != nullptr && i < state.births.size(); ++i)
+    if (times[i] == asleep && state.births[i] == not_there)
+      throw Error({.element = "particle " + std::to_string(i)}, "sleeps but is not there", "restore an earlier state");
 }
 
 void require_broken_joints(const Model& model, const State& state) {
@@ -248,19 +271,28 @@ float water_at(const State& state, std::size_t particle) {
   return 0;
 }
 
+bool sleeps_in(const State& state, std::size_t particle) {
+  const float* const times = grain_rest_times(state);
+  return times != nullptr && times[particle] == asleep;
+}
+
 /// True if a particle of a State may have this inverse mass: none if it is not there, or has just left an opening.
 bool may_have_mass(const WorldData& world, const State& state, std::size_t particle, float inverse_mass) {
-  if (state.births.empty() && state.channels.empty()) return inverse_mass == world.state.positions[particle].w;
-  const auto number = static_cast<std::size_t>(world.model.object_of(static_cast<int>(particle)));
+  const float now = world.state.positions[particle].w;
+  if (state.births.empty() && state.channels.empty() && world.state.channels.empty()) return inverse_mass == now;
+  const int owner = world.model.object_of(static_cast<int>(particle));
+  if (owner < 0) return inverse_mass == now;  // of no object
+  const auto number = static_cast<std::size_t>(owner);
   const CompiledObject& object = world.model.objects[number];
-  if (object.absorbency.is_used) {
-    const float dry = object.positions[particle - static_cast<std::size_t>(world.model.first[number])].w;
-    return inverse_mass == (world.state.positions[particle].w > 0 ? wet_inverse_mass(dry, water_at(state, particle)) : 0);
-  }
-  if (state.births.empty() || !object.flow.is_used()) return inverse_mass == world.state.positions[particle].w;
+  const std::size_t index = particle - static_cast<std::size_t>(world.model.first[number]);
+  if (index >= object.positions.size()) return inverse_mass == now;  // of no object
+  const float compiled = object.positions[index].w;
+  if (object.absorbency.is_used)
+    return inverse_mass == (now > 0 ? wet_inverse_mass(compiled, water_at(state, particle)) : 0);
+  if (object.grains && sleeps_in(state, particle)) return inverse_mass == 0 && compiled > 0;
+  if (state.births.empty() || !object.flow.is_used()) return inverse_mass == (object.grains ? compiled : now);
   if (state.births[particle] == not_there) return inverse_mass == 0;
-  return inverse_mass == 0 ||
-         inverse_mass == object.positions[particle - static_cast<std::size_t>(world.model.first[number])].w;
+  return inverse_mass == 0 || inverse_mass == compiled;
 }
 
 void require_births(const WorldData& world, const State& state) {
@@ -298,8 +330,10 @@ void World::restore(const State& state) {
         "the state has " + std::to_string(state.positions.size()) + " particles, the world " + std::to_string(particles),
         "restore a state of this world");
   }
+  if (!state.births.empty() && data_->state.births.empty()) open_all_liquids(*data_);
   require_births(*data_, state);
   require_channels(state);
+  require_grains_at_rest(state);
   require_channels_of(data_->model, state);
   const auto is_finite = [](const Record& r) { return std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.z); };
   for (std::size_t i = 0; i < particles; ++i) {
@@ -319,7 +353,7 @@ void World::restore(const State& state) {
   require_frames_of(data_->state.frames, state.frames);
   require_substeps(state);
   require_body_contacts(state);
-  require_grain_contacts(state);
+  require_grain_contacts(data_->model, state);
   require_broken_joints(data_->model, state);
   require_motors(data_->model, state);
   require_rest_times(state);

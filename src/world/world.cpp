@@ -15,6 +15,7 @@
 #include "world/groups.h"
 #include "world/object_store.h"
 #include "world/rest.h"
+#include "world/resting_grains.h"
 #include "world/soaking.h"
 #include "world/tearing.h"
 
@@ -128,11 +129,12 @@ Report World::step(float dt) {
     report.stopped = true;
     return report;
   }
+  const double start = data_->state.time;
   let_flow(*data_, static_cast<double>(dt), report.flow);
-  soak(*data_, static_cast<double>(dt), report.flow);
   follow_pressures(*data_, data_->state.time + static_cast<double>(dt));
   follow_rest_factors(*data_, data_->state.time + static_cast<double>(dt));
   begin_control(*data_, dt);
+  const Resting resting = begin_rest(*data_, static_cast<double>(dt));
   const std::vector<GroupFrame> groups = plan_frame(*data_, dt, report);
   data_->stopped = true;  // if the step throws (a user's force field may), it stays true
   pliant::step(
@@ -145,6 +147,9 @@ Report World::step(float dt) {
   for (JointBreak& broken : report.broken_joints) broken.object = data_->ids.objects.id_of(broken.object.slot);
   if (!report.broken_joints.empty()) data_->groups.bodies_meet_others = true;
   data_->stopped = report.nonfinite.has_value();
+  const double elapsed = data_->state.time - start;  // less than dt if the step was stopped
+  report.sleeping_grains = end_rest(*data_, elapsed, resting);
+  if (!data_->stopped) soak(*data_, elapsed, report.flow);
   report.flow.present = count_present(*data_);
   if (data_->stopped || report.stopped) forget_multipliers(*data_, !data_->stopped);
   end_control(*data_, report.stopped);

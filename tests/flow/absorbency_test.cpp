@@ -220,6 +220,9 @@ TEST(Absorbency, DripsWhereItIsLowest) {
   EXPECT_GT(sum.dripped, 10) << sum.soaked << " soaked, " << water_in(world, 0) << " kg left";
   const double held_mass = water_in(world, 0);
   EXPECT_NEAR(held_mass, static_cast<double>(sum.soaked - sum.dripped) * 1e-3, 1e-5);
+  World again(scene);
+  again.restore(world.state());
+  EXPECT_EQ(hash(again.state()), hash(world.state()));
   // At rest a column holds capacity rise / 2, and each drop that hangs is less than a particle.
   EXPECT_LT(held_mass, 0.3 * 1 * 0.05 / 2 + 0.3 / (4 * 0.01) * 1e-3);
 }

@@ -78,7 +78,8 @@ const char* const contact_scenes[] = {
     "soft_bodies/stairs", "soft_bodies/squeeze", "soft_bodies/finger", "soft_bodies/mattress",
     "soft_bodies/bumper", "soft_bodies/muscle",  "bodies/turntable",   "gas/pump",
     "rods/springs",       "rods/stalks",         "rods/hair",          "rods/winch",
-    "rods/bent_wire",     "soft_bodies/dancer",  "tears/block",        "tears/sheet"};
+    "rods/bent_wire",     "soft_bodies/dancer",  "tears/block",        "tears/sheet",
+    "bags/seeping",       "contact/woven"};
 constexpr int contact_frames = 16, tearing_frames = 40;
 
 /// Upper limit of grid nodes along a side: grids as fine as those of the scenes would take seconds to make.
@@ -123,7 +124,7 @@ Case make_case(const std::string& name) {
     if (name == sweep_prefix + way.name) return {name, scene_of(way), sweep_frames};
   Case found{name, read_scene(PLIANT_SOURCE_DIR "/scenes/" + name + ".json"), scene_frames};
   if (name.find('/') != std::string::npos) found.frames = contact_frames;
-  if (name.rfind("tears/", 0) == 0) found.frames = tearing_frames;
+  if (name.rfind("tears/", 0) == 0 || name == "bags/seeping") found.frames = tearing_frames;
   for (MeshCollider& collider : found.scene.mesh_colliders) coarsen(collider);
   return found;
 }

@@ -118,6 +118,8 @@ TEST_F(FullScene, HasItsSheetInPlace) {
   EXPECT_NEAR(mass, 6 * 1 * 0.5, 1e-5);  // area and density
   EXPECT_EQ(sheet.velocities, std::vector<Vec3f>(12, Vec3f{0, 0, 7}));
   EXPECT_EQ(sheet.thickness, 0.003f);
+  EXPECT_EQ(sheet.constraints.back().type, "distance_limit");
+  EXPECT_EQ(sheet.constraints.back().rest[1], 2.5f * sheet.constraints.back().rest[0]);
   EXPECT_EQ(sheet.restitution, 0.375f);
   EXPECT_EQ(sheet.rolling_friction, 0.0625f);
   EXPECT_EQ(sheet.spinning_friction, 0.03125f);
@@ -131,7 +133,7 @@ TEST_F(FullScene, HasItsSheetInPlace) {
 
 TEST_F(FullScene, HasItsConstraintsAsStiffAsTold) {
   const Object& sheet = scene.objects.at(0);
-  ASSERT_EQ(sheet.constraints.size(), 2U);
+  ASSERT_EQ(sheet.constraints.size(), 3U);
   EXPECT_EQ(sheet.constraints[0].type, "distance");
   EXPECT_EQ(sheet.constraints[0].stiffness.value, 0.001f);
   EXPECT_EQ(sheet.constraints[0].stiffness.damping, 0.5f);
@@ -178,7 +180,12 @@ TEST_F(FullScene, HasItsBalloonAndTube) {
   const Object& tube = scene.objects.at(2);
   EXPECT_EQ(tube.name, "cloth_2");
   EXPECT_EQ(tube.positions.size(), 48U);
-  for (const float alpha : tube.constraints.at(0).compliances) EXPECT_EQ(alpha, 0.f);
+  const ConstraintGroup &yarns = tube.constraints.at(0), &shear = tube.constraints.at(1);
+  ASSERT_EQ(yarns.type, "triangle_stretch");
+  ASSERT_EQ(shear.type, "triangle_shear");
+  EXPECT_EQ(yarns.compliances.at(0), 0.f);  // of the warp, which runs along the tube
+  EXPECT_NEAR(yarns.compliances.at(1), 40.f / 300 * shear.compliances.at(0), 1e-6f * shear.compliances.at(0));
+  EXPECT_NEAR(yarns.rest.at(1), shear.rest.at(0), 0);
   for (const ConstraintGroup& group : tube.constraints) {
     ASSERT_EQ(group.plasticity.has_value(), group.type == "dihedral_bending");
     if (!group.plasticity) continue;
@@ -186,7 +193,7 @@ TEST_F(FullScene, HasItsBalloonAndTube) {
     EXPECT_EQ(group.plasticity->rate, 2.f);
     EXPECT_EQ(group.plasticity->most, 1.5f);
   }
-  EXPECT_EQ(tube.constraints.at(0).stiffness.value, 0.f);
+  EXPECT_EQ(yarns.stiffness.value, 0.f);
 }
 
 TEST_F(FullScene, HasItsRopes) {
@@ -231,6 +238,10 @@ TEST_F(FullScene, HasClusters) {
   EXPECT_EQ(first.stiffness.damping, 2.f);
   EXPECT_EQ(rope->clusters[1].particles.size(), 5u);
   EXPECT_EQ(rope->clusters[1].mode, Cluster::Mode::linear);
+  ASSERT_TRUE(rope->clusters[1].plasticity.has_value());
+  EXPECT_EQ(rope->clusters[1].plasticity->yield, 0.25f);
+  EXPECT_EQ(rope->clusters[1].plasticity->rate, 2.f);
+  EXPECT_EQ(rope->clusters[1].plasticity->most, 0.5f);
 }
 
 TEST_F(FullScene, HasItsGases) {

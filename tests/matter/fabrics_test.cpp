@@ -15,17 +15,20 @@ namespace {
 
 std::string table_row(const Fabric& f) {
   char text[256];
-  std::snprintf(text, sizeof text, "| %s | %g | %g | %g | %g | %g | %g | %g |", f.name.c_str(), double{f.area_density},
-                1000 * double{f.thickness}, double{f.stretch_stiffness}, double{f.bending_stiffness},
-                double{f.bending_damping}, double{f.static_friction}, double{f.kinetic_friction});
+  std::snprintf(text, sizeof text, "| %s | %g | %g | %g | %g | %.4g | %g | %g | %g | %g |", f.name.c_str(),
+                double{f.area_density}, 1000 * double{f.thickness}, double{f.stretch_stiffness},
+                double{f.weft_stiffness > 0 ? f.weft_stiffness : f.stretch_stiffness}, double{f.shear_stiffness},
+                double{f.bending_stiffness}, double{f.bending_damping}, double{f.static_friction},
+                double{f.kinetic_friction});
   return text;
 }
 
 /// The table that docs/guide/materials.md must contain; printed if it does not, to be copied.
 std::string table() {
   std::string rows =
-      "| name | kg/m^2 | thickness, mm | Y, N/m | B, N m | damping | static friction | kinetic friction |\n"
-      "|---|---|---|---|---|---|---|---|\n";
+      "| name | kg/m^2 | thickness, mm | Y, N/m | weft, N/m | shear, N/m | B, N m | damping | static friction | kinetic "
+      "friction |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Fabric& f : fabrics()) rows += table_row(f) + "\n";
   return rows;
 }

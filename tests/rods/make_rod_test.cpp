@@ -32,6 +32,20 @@ TEST(MakeRod, MakesASegmentBetweenTwoPoints) {
   EXPECT_EQ(rod.kinetic_friction, options.material.kinetic_friction);
 }
 
+TEST(MakeRod, TapersToItsEnd) {
+  RodOptions options = clamped_rod(material_of(1e9, 4e8, 800), 0.01f);
+  options.end_radius = 0.004f;
+  const Object rod = make_rod(line({0, 0, 0}, {1, 0, 0}, 10), options);
+  const float mass = std::accumulate(rod.masses.begin(), rod.masses.begin() + 10, 0.f);
+  EXPECT_NEAR(mass, 800 * pi * (1e-4 + 4e-5 + 1.6e-5) / 3, 1e-5);  // a cone
+  EXPECT_GT(rod.masses[0], 4 * rod.masses[9]);
+  options.stiffness = RodStiffness{1, 1, 1, 1, 1};
+  EXPECT_NE(refusal([&] { make_rod(line({0, 0, 0}, {1, 0, 0}, 10), options); }).find("end_radius"), std::string::npos);
+  options.stiffness.reset();
+  options.end_radius = 0.2f;
+  EXPECT_NE(refusal([&] { make_rod(line({0, 0, 0}, {1, 0, 0}, 10), options); }).find("2.25 radii"), std::string::npos);
+}
+
 TEST(MakeRod, HasTheStiffnessOfARoundSection) {
   const RodStiffness found = stiffness_of(material_of(2e9, 8e8, 1000), 0.01f);
   EXPECT_NEAR(found.stretch, 2e9 * pi * 1e-4, 1);

@@ -36,6 +36,35 @@ TEST(RodAtRest, IsAsStiffWhateverTheSubsteps) {
   for (const int substeps : {1, 4, 15}) EXPECT_NEAR(sag(16, substeps), expected, 0.001 * expected) << substeps;
 }
 
+/// A cantilever that tapers: its sag is the integral of M(x) x / (E I(x)), x being the distance from the tip.
+TEST(RodAtRest, ThatTapersSagsByTheIntegralOfItsMoments) {
+  constexpr double e = 1e9, density = 1000, thick = 0.01, thin = 0.004;
+  const auto radius = [](double x) { return thin + (thick - thin) * x; };
+  double expected = 0, weight = 0, moment = 0;
+  constexpr int steps = 100000;
+  for (int i = 0; i < steps; ++i) {
+    const double x = (i + 0.5) / steps;
+    moment += weight / steps;
+    weight += density * pi * radius(x) * radius(x) * gravity / steps;
+    expected += moment * x / (e * second_moment(radius(x))) / steps;
+  }
+  for (const bool thick_first : {true, false}) {
+    RodOptions options;
+    options.material = material_of(e, 3.5e8, density);
+    options.radius = static_cast<float>(thick_first ? thick : thin);
+    options.end_radius = static_cast<float>(thick_first ? thin : thick);
+    (thick_first ? options.start : options.end).kind = RodEnd::Kind::clamped;
+    const Object made = make_rod(line({0, 0, 0}, {1, 0, 0}, 32), options);
+    Object rod = made;
+    rod.damping = 5;
+    Lone lone(std::move(rod));
+    lone.run(12);
+    const int last = thick_first ? 31 : 0, before = thick_first ? 30 : 1;
+    const double tip = lone.position(last).y + (lone.position(last).y - lone.position(before).y) * 0.5;
+    EXPECT_NEAR(-tip, expected, 0.01 * expected) << thick_first;
+  }
+}
+
 TEST(RodAtRest, OfSteelHeldAtBothEndsSagsAsABeam) {
   constexpr double length = 0.3, radius = 0.001;
   const RodMaterial& steel = rod_material("steel wire");

@@ -1,9 +1,10 @@
-// Plastic flow: the rest data of constraints follow the shape at the substep's end.
+// Plastic flow: the rest data of constraints and clusters follow the shape at the substep's end.
 #include <span>
 
 #include "constraints/registry.h"
 #include "math/functions.h"
 #include "model/changing_rest.h"
+#include "solver/clusters.h"
 #include "solver/stages/stages.h"
 #include "solver/visit.h"
 
@@ -79,6 +80,12 @@ void let_flow(const Substep& s, CompiledObject& object, int number) {
       if (segment.pool == plastic.pool) flow.run(segment);
     });
   }
+  CompiledClusters& clusters = object.clusters;
+  if (clusters.plastic.empty()) return;
+  const SweepArguments particles = arguments(s, number, false);
+  s.context.executor.parallel_for("yield", static_cast<int>(clusters.plastic.size()), [&](int i) {
+    let_cluster_flow(clusters, clusters.plastic[static_cast<std::size_t>(i)], particles, static_cast<double>(s.h));
+  });
 }
 
 }  // namespace
