@@ -40,7 +40,8 @@ void refuse_what_is_known(std::string_view bytes, const std::string& name) {
       {"#usda", "a USD file"},         {"PXR-USDC", "a USD file"},
   };
   if (starts_with(bytes, "$MeshFormat")) fail(name, "is a Gmsh file", of_tetrahedra);
-  if (starts_with(bytes, "# vtk")) fail(name, "is a VTK file", of_tetrahedra);
+  const bool is_vtk_xml = bytes.substr(0, 400).find("<VTKFile") != std::string_view::npos;
+  if (starts_with(bytes, "# vtk") || is_vtk_xml) fail(name, "is a VTK file", of_tetrahedra);
   for (const auto& [start, what] : others)
     if (starts_with(bytes, start)) fail(name, std::string("is ") + what, "give an OBJ, PLY or STL file");
 }

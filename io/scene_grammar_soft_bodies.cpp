@@ -60,7 +60,8 @@ const Record& tetrahedra_record() {
       "The source of tetrahedra and their placement: fitted, then scaled, then rotated, then moved. The result is also the "
       "rest shape.",
       {either("file", string(),
-              "Path of a tetrahedral mesh, relative to the folder of the scene: TetGen .node or .ele, Gmsh .msh, VTK .vtk, "
+              "Path of a tetrahedral mesh, relative to the folder of the scene: TetGen .node or .ele, Gmsh .msh, VTK .vtk "
+              "or .vtu, "
               "Medit .mesh, or "
               ".t (docs/guide/soft_bodies.md)."),
        either("box", record(tetrahedral_box_record()), "A box."),

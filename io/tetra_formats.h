@@ -20,7 +20,10 @@ TetrahedralMeshFile read_vtk(std::string_view bytes, const std::string& name);  
 /// The same with numbers as bytes, big end first. `offset` is that of the line after "BINARY".
 TetrahedralMeshFile read_binary_vtk(std::string_view bytes, std::size_t offset, const std::string& name);
 
-TetrahedralMeshFile read_medit(std::string_view bytes, const std::string& name);       ///< .mesh, as text
-TetrahedralMeshFile read_vertex_tet(std::string_view bytes, const std::string& name);  ///< lines "Vertex" and "Tet"
+TetrahedralMeshFile read_vtu(std::string_view bytes, const std::string& name);  ///< .vtu: the same in XML
+
+TetrahedralMeshFile read_medit(std::string_view bytes, const std::string& name);         ///< .mesh, as text
+TetrahedralMeshFile read_binary_medit(std::string_view bytes, const std::string& name);  ///< .meshb
+TetrahedralMeshFile read_vertex_tet(std::string_view bytes, const std::string& name);    ///< lines "Vertex" and "Tet"
 
 }  // namespace pliant

@@ -31,15 +31,13 @@ TetrahedralMeshFile read_pair(const std::string& node, const std::string& ele) {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& suffix) {
   static const std::map<std::string, std::pair<const char*, const char*>> known{
-      {".vtu", {"is an XML file of VTK, which is not read", "write a legacy .vtk file as ASCII, or a Gmsh file"}},
-      {".meshb", {"is a binary Medit file, which is not read", "write a .mesh file"}},
       {".obj", {"is a surface", "fill it with tetrahedra: `mesh` in a scene, or fill_with_tetrahedra"}},
       {".stl", {"is a surface", "fill it with tetrahedra: `mesh` in a scene, or fill_with_tetrahedra"}},
       {".ply", {"is a surface", "fill it with tetrahedra: `mesh` in a scene, or fill_with_tetrahedra"}}};
   if (const auto found = known.find(suffix); found != known.end())
     throw Error({.file = path}, found->second.first, found->second.second);
   throw Error({.file = path}, "has the suffix '" + suffix + "', which no format of tetrahedra has",
-              "give .node or .ele, .msh, .vtk, .mesh or .t");
+              "give .node or .ele, .msh, .vtk, .vtu, .mesh, .meshb or .t");
 }
 
 }  // namespace
@@ -49,7 +47,8 @@ TetrahedralMeshFile read_tetrahedral_mesh(const std::string& path) {
   if (suffix == ".ele") return read_pair(beside(path, ".node"), path);
   if (suffix == ".node") return read_pair(path, beside(path, ".ele"));
   static const std::map<std::string, TetrahedralMeshFile (*)(std::string_view, const std::string&)> readers{
-      {".msh", read_gmsh}, {".vtk", read_vtk}, {".mesh", read_medit}, {".t", read_vertex_tet}};
+      {".msh", read_gmsh},           {".vtk", read_vtk},     {".vtu", read_vtu}, {".mesh", read_medit},
+      {".meshb", read_binary_medit}, {".t", read_vertex_tet}};
   const auto reader = readers.find(suffix);
   if (reader == readers.end()) refuse(path, suffix);
   const std::string bytes = read_file_bytes(path);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -82,6 +83,7 @@ class Soaking {
   void run() {
     list_neighbours();
     find_near();
+    for (const Touch& touch : near_) note(touch.particle);
     for (Touch& touch : near_) {
       if (touch.distance > (1 + slack) * contact_distance(touch.liquid)) continue;
       drag(touch);
@@ -143,6 +145,7 @@ class Soaking {
       if (is_liquid(liquid(o)) && meet(liquid(o), object_))
         reach = std::max(reach, (1 + slack) * contact_distance(o) + liquid(o).fluid->spacing);
     if (reach == 0) return;
+    cell_size_ = reach;
     std::vector<BoxBounds> boxes;
     for (const std::array<int, 3>& t : object_.surface.triangles) {
       const std::array<Vec3f, 3> x{place_of(corner(t[0])), place_of(corner(t[1])), place_of(corner(t[2]))};
@@ -192,15 +195,29 @@ class Soaking {
             distance};
   }
 
+  std::array<std::int64_t, 3> cell_of(const Vec3f& place) const {
+    const auto cell = [&](float x) {
+      return static_cast<std::int64_t>(std::floor(std::clamp(x / cell_size_, -1e15f, 1e15f)));
+    };
+    return {cell(place.x), cell(place.y), cell(place.z)};
+  }
+
+  /// Notes where a particle of liquid is now; where it was before need not be forgotten.
+  void note(std::int64_t particle) { cells_[cell_of(place_of(state_.positions[at(particle)]))].push_back(particle); }
+
   /// True if a particle of liquid may be put at a place: no other one is too near, and no solid.
   bool is_free(const Vec3f& place, int of, std::int64_t but) const {
     const float least = room_of_drop * liquid(of).fluid->spacing;
-    for (const Touch& other : near_)
-      if (other.particle != but && is_there(state_, at(other.particle)) &&
-          length_squared(place_of(state_.positions[at(other.particle)]) - place) < least * least)
-        return false;
-    const std::vector<ColliderId> colliders = world_.ids.colliders.all();
-    return std::none_of(colliders.begin(), colliders.end(), [&](const ColliderId& id) {
+    const auto is_near = [&](std::int64_t other) {
+      return other != but && is_there(state_, at(other)) &&
+             length_squared(place_of(state_.positions[at(other)]) - place) < least * least;
+    };
+    const std::array<std::int64_t, 3> middle = cell_of(place);
+    for (std::int64_t c = 0; c < 27; ++c) {
+      const auto found = cells_.find({middle[0] + c % 3 - 1, middle[1] + c / 3 % 3 - 1, middle[2] + c / 9 - 1});
+      if (found != cells_.end() && std::any_of(found->second.begin(), found->second.end(), is_near)) return false;
+    }
+    return std::none_of(colliders_.begin(), colliders_.end(), [&](const ColliderId& id) {
       const Collider& collider = world_.collider(id);
       const Vec3f local = convert<float>(to_local(pose_now(world_, id), convert<double>(place)));
       return signed_distance(local_shape(collider.shape), local).distance < liquid(of).thickness + collider.thickness;
@@ -318,6 +335,7 @@ class Soaking {
     Record& x = state_.positions[at(touch.particle)];
     x = {below.x, below.y, below.z, x.w};
     state_.remainders[at(touch.particle)] = {};
+    note(touch.particle);
     ++report_.seeped;
   }
 
@@ -369,9 +387,7 @@ class Soaking {
     state_.velocities[at(spare)] = {v.x, v.y, v.z, 0};
     state_.remainders[at(spare)] = {};
     state_.births[at(spare)] = state_.time;
-    Touch drop;
-    drop.particle = spare;
-    near_.push_back(drop);
+    note(spare);
     ++report_.dripped;
     return true;
   }
@@ -386,8 +402,11 @@ class Soaking {
   double dt_;
   FlowReport& report_;
   Vec3f down_{};
+  std::vector<ColliderId> colliders_ = world_.ids.colliders.all();
   std::vector<Touch> near_;
-  std::vector<int> begin_, neighbours_;  ///< of particles, along edges
+  float cell_size_ = 1;  ///< at least the least distance of a drop from others [m]
+  std::map<std::array<std::int64_t, 3>, std::vector<std::int64_t>> cells_;  ///< particles of liquids that are or were near
+  std::vector<int> begin_, neighbours_;                                     ///< of particles, along edges
   std::vector<char> visited_;
 };
 

@@ -93,7 +93,8 @@ TEST(PlasticClusters, CreepAtTheirRate) {
   const double rate = 0.8, ramp = 1.0 / 60;  // half of it counts
   for (const int frames : {30, 90}) {
     const double held = 1 - std::exp(-rate * (frames / 60. - ramp / 2));
-    EXPECT_NEAR(strain_left(block({.yield = 0.0f, .rate = 0.8f, .most = 1}), 1.5f, frames) / (std::log(1.5) * held), 1, 0.03)
+    EXPECT_NEAR(strain_left(block({.yield = 0.0f, .rate = 0.8f, .most = 1}), 1.5f, frames) / (std::log(1.5) * held), 1,
+                0.03)
         << frames;
   }
 }

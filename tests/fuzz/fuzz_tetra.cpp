@@ -13,7 +13,7 @@ namespace {
 
 pliant::TetrahedralMeshFile read(std::string_view bytes) {
   static const std::string name = "fuzz";
-  const int format = static_cast<unsigned char>(bytes[0]) % 5;
+  const int format = static_cast<unsigned char>(bytes[0]) % 7;
   const std::size_t divided = static_cast<unsigned char>(bytes[1]) * bytes.size() / 256;
   bytes.remove_prefix(2);
   switch (format) {
@@ -25,6 +25,10 @@ pliant::TetrahedralMeshFile read(std::string_view bytes) {
       return pliant::read_medit(bytes, name);
     case 3:
       return pliant::read_vertex_tet(bytes, name);
+    case 4:
+      return pliant::read_vtu(bytes, name);
+    case 5:
+      return pliant::read_binary_medit(bytes, name);
     default:
       return pliant::read_tetgen({bytes.substr(0, divided), name}, {bytes.substr(std::min(divided, bytes.size())), name});
   }

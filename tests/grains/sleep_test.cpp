@@ -272,8 +272,8 @@ TEST(SleepingGrains, FollowFromTheState) {
   run(again, 160);
   EXPECT_EQ(hash(again.state()), hash(kept));
   State wrong = kept;
-  const auto channel = std::find_if(wrong.channels.begin(), wrong.channels.end(),
-                                    [](const Channel& of) { return of.name == "rest_time"; });
+  const auto channel =
+      std::find_if(wrong.channels.begin(), wrong.channels.end(), [](const Channel& of) { return of.name == "rest_time"; });
   ASSERT_NE(channel, wrong.channels.end());
   const std::vector<float>& times = channel->values;
   const auto sleeper = static_cast<std::size_t>(std::find(times.begin(), times.end(), asleep) - times.begin());
