@@ -94,7 +94,7 @@ struct Cluster {
   /// Its compliance is per mass, alpha in s^2: particles swing about their places at 1 / (2 pi sqrt(alpha)) Hz, whatever
   /// their masses. Its damping is per mass too, in 1/s.
   Stiffness stiffness{};
-  /// The rest shape takes on what it is stretched and sheared by, at constant volume; none: it springs back. Not for flat clusters.
+  /// The rest shape takes on what it is stretched and sheared by, at constant volume; none: it springs back. Flat clusters stay elastic.
   std::optional<Plasticity> plasticity{};
 };
 

@@ -43,7 +43,14 @@ bool is_flat_at_rest(const Object& object, const Cluster& cluster) {
   return is_flat(moments, 3);
 }
 
-void check_plasticity(Problems& problems, const std::string& name, const Object& object, const Cluster& cluster) {
+/// Clusters whose plasticity does nothing.
+struct Elastic {
+  Tally flat, rigid;
+};
+
+void check_plasticity(Problems& problems, const std::string& name, const Object& object, std::int64_t number,
+                      Elastic& elastic) {
+  const Cluster& cluster = object.clusters[static_cast<std::size_t>(number)];
   if (!cluster.plasticity) return;
   const Plasticity& p = *cluster.plasticity;
   const auto is_number = [](float value) { return value >= 0 && value <= 1e30f; };
@@ -55,19 +62,17 @@ void check_plasticity(Problems& problems, const std::string& name, const Object&
   };
   if (has_rest && std::all_of(cluster.particles.begin(), cluster.particles.end(), exists) &&
       is_flat_at_rest(object, cluster))
-    problems.grave(name, "has a plasticity but is flat, so it has no strain in one direction",
-                   "give it particles that are not in one plane, or leave the plasticity out");
+    elastic.flat.add(number);
   const bool is_rigid =
       cluster.stiffness.kind == Stiffness::Kind::pbd ? cluster.stiffness.value >= 1 : cluster.stiffness.value == 0;
-  if (is_rigid && (cluster.mode == Cluster::Mode::rigid || cluster.share == 0))
-    problems.doubtful(name, "has a plasticity but is rigid, so nothing of it yields",
-                      "give it a compliance in s^2, or the mode linear or quadratic");
+  if (is_rigid && (cluster.mode == Cluster::Mode::rigid || cluster.share == 0)) elastic.rigid.add(number);
 }
 
 }  // namespace
 
 void check_clusters(Problems& problems, const Object& object) {
   Tally outside, repeated, small;
+  Elastic elastic;
   for (std::size_t c = 0; c < object.clusters.size(); ++c) {
     const Cluster& cluster = object.clusters[c];
     const auto number = static_cast<std::int64_t>(c);
@@ -82,8 +87,12 @@ void check_clusters(Problems& problems, const Object& object) {
     check_rest(problems, name, cluster);
     require_range(problems, name + ", share", static_cast<double>(cluster.share), 0, 1);
     check_stiffness(problems, name, cluster.stiffness);
-    check_plasticity(problems, name, object, cluster);
+    check_plasticity(problems, name, object, number, elastic);
   }
+  problems.doubtful(elastic.flat, "cluster", "has a plasticity but is flat, so it stays elastic",
+                    "give it particles that are not in one plane");
+  problems.doubtful(elastic.rigid, "cluster", "has a plasticity but is rigid, so nothing of it yields",
+                    "give it a compliance in s^2, or the mode linear or quadratic");
   problems.grave(small, "cluster", "has fewer than two particles", "give the particles that keep their shape");
   problems.grave(outside, "cluster",
                  "names a particle that does not exist; there are " + std::to_string(object.positions.size()),
