@@ -33,8 +33,8 @@ void fields(A& a, Is<RestKeyframe> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<ConstraintGroup> auto& of) {
-  auto& [type, particles, rest, stiffness, compliances, plasticity, keyframes] = of;
-  a(type, particles, rest, stiffness, compliances, plasticity, keyframes);
+  auto& [type, particles, rest, stiffness, compliances, plasticity, keyframes, break_force] = of;
+  a(type, particles, rest, stiffness, compliances, plasticity, keyframes, break_force);
 }
 template <class A>
 void fields(A& a, Is<PressureKeyframe> auto& of) {

@@ -176,6 +176,7 @@ Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFo
   set_clusters(document, at, built);
   set_pins(document, at, built);
   set_attachments(document, at, built);
+  set_stitches(document, at, built);
   set_tears(at, built.object);
   set_absorbency(at, built.object);
   return std::move(built.object);

@@ -43,6 +43,7 @@ std::vector<Gauge> build_gauges(const JsonDocument& document, const JsonValue& r
 
 /// Add the pins and attachments of a record, of an object or a part, to what it builds.
 void set_clusters(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
+void set_stitches(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
 void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
 void set_attachments(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "pliant/scene.h"
+#include "pliant/stitch.h"
 #include "scene_grammar_parts.h"
 #include "scene_grammar_words.h"
 
@@ -76,6 +77,20 @@ const Record& attachment_record() {
                               field("motion", record(motion_record()), "none", "Motion of the targets."),
                               field("stiffness", stiffness(), "\"rigid\"", "Stiffness of the attachment.")},
                              {}};
+  return result;
+}
+
+const Record& stitch_record() {
+  static const Record result{
+      "stitch",
+      "Threads between particles, each to the nearest of others: they become shorter until both meet, and never push.",
+      {needed("particles", selection(), selection_meaning), needed("to", selection(), "The particles of the other side."),
+       field("closing_time", number("s", 0, 1e6), StitchOptions{}.closing_time,
+             "Until when threads shorten from the distance at the start to nothing; 0: at once."),
+       field("stiffness", stiffness(), "\"rigid\"", "Stiffness of the threads."),
+       field("break_force", number("N", 0, largest_quantity), StitchOptions{}.break_force,
+             "Force at which a thread breaks, which needs a compliance; 0: they hold.")},
+      {}};
   return result;
 }
 
@@ -180,6 +195,7 @@ const Record& object_record() {
        field("pins", list(record(pin_record())), "none",
              "Kinematic particles. A body whose particle has a pin turns with it, if a keyframe has a rotation."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
+       field("stitches", list(record(stitch_record())), "none", "Threads that sew its particles together."),
        field("tearing", record(tearing_record()), "none", "Cloth, ropes and soft bodies: at which stretch they tear."),
        field("cuts", list(record(plane_cut_record())), "none", "Cuts that are made during the simulation."),
        field("absorbency", record(absorbency_record()), "none", "Its triangles take up liquid."),

@@ -78,7 +78,11 @@ const Record& constraint_record() {
        field("plasticity", record(plasticity_record()), "none",
              "Deformation that becomes permanent, of tetrahedron_shear, dihedral_bending and rod_joint."),
        field("keyframes", list(record(rest_keyframe_record()), 1), "none",
-             "Factors of the rest data of distance, tetrahedron_volume or fibre, linear between.")},
+             "Factors of the rest data of distance, distance_limit, tetrahedron_volume or fibre, linear between."),
+       field("break_force", number("N", 0, largest_quantity), 0.f,
+             "Force at which one of them breaks, of distance, distance_limit, point_on_triangle and point_in_tetrahedron "
+             "with a "
+             "compliance; 0: they hold.")},
       {}};
   return result;
 }

@@ -222,6 +222,7 @@ ConstraintGroup constraints_of(const JsonDocument& document, const JsonValue& at
   set(document, at, "stiffness", group.stiffness);
   set(at, "plasticity", group.plasticity);
   set(document, at, "keyframes", group.keyframes);
+  set(at, "break_force", group.break_force);
   const ConstraintType& type = type_named(group.type);
   const std::vector<JsonValue>& stencils = elements(at, "particles");
   for (const JsonValue& stencil : stencils) {

@@ -5,6 +5,7 @@
 
 #include "pliant/body.h"
 #include "pliant/cluster.h"
+#include "pliant/stitch.h"
 #include "scene_build.h"
 #include "scene_hints.h"
 #include "scene_values.h"
@@ -60,6 +61,25 @@ void set_clusters(const JsonDocument& document, const JsonValue& at, BuiltObject
       }
     } catch (const Error& error) {
       if (!error.where().file.empty()) throw;
+      Location place = document.locate(item);
+      place.object = built.object.name;
+      place.element += ", " + error.where().element;
+      throw Error(place, error.problem(), error.advice());
+    }
+  }
+}
+
+void set_stitches(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
+  for (const JsonValue& item : elements(at, "stitches")) {
+    StitchOptions options;
+    set(item, "closing_time", options.closing_time);
+    set(document, item, "stiffness", options.stiffness);
+    set(item, "break_force", options.break_force);
+    const std::vector<int> particles = selected(document, *item.find("particles"), built),
+                           to = selected(document, *item.find("to"), built);
+    try {
+      add_stitches(built.object, nearest_pairs(built.object, particles, to), options);
+    } catch (const Error& error) {
       Location place = document.locate(item);
       place.object = built.object.name;
       place.element += ", " + error.where().element;

@@ -105,8 +105,7 @@ Json flow_json(const Scene& scene, const FlowReport& flow) {
 
 /// How often what tore, and when at first; null if nothing can tear.
 Json tears_json(const Scene& scene, const Tears& tears) {
-  const auto tears_apart = [](const Object& object) { return object.tearing || !object.cuts.empty(); };
-  if (std::none_of(scene.objects.begin(), scene.objects.end(), tears_apart)) return nullptr;
+  if (std::none_of(scene.objects.begin(), scene.objects.end(), comes_apart)) return nullptr;
   return {{"new_particles", tears.new_particles},
           {"lost_constraints", tears.lost_constraints},
           {"first_frame", tears.first_frame < 0 ? Json() : Json(tears.first_frame)}};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pliant/advise.h"
+#include "pliant/edit.h"
 #include "pliant/scene.h"
 #include "pliant/world.h"
 

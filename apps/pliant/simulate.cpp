@@ -6,6 +6,7 @@
 #include "give_back.h"
 #include "interrupt.h"
 #include "output.h"
+#include "pliant/edit.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "progress.h"
@@ -116,9 +117,10 @@ void require_frame(const Scene& scene, const std::string& path, int frame) {
 
 void refuse_tears(const Scene& scene, const std::string& path, const std::string& who) {
   for (const Object& object : scene.objects)
-    if (object.tearing || !object.cuts.empty())
-      throw Error({.file = path, .line = 0, .object = object.name}, "tears or is cut, which " + who + " cannot follow",
-                  "leave its `tearing` and `cuts` out");
+    if (comes_apart(object))
+      throw Error({.file = path, .line = 0, .object = object.name},
+                  "tears, is cut or has constraints that break, which " + who + " cannot follow",
+                  "leave its `tearing`, `cuts` and `break_force` out");
 }
 
 bool has_suffix(const std::string& path, std::string_view suffix) {

@@ -9,6 +9,7 @@
 #include "geometry.h"
 #include "io/write_frames.h"
 #include "matrix.h"
+#include "pliant/edit.h"
 #include "pliant/surface.h"
 #include "render.h"
 
@@ -192,8 +193,7 @@ std::vector<float> wetness_of(const Object& object, const ObjectView& view) {
 }
 
 void add_object(RenderScene& result, const Object& described, const ObjectView& view) {
-  const bool tears = described.tearing || !described.cuts.empty();
-  const Object& object = tears ? view.description() : described;
+  const Object& object = comes_apart(described) ? view.description() : described;
   const output::FrameObject shape = output::describe(object);
   std::vector<Vec3f> positions = view.present_positions();
   add_bodies(result, object, shape, view);

@@ -48,6 +48,10 @@ Edit part_tetrahedra(const Object& object, std::span<const int> part);
 /// as `cut`. Throws an Error if the sizes differ, or the object is a soft body.
 Edit part_triangles(const Object& object, std::span<const int> part);
 
+/// True if a World changes the description of an object itself: it tears or is cut, or constraints of it can break.
+/// ObjectView::description() is the present one.
+bool comes_apart(const Object& object);
+
 /// The Edit by which an object tears at these positions of its particles, as Object::tearing says; nothing if it holds. World::step calls
 /// it. Of edges and tetrahedra that are too long the longest come first; what lies around a tear holds until the next call, because the tear
 /// relieves it. Of a chain of links without triangles, as a rope, one is removed. Held particles stay whole. Throws an Error if sizes differ.

@@ -41,9 +41,13 @@ struct ConstraintGroup {
   Stiffness stiffness{};                   ///< stiffness of every constraint of the group
   std::vector<float> compliances;          ///< compliance of each constraint, instead of stiffness.value; empty: all equal
   std::optional<Plasticity> plasticity{};  ///< for types that have it; none: elastic
-  /// By what the rest length of "distance", the rest volume of "tetrahedron_volume" or the rest stretch of "fibre" is multiplied: linear
-  /// between keyframes, constant before the first and after the last. Their times increase. It changes once a frame.
+  /// By what the rest length of "distance", the longest one of "distance_limit", the rest volume of "tetrahedron_volume" or the rest stretch
+  /// of "fibre" is multiplied: linear between keyframes, constant before the first and after the last. Their times increase. It changes
+  /// once a frame.
   std::vector<RestKeyframe> keyframes{};
+  /// Force at which one of them breaks: World::step removes it and tells in Report::torn. Of "distance", "distance_limit",
+  /// "point_on_triangle" and "point_in_tetrahedron" with a compliance, by which the force is known; 0: they hold [N]
+  float break_force = 0;
 };
 
 /// A constraint type: its name, slots, rows and rest data.

@@ -29,6 +29,7 @@
 #include "pliant/shape.h"
 #include "pliant/soft_body.h"
 #include "pliant/state.h"
+#include "pliant/stitch.h"
 #include "pliant/substep_bounds.h"
 #include "pliant/surface.h"
 #include "pliant/vec3.h"

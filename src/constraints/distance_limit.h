@@ -18,12 +18,13 @@ struct DistanceLimit {
   using slots = Points<2>;
   static constexpr int rows = 1;
   static constexpr bool unit_gradients = true;
+  static constexpr bool rest_scales = true;
 
   template <class R>
   struct Params {
-    R shortest, longest;  ///< [m]
+    R longest, shortest;  ///< [m]
   };
-  static constexpr std::array<const char*, 2> fields{"shortest", "longest"};
+  static constexpr std::array<const char*, 2> fields{"longest", "shortest"};
 
   /// Between the limits, and for coincident points, C and the gradient are such that nothing moves.
   template <class R>
@@ -40,7 +41,7 @@ struct DistanceLimit {
   template <class R>
   PLIANT_HD static Params<R> measure(const Vec3<R> (&x)[2]) {
     const Vec3<R> d = x[1] - x[0];
-    return {R(0), sqrt(dot(d, d))};
+    return {sqrt(dot(d, d)), R(0)};
   }
 
   static void canonical(std::array<int, 2>& particle, Params<float>&) {

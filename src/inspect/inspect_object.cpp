@@ -6,6 +6,7 @@
 
 #include "constraints/registry.h"
 #include "inspect/problems.h"
+#include "matter/break_constraints.h"
 #include "pliant/error.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"
@@ -183,7 +184,7 @@ void check_keyframes(Problems& problems, const ConstraintGroup& group, const std
   if (group.keyframes.empty()) return;
   if (!constraint_type(find_constraint_type(group.type)).rest_scales)
     problems.grave(element, "have keyframes, but constraints of this type have no size at rest",
-                   "give keyframes to distance, tetrahedron_volume or fibre constraints");
+                   "give keyframes to distance, distance_limit, tetrahedron_volume or fibre constraints");
   if (group.plasticity)
     problems.grave(element, "have both keyframes and a plasticity, which both change the rest data", "choose one");
   for (std::size_t i = 0; i < group.keyframes.size(); ++i) {
@@ -195,6 +196,23 @@ void check_keyframes(Problems& problems, const ConstraintGroup& group, const std
       problems.grave(element, "have keyframe " + of(i) + " at a time that is not after the one before",
                      "sort them by time");
   }
+}
+
+void check_break_force(Problems& problems, const ConstraintGroup& group, const std::string& element) {
+  if (group.break_force == 0) return;
+  if (!(group.break_force > 0 && group.break_force <= 1e30f))
+    problems.grave(element, "have a break_force of " + words(static_cast<double>(group.break_force)),
+                   "give more than 0 N, or 0 for those that hold");
+  if (!breaks_by_force(group.type))
+    problems.grave(element, "have a break_force, but their type tells no force",
+                   "give it to distance, distance_limit, point_on_triangle or point_in_tetrahedron constraints");
+  const bool yields = group.stiffness.kind == Stiffness::Kind::compliance &&
+                      (group.compliances.empty() ? group.stiffness.value > 0
+                                                 : std::all_of(group.compliances.begin(), group.compliances.end(),
+                                                               [](float compliance) { return compliance > 0; }));
+  if (!yields)
+    problems.grave(element, "have a break_force but no compliance, by which the force would be known",
+                   "give a compliance in m/N, as 1e-5");
 }
 
 void check_group(Problems& problems, const Object& object, const ConstraintGroup& group) {
@@ -218,6 +236,7 @@ void check_group(Problems& problems, const Object& object, const ConstraintGroup
   check_compliances(problems, group, count, kind);
   check_plasticity(problems, group, group.type + " constraints");
   check_keyframes(problems, group, group.type + " constraints");
+  check_break_force(problems, group, group.type + " constraints");
 }
 
 // ------------------------------------------------------------------------------------------------ surface and volume

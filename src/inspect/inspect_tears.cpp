@@ -27,7 +27,7 @@ bool is_never_reached(const Object& object) {
       const auto a = static_cast<std::size_t>(group.particles[2 * i]),
                  b = static_cast<std::size_t>(group.particles[2 * i + 1]);
       if (a >= object.positions.size() || b >= object.positions.size()) continue;
-      if (group.rest[2 * i + 1] < object.tearing->stretch * length(object.positions[b] - object.positions[a])) return true;
+      if (group.rest[2 * i] < object.tearing->stretch * length(object.positions[b] - object.positions[a])) return true;
     }
   }
   return false;

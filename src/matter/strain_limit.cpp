@@ -24,8 +24,8 @@ ConstraintGroup limit_edges(const std::vector<Vec3f>& positions, std::vector<std
                 b = convert<double>(positions[static_cast<std::size_t>(edge[1])]);
     const double rest = length(b - a);
     group.particles.insert(group.particles.end(), {edge[0], edge[1]});
-    group.rest.push_back(static_cast<float>(rest * static_cast<double>(limit.least)));
     group.rest.push_back(static_cast<float>(rest * static_cast<double>(limit.most)));
+    group.rest.push_back(static_cast<float>(rest * static_cast<double>(limit.least)));
   }
   return group;
 }

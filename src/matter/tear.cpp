@@ -7,6 +7,7 @@
 
 #include "constraints/distance_limit.h"
 #include "math/disjoint_sets.h"
+#include "matter/break_constraints.h"
 #include "matter/edit_parts.h"
 #include "matter/plane_sides.h"
 #include "matter/tears.h"
@@ -30,25 +31,11 @@ std::vector<char> held_particles(const Object& object) {
 
 namespace {
 
-/// Throws an Error if an object has no mass for each particle, or a link uses a particle that does not exist, or has no rest length.
-void require_sound(const Object& object) {
-  require_masses(object);
-  for (const ConstraintGroup& group : object.constraints) {
-    if (find_constraint_type(group.type) < 0 || !is_length(group.type)) continue;
-    const ConstraintType& type = type_of(group, object);
-    const std::size_t count = group.particles.size() / 2;
-    for (std::size_t c = 0; c < count; ++c) (void)points_of(type, stencil_of(group, 2, static_cast<int>(c)), object);
-    if (!group.rest.empty() && group.rest.size() != count)
-      throw Error({.object = object.name, .element = group.type + " constraints"},
-                  "have " + std::to_string(group.rest.size()) + " rest lengths for " + std::to_string(count),
-                  "give one for each, or none");
-  }
-}
-
-/// The ends of links, both ways round.
+/// The ends of those that have two, both ways round.
 std::set<std::vector<int>> ends_of(const Object& object, const std::set<std::pair<int, int>>& links) {
   std::set<std::vector<int>> ends;
   for (const auto& [group, number] : links) {
+    if (slots_of(object.constraints[static_cast<std::size_t>(group)], object) != 2) continue;
     const std::vector<int>& particles = object.constraints[static_cast<std::size_t>(group)].particles;
     const int a = particles[static_cast<std::size_t>(2 * number)], b = particles[static_cast<std::size_t>(2 * number + 1)];
     ends.insert({a, b});
@@ -57,7 +44,9 @@ std::set<std::vector<int>> ends_of(const Object& object, const std::set<std::pai
   return ends;
 }
 
-Object without_links(const Object& object, const std::set<std::pair<int, int>>& links) {
+}  // namespace
+
+Object without_constraints(const Object& object, const std::set<std::pair<int, int>>& links) {
   Object without = object;
   const std::set<std::vector<int>> ends = ends_of(object, links);
   for (std::size_t g = 0; g < object.constraints.size() && !links.empty(); ++g) {
@@ -71,6 +60,23 @@ Object without_links(const Object& object, const std::set<std::pair<int, int>>& 
     without.constraints[g] = std::move(kept);
   }
   return without;
+}
+
+namespace {
+
+/// Throws an Error if an object has no mass for each particle, or a link uses a particle that does not exist, or has no rest length.
+void require_sound(const Object& object) {
+  require_masses(object);
+  for (const ConstraintGroup& group : object.constraints) {
+    if (find_constraint_type(group.type) < 0 || !is_length(group.type)) continue;
+    const ConstraintType& type = type_of(group, object);
+    const std::size_t count = group.particles.size() / 2;
+    for (std::size_t c = 0; c < count; ++c) (void)points_of(type, stencil_of(group, 2, static_cast<int>(c)), object);
+    if (!group.rest.empty() && group.rest.size() != count)
+      throw Error({.object = object.name, .element = group.type + " constraints"},
+                  "have " + std::to_string(group.rest.size()) + " rest lengths for " + std::to_string(count),
+                  "give one for each, or none");
+  }
 }
 
 /// The pieces of an object: particles that tetrahedra, triangles and links join.
@@ -126,7 +132,7 @@ Edit then(const Edit& first, Edit second) {
 /// The Edit that breaks an object; nothing if no particle splits and no link goes. Held particles are not split, because their copies would
 /// be held in one place.
 std::optional<Edit> broken(const Object& object, const Breaks& at) {
-  Edit edit = unchanged(without_links(object, at.links));
+  Edit edit = unchanged(without_constraints(object, at.links));
   if (!at.edges.empty()) edit = then(edit, cut_edges(edit.object, at.edges, held_particles(edit.object)));
   const bool is_open = edit.object.positions.size() > object.positions.size();
   if (!at.faces.empty()) edit = then(edit, cut_faces(edit.object, at.faces, held_particles(edit.object)));
@@ -165,6 +171,8 @@ void add_cut(const Object& object, const PlaneCut& cut, double time, Breaks& bre
 }
 
 }  // namespace
+
+bool comes_apart(const Object& object) { return object.tearing || !object.cuts.empty() || can_break(object); }
 
 std::optional<Edit> tear(const Object& object, std::span<const Vec3f> positions) {
   if (positions.size() != object.positions.size())

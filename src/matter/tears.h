@@ -23,6 +23,9 @@ struct Breaks {
   bool any() const { return !edges.empty() || !faces.empty() || !links.empty(); }
 };
 
+/// An object without some of its constraints, given by group and number in it, and without the limits of the lengths that go.
+Object without_constraints(const Object& object, const std::set<std::pair<int, int>>& constraints);
+
 /// Where edges and links of a surface or rope are too long (Object::tearing) at these positions.
 Breaks tears_of_surface(const Object& object, std::span<const Vec3f> positions);
 /// The faces along which tetrahedra come apart that are.

@@ -118,6 +118,12 @@ void follow_rest_factors(WorldData& world, double time) {
   }
 }
 
+float rest_factor_of(const WorldData& world, int object, int group) {
+  if (const RestFactor* held = held_factor(world.state, {object, group, 0})) return held->factor;
+  const ScaledGroup* scaled = find_group(world.model.objects[static_cast<std::size_t>(object)], group);
+  return scaled == nullptr ? 1 : scaled->factor_at(world.state.time);
+}
+
 void keep_flowed(WorldData& world) {
   world.state.flowed.clear();
   for (const CompiledObject& object : world.model.objects) append_flowed(object, world.state.flowed);

@@ -11,6 +11,9 @@ namespace pliant {
 /// Multiplies rest data by the factors of a time [s]: those that were set, else those of the keyframes.
 void follow_rest_factors(WorldData& world, double time);
 
+/// The present factor of a group's rest data; 1 if it has no keyframes.
+float rest_factor_of(const WorldData& world, int object, int group);
+
 /// Keeps what has flowed in the State.
 void keep_flowed(WorldData& world);
 

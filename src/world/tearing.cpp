@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "matter/break_constraints.h"
 #include "matter/edit_parts.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
@@ -147,6 +148,13 @@ void tear_object(WorldData& world, ObjectId id, Report& report) {
   if (std::any_of(cuts.begin(), cuts.end(), [&](const PlaneCut& cut) { return is_due(cut, torn.cut_until, now); }))
     if (const std::optional<Edit> edit = make_cuts(torn.object, now)) open_up(world, id, *edit, report);
   torn.cut_until = now;
+  if (can_break(torn.object)) {
+    const int number = world.number(id);
+    const auto factor = [&](int group) { return rest_factor_of(world, number, group); };
+    const std::vector<Vec3f> positions = ObjectView(world, id).positions();
+    if (const std::optional<Edit> edit = break_constraints(torn.object, positions, factor))
+      open_up(world, id, *edit, report);
+  }
   if (!torn.object.tearing) return;
   if (const std::optional<Edit> edit = tear(torn.object, ObjectView(world, id).positions()))
     open_up(world, id, *edit, report);
@@ -155,7 +163,7 @@ void tear_object(WorldData& world, ObjectId id, Report& report) {
 }  // namespace
 
 void keep_description(WorldData& world, int slot, const Object* object) {
-  if (object == nullptr || !is_torn_by_world(*object)) {
+  if (object == nullptr || !comes_apart(*object)) {
     world.descriptions.erase(slot);
     return;
   }

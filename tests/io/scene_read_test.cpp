@@ -119,7 +119,7 @@ TEST_F(FullScene, HasItsSheetInPlace) {
   EXPECT_EQ(sheet.velocities, std::vector<Vec3f>(12, Vec3f{0, 0, 7}));
   EXPECT_EQ(sheet.thickness, 0.003f);
   EXPECT_EQ(sheet.constraints.back().type, "distance_limit");
-  EXPECT_EQ(sheet.constraints.back().rest[1], 2.5f * sheet.constraints.back().rest[0]);
+  EXPECT_EQ(sheet.constraints.back().rest[0], 2.5f * sheet.constraints.back().rest[1]);
   EXPECT_EQ(sheet.restitution, 0.375f);
   EXPECT_EQ(sheet.rolling_friction, 0.0625f);
   EXPECT_EQ(sheet.spinning_friction, 0.03125f);
@@ -200,7 +200,7 @@ TEST_F(FullScene, HasItsRopes) {
   const Object& line = scene.objects.at(3);
   EXPECT_EQ(line.positions, (std::vector<Vec3f>{{0, 0, 0}, {0, -1, 0}, {0, -2, 0}, {0, -3, 0}, {0, -4, 0}}));
   EXPECT_FLOAT_EQ(line.masses[1], 0.5f);
-  ASSERT_EQ(line.constraints.size(), 2U);
+  ASSERT_EQ(line.constraints.size(), 3U);  // stitches, too
   EXPECT_EQ(line.constraints[1].stiffness.value, 0.25f);
   ASSERT_EQ(line.pins.size(), 2U);
   EXPECT_EQ(line.pins[1].particle, 4);
@@ -242,6 +242,21 @@ TEST_F(FullScene, HasClusters) {
   EXPECT_EQ(rope->clusters[1].plasticity->yield, 0.25f);
   EXPECT_EQ(rope->clusters[1].plasticity->rate, 2.f);
   EXPECT_EQ(rope->clusters[1].plasticity->most, 0.5f);
+}
+
+TEST_F(FullScene, HasStitches) {
+  const auto rope =
+      std::find_if(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return !o.clusters.empty(); });
+  ASSERT_NE(rope, scene.objects.end());
+  const ConstraintGroup& stitches = rope->constraints.back();
+  EXPECT_EQ(stitches.type, "distance_limit");
+  EXPECT_EQ(stitches.particles, (std::vector<int>{0, 3}));  // the nearer end
+  EXPECT_EQ(stitches.rest, (std::vector<float>{3, 0}));
+  EXPECT_EQ(stitches.stiffness.value, 0.125f);
+  EXPECT_EQ(stitches.break_force, 16.f);
+  ASSERT_EQ(stitches.keyframes.size(), 2u);
+  EXPECT_EQ(stitches.keyframes[1].time, 0.5f);
+  EXPECT_EQ(stitches.keyframes[1].factor, 0.f);
 }
 
 TEST_F(FullScene, HasItsGases) {
@@ -340,6 +355,7 @@ TEST_F(FullScene, HasItsParticles) {
   ASSERT_EQ(object.constraints[0].keyframes.size(), 2U);
   EXPECT_EQ(object.constraints[0].keyframes[1].time, 3.f);
   EXPECT_EQ(object.constraints[0].keyframes[1].factor, 2.f);
+  EXPECT_EQ(object.constraints[0].break_force, 8.f);
   ASSERT_TRUE(object.constraints[1].plasticity);
   EXPECT_EQ(object.constraints[1].plasticity->yield, 0.5f);
   EXPECT_EQ(object.constraints[0].type, "distance");

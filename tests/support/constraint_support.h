@@ -156,7 +156,10 @@ Stencil<T, double> random_stencil(Random& random) {
 /// Rest data measured at another random stencil, so that C is not zero; for the plane contact, a random plane.
 template <class T>
 ParamsOf<T, double> random_params(Random& random) {
-  if constexpr (measures<T>) {
+  if constexpr (std::is_same_v<T, DistanceLimit>) {  // beyond one of its limits, as it does nothing between
+    const double length = uniform(random, 0, 0.05);
+    return uniform(random, 0, 1) < 0.5 ? ParamsOf<T, double>{length, 0} : ParamsOf<T, double>{20, 10 + length};
+  } else if constexpr (measures<T>) {
     return measure<T, double>(random_stencil<T>(random));
   } else {
     const Vec3d normal = rotate(random_rotation(random), Vec3d{0, 1, 0});

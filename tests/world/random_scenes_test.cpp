@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <random>
+#include <string_view>
 
 #include "pliant/error.h"
 #include "support/sanitized.h"
@@ -54,12 +56,17 @@ Stiffness random_stiffness(Dice& dice) {
   }
 }
 
+constexpr std::string_view first_types[] = {"distance", "dihedral_bending",  "isometric_bending",
+                                            "fibre",    "tetrahedron_shear", "tetrahedron_volume"};
+
 void add_random_constraints(Dice& all, Object& object, float scale) {
   const int particles = static_cast<int>(object.positions.size());
   for (const ConstraintType& type : constraint_types()) {
-    // Types of several rows use a copy of the dice, so that a new one leaves everything else in the scenes as it was.
+    // All but the first types use a copy of the dice, so that a new one leaves everything else in the scenes as it was.
     Dice copy = all;
-    Dice& dice = type.rows > 1 ? copy : all;
+    const bool is_of_the_first =
+        std::find(std::begin(first_types), std::end(first_types), type.name) != std::end(first_types);
+    Dice& dice = is_of_the_first ? all : copy;
     const bool has_frames = std::find(type.slots.begin(), type.slots.end(), SlotKind::frame) != type.slots.end();
     if (has_frames || type.stencil_size > particles || dice.one_in(3)) continue;  // these objects have no frames
     ConstraintGroup group{type.name, {}, {}, random_stiffness(dice), {}};

@@ -1,0 +1,94 @@
+#include "matter/break_constraints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "constraints/distance_limit.h"
+#include "constraints/point_in_tetrahedron.h"
+#include "constraints/point_on_triangle.h"
+#include "constraints/registry.h"
+#include "matter/edit_parts.h"
+#include "matter/tears.h"
+
+namespace pliant {
+
+namespace {
+
+/// The force of constraint `number` of a group: |C| over its compliance [N].
+class ForceOf {
+ public:
+  ForceOf(const Object& object, std::span<const Vec3f> positions, const ConstraintGroup& group, double factor)
+      : object_(object), positions_(positions), group_(group), type_(constraint_type(find_constraint_type(group.type))) {
+    factor_ = type_.rest_scales ? factor : 1;
+  }
+
+  double operator()(int number) const {
+    const std::size_t slots = type_.slots.size(), fields = type_.rest_fields.size(),
+                      rows = static_cast<std::size_t>(type_.rows);
+    std::vector<double> at = slots_at(number, positions_), rest(std::max<std::size_t>(fields, 1)), c(rows),
+                        gradients(rows * slots * 3);
+    if (!group_.rest.empty()) {
+      for (std::size_t f = 0; f < fields; ++f)
+        rest[f] = static_cast<double>(group_.rest[static_cast<std::size_t>(number) * fields + f]);
+    } else {
+      const std::vector<double> start = slots_at(number, object_.positions);
+      type_.measure(start.data(), rest.data());
+    }
+    rest[0] *= factor_;
+    type_.evaluate_double(at.data(), rest.data(), c.data(), gradients.data());
+    double squares = 0;
+    for (const double one : c) squares += one * one;
+    const float alpha =
+        group_.compliances.empty() ? group_.stiffness.value : group_.compliances[static_cast<std::size_t>(number)];
+    return alpha > 0 ? std::sqrt(squares) / static_cast<double>(alpha) : 0;
+  }
+
+ private:
+  /// Relative to the first particle, so that rounding does not grow with the distance from the origin.
+  std::vector<double> slots_at(int number, std::span<const Vec3f> positions) const {
+    const std::vector<int> stencil = stencil_of(group_, static_cast<int>(type_.slots.size()), number);
+    const Vec3d origin = convert<double>(positions[static_cast<std::size_t>(stencil[0])]);
+    std::vector<double> out;
+    for (const int particle : stencil) {
+      const Vec3d x = convert<double>(positions[static_cast<std::size_t>(particle)]) - origin;
+      out.insert(out.end(), {x.x, x.y, x.z, 0});
+    }
+    return out;
+  }
+
+  const Object& object_;
+  std::span<const Vec3f> positions_;
+  const ConstraintGroup& group_;
+  const ConstraintDefinition& type_;
+  double factor_ = 1;
+};
+
+}  // namespace
+
+bool breaks_by_force(const std::string& type) {
+  return is_length(type) || type == DistanceLimit::name || type == PointOnTriangle::name ||
+         type == PointInTetrahedron::name;
+}
+
+bool can_break(const Object& object) {
+  return std::any_of(object.constraints.begin(), object.constraints.end(),
+                     [](const ConstraintGroup& group) { return group.break_force > 0; });
+}
+
+std::optional<Edit> break_constraints(const Object& object, std::span<const Vec3f> positions,
+                                      const std::function<float(int group)>& factor) {
+  std::set<std::pair<int, int>> broken;
+  for (int g = 0; g < static_cast<int>(object.constraints.size()); ++g) {
+    const ConstraintGroup& group = object.constraints[static_cast<std::size_t>(g)];
+    if (!(group.break_force > 0) || !breaks_by_force(group.type)) continue;
+    const ForceOf force(object, positions, group, static_cast<double>(factor(g)));
+    const int count = static_cast<int>(group.particles.size()) / slots_of(group, object);
+    for (int c = 0; c < count; ++c)
+      if (force(c) > static_cast<double>(group.break_force)) broken.insert({g, c});
+  }
+  if (broken.empty()) return {};
+  return unchanged(without_constraints(object, broken));
+}
+
+}  // namespace pliant
