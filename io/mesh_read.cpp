@@ -24,7 +24,8 @@ enum class Format { unknown, obj, ply, stl };
 bool starts_with(std::string_view bytes, std::string_view start) { return bytes.substr(0, start.size()) == start; }
 
 constexpr const char* of_tetrahedra =
-    "give an OBJ, PLY or STL file; tetrahedra are read by the `soft_body` of a scene, and by read_tetrahedral_mesh";
+    "give an OBJ, PLY or STL file; in a scene a soft_body reads tetrahedra as {\"tetrahedra\": {\"file\": ...}}, in code "
+    "read_tetrahedral_mesh";
 
 /// Throws an Error for known types of files that are often mistaken for meshes.
 void refuse_what_is_known(std::string_view bytes, const std::string& name) {

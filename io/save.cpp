@@ -9,6 +9,7 @@
 #include "core/sha256.h"
 #include "io/save_archive.h"
 #include "io/save_file.h"
+#include "pliant/edit.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -198,6 +199,12 @@ std::string hash_of(const T& of, const More&... more) {
   return sha.finish();
 }
 
+std::size_t count_of(const Object& object) {
+  std::size_t count = 0;
+  for (const ConstraintGroup& group : object.constraints) count += group.particles.size();
+  return count;
+}
+
 void refuse_other_scene(const World& world, const Scene& scene) {
   const auto refuse = [](const Location& where, const std::string& problem) {
     throw Error(where, problem, "pass a scene of the World's current contents, in the order of its ids");
@@ -218,6 +225,8 @@ void refuse_other_scene(const World& world, const Scene& scene) {
       refuse(where, "is '" + object.name + "' in the scene and '" + info.name + "' in the World");
     if (static_cast<std::size_t>(info.particles) != object.positions.size())
       refuse(where, fmt::format("has {} particles, and {} in the World", object.positions.size(), info.particles));
+    if (comes_apart(object) && count_of(object) != count_of(world.object(objects[o]).description()))
+      refuse(where, "has constraints that have broken in the World");
   }
 }
 

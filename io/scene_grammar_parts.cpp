@@ -249,7 +249,8 @@ const Record& fabric_record() {
              "Membrane stiffness: force per width and strain; of woven cloth along the warp."),
        field("weft_stiffness", number("N/m", 0), "0: that of `stretch_stiffness`", "Of woven cloth across the warp."),
        field("shear_stiffness", number("N/m", 0), Fabric{}.shear_stiffness,
-             "Of woven cloth: shear force per width, over the shear angle in radians."),
+             "Of woven cloth: shear force per width, over the shear angle in radians; 0: a hundredth of "
+             "`stretch_stiffness`."),
        field("bending_stiffness", number("N m", 0), Fabric{}.bending_stiffness, "Flexural rigidity per width."),
        field("bending_damping", share(), Fabric{}.bending_damping, "Fraction of critical damping of bending."),
        field("static_friction", number("-", 0, 1000), Fabric{}.static_friction, "Coefficient of static friction."),

@@ -62,7 +62,7 @@ const Record& tetrahedra_record() {
       {either("file", string(),
               "Path of a tetrahedral mesh, relative to the folder of the scene: TetGen .node or .ele, Gmsh .msh, VTK .vtk "
               "or .vtu, "
-              "Medit .mesh, or "
+              "Medit .mesh or .meshb, or "
               ".t (docs/guide/soft_bodies.md)."),
        either("box", record(tetrahedral_box_record()), "A box."),
        field("fit", positive("m", largest_place), "none",

@@ -1,4 +1,5 @@
 // Builds what holds an object's particles: pins, attachments, and the parts that are tied to its bodies.
+#include <algorithm>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -77,6 +78,14 @@ void set_stitches(const JsonDocument& document, const JsonValue& at, BuiltObject
     set(item, "break_force", options.break_force);
     const std::vector<int> particles = selected(document, *item.find("particles"), built),
                            to = selected(document, *item.find("to"), built);
+    for (const int particle : to)
+      if (std::find(particles.begin(), particles.end(), particle) != particles.end() && to.size() > 1)
+        document.fail_key(*item.find("to"), "particle " + std::to_string(particle) + " is on both sides of the seam",
+                          "select the two borders that are to meet");
+    const bool yields = options.stiffness.kind == Stiffness::Kind::compliance && options.stiffness.value > 0;
+    if (options.break_force > 0 && !yields)
+      document.fail_key(*item.find("break_force"), "a thread without a compliance tells no force at which to break",
+                        "give it a `stiffness` of {\"compliance\": 1e-5} m/N or more");
     try {
       add_stitches(built.object, nearest_pairs(built.object, particles, to), options);
     } catch (const Error& error) {

@@ -120,6 +120,12 @@ class VtuReader {
     return vtu_array(text == nullptr ? std::string_view() : text, encoding, refuse);
   }
 
+  template <class To, class From>
+  static To widened(From value) {
+    if constexpr (sizeof(From) == 1) return static_cast<To>(static_cast<int>(value));
+    return static_cast<To>(value);
+  }
+
   template <class From, class To>
   std::vector<To> converted(const std::string& bytes) const {
     std::vector<To> out(bytes.size() / sizeof(From));
@@ -129,7 +135,7 @@ class VtuReader {
       if (encoding_.has_big_end_first) std::reverse(raw, raw + sizeof raw);
       From value{};
       std::memcpy(&value, raw, sizeof raw);
-      out[i] = static_cast<To>(value);
+      out[i] = widened<To>(value);
     }
     return out;
   }

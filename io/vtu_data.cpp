@@ -1,6 +1,7 @@
 #include "vtu_data.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -84,13 +85,24 @@ class VtuBytes {
 };
 
 #ifdef PLIANT_ZLIB
+/// Piece by piece, so that memory grows with what really comes out.
 void inflate_to(const std::string& from, std::size_t size, std::string& out, const VtuFail& fail) {
-  std::string block(size, '\0');
-  auto length = static_cast<uLongf>(size);
-  const int result = uncompress(reinterpret_cast<Bytef*>(block.data()), &length,
-                                reinterpret_cast<const Bytef*>(from.data()), static_cast<uLong>(from.size()));
-  if (result != Z_OK || length != size) fail("has a block that zlib cannot read", "the file is damaged: export it again");
-  out += block;
+  std::array<char, 1 << 16> piece;
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) fail("cannot be inflated", "give zlib more memory");
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(from.data()));  // zlib does not write to it
+  stream.avail_in = static_cast<uInt>(from.size());
+  const std::size_t start = out.size();
+  int result = Z_OK;
+  while (result == Z_OK && out.size() - start <= size) {
+    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+    stream.avail_out = static_cast<uInt>(piece.size());
+    result = inflate(&stream, Z_NO_FLUSH);
+    out.append(piece.data(), piece.size() - stream.avail_out);
+  }
+  inflateEnd(&stream);
+  if (result != Z_STREAM_END || out.size() - start != size)
+    fail("has a block that zlib cannot read", "the file is damaged: export it again");
 }
 #else
 void inflate_to(const std::string&, std::size_t, std::string&, const VtuFail& fail) {

@@ -138,7 +138,7 @@ struct Fabric {
   float kinetic_friction = 0.3f;    ///< coefficient of friction while sliding [-]
   std::string source;               ///< where the numbers come from
   float weft_stiffness = 0;   ///< of woven cloth across the warp, >= 0; 0: that of the warp, `stretch_stiffness` [N/m]
-  float shear_stiffness = 0;  ///< of woven cloth: shear force per width, over the shear angle in radians, >= 0 [N/m]
+  float shear_stiffness = 0;  ///< of woven cloth: shear force per width and angle; 0: `stretch_stiffness` / 100 [N/m]
 };
 
 /// Returns a built-in fabric: "cotton", "silk", "denim", "wool", "leather" or "rubber sheet". For any other name throws

@@ -36,7 +36,7 @@ struct ClothOptions {
   /// What resists stretching. `springs`: the edges, alike in all directions. `woven`: each triangle, by the warp, weft and shear stiffness of
   /// the material (constraint types triangle_stretch and triangle_shear).
   enum class Stretching { springs, woven } stretch_model = Stretching::springs;
-  /// Of `woven`: direction of the warp in the rest shape, of any length but 0. Each triangle has its projection.
+  /// Of `woven`: direction of the warp in the rest shape, of any length but 0. Each triangle has its projection, or that of y or z if none.
   Vec3f warp{0, 0, 1};
   std::optional<Volume> volume{};  ///< makes a balloon; needs a closed mesh
   Vec3f velocity{};                ///< initial velocity [m/s]

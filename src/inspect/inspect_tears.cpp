@@ -22,7 +22,7 @@ bool has_links(const Object& object) {
 /// True if edges are limited to less than the stretch at which they tear.
 bool is_never_reached(const Object& object) {
   for (const ConstraintGroup& group : object.constraints) {
-    if (group.type != DistanceLimit::name) continue;
+    if (group.type != DistanceLimit::name || !group.keyframes.empty()) continue;  // threads
     for (std::size_t i = 0; 2 * i + 1 < std::min(group.particles.size(), group.rest.size()); ++i) {
       const auto a = static_cast<std::size_t>(group.particles[2 * i]),
                  b = static_cast<std::size_t>(group.particles[2 * i + 1]);
@@ -48,7 +48,7 @@ void check_tearing(Problems& problems, const Object& object) {
                       "give a strain_limit whose `most` is above the stretch of the tearing");
   if (!is_soft_body(object) && !has_links(object))
     problems.grave("tearing", "is of an object without distance constraints or tetrahedra, so nothing can tear",
-                   "give it to cloth, a rope or a soft body");
+                   "give it to cloth of springs, a rope or a soft body");
 }
 
 void check_cut(Problems& problems, const PlaneCut& cut, const std::string& name) {

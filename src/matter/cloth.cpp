@@ -202,9 +202,11 @@ Yarns yarns_of(const Piece& piece, std::size_t triangle) {
   const Triangle& t = piece.triangles[triangle];
   const Vec3d edge1 = piece.at(t[1]) - piece.at(t[0]), edge2 = piece.at(t[2]) - piece.at(t[0]);
   const Vec3d across = cross(edge1, edge2), normal = across * (1 / length(across));
-  const Vec3d given = convert<double>(piece.options.warp);
-  Vec3d warp = given - normal * dot(given, normal);
-  if (length_squared(warp) < 1e-6 * length_squared(given)) warp = edge1;  // the yarns go through the triangle
+  Vec3d warp = edge1;
+  for (const Vec3d& wanted : {convert<double>(piece.options.warp), Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) {
+    warp = wanted - normal * dot(wanted, normal);
+    if (length_squared(warp) > 1e-6 * length_squared(wanted)) break;  // else the yarns go through the triangle
+  }
   warp = warp * (1 / length(warp));
   const auto shares = [&](const Vec3d& d) {
     return std::array<float, 2>{static_cast<float>(dot(cross(d, edge2), normal) / length(across)),
@@ -232,6 +234,12 @@ ConstraintGroup yarn_group(const Piece& piece) {
   return group;
 }
 
+/// A fabric that does not say has a hundredth of its stretch stiffness, as woven ones have about.
+double shear_stiffness(const Fabric& material) {
+  constexpr double of_stretch = 0.01;
+  return material.shear_stiffness > 0 ? material.shear_stiffness : of_stretch * material.stretch_stiffness;
+}
+
 /// The same for the shear of each triangle.
 ConstraintGroup shear_group(const Piece& piece) {
   ConstraintGroup group;
@@ -240,7 +248,7 @@ ConstraintGroup shear_group(const Piece& piece) {
     const Yarns yarns = yarns_of(piece, t);
     group.particles.insert(group.particles.end(), piece.triangles[t].begin(), piece.triangles[t].end());
     group.rest.insert(group.rest.end(), {yarns.warp[0], yarns.warp[1], yarns.weft[0], yarns.weft[1]});
-    group.compliances.push_back(as_compliance(1 / (piece.options.material.shear_stiffness * piece.areas[t])));
+    group.compliances.push_back(as_compliance(1 / (shear_stiffness(piece.options.material) * piece.areas[t])));
   }
   return group;
 }
@@ -347,7 +355,7 @@ Object assemble(Piece& piece) {
     cloth.constraints.push_back(stretch_group(piece));
   } else {
     cloth.constraints.push_back(yarn_group(piece));
-    if (options.material.shear_stiffness > 0) cloth.constraints.push_back(shear_group(piece));
+    cloth.constraints.push_back(shear_group(piece));
   }
   if (bends(options)) cloth.constraints.push_back(bending_group(piece));
   if (options.strain_limit) {

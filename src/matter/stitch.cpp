@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "constraints/distance_limit.h"
 #include "constraints/registry.h"
@@ -33,6 +35,32 @@ void require_pairs(const Object& object, std::span<const std::array<int, 2>> pai
   }
 }
 
+/// Throws an Error if a triangle, pin, attachment, cluster or skin names a particle that does not exist.
+void require_indices(const Object& object) {
+  for (const auto& triangle : object.triangles)
+    for (const int corner : triangle) require_particle(object, corner, "triangles");
+  for (const Pin& pin : object.pins) require_particle(object, pin.particle, "pins");
+  for (const Attachment& attachment : object.attachments) require_particle(object, attachment.particle, "attachments");
+  for (const Cluster& cluster : object.clusters)
+    for (const int particle : cluster.particles) require_particle(object, particle, "clusters");
+  if (object.skin)
+    for (const SkinVertex& vertex : object.skin->vertices)
+      for (const int particle : vertex.particles) require_particle(object, particle, "skin");
+}
+
+/// Throws an Error unless a group has rest data and compliances for each of its constraints, or none.
+void require_rows(const Object& object, const ConstraintGroup& group, const ConstraintType& type) {
+  const std::size_t count = group.particles.size() / static_cast<std::size_t>(type.stencil_size);
+  const bool has_rest = group.rest.empty() || group.rest.size() == count * type.rest_fields.size();
+  const bool has_compliances = group.compliances.empty() || group.compliances.size() == count;
+  const bool has_places = std::all_of(object.clusters.begin(), object.clusters.end(), [](const Cluster& cluster) {
+    return cluster.rest.empty() || cluster.rest.size() == cluster.particles.size();
+  });
+  if (!has_rest || !has_compliances || !has_places)
+    throw Error({.object = object.name, .element = group.type + " constraints"},
+                "or clusters have rest data or compliances of another number", "give one for each, or none");
+}
+
 /// Which particles become one, and what number it has.
 class Welding {
  public:
@@ -46,8 +74,8 @@ class Welding {
         of_set = static_cast<int>(from_.size());
         from_.push_back(static_cast<int>(i));
       }
-      int& heaviest = from_[static_cast<std::size_t>(of_set)];
-      if (object.masses[i] > object.masses[static_cast<std::size_t>(heaviest)]) heaviest = static_cast<int>(i);
+      int& chosen = from_[static_cast<std::size_t>(of_set)];
+      if (weight(static_cast<int>(i)) > weight(chosen)) chosen = static_cast<int>(i);
     }
     for (std::size_t i = 0; i < number_.size(); ++i) number_[i] = number_[sets_.root(i)];
   }
@@ -69,6 +97,7 @@ class Welding {
     hold(to.pins);
     hold(to.attachments);
     for (Cluster& cluster : to.clusters) weld_cluster(cluster);
+    std::erase_if(to.clusters, [](const Cluster& cluster) { return cluster.particles.size() < 2; });
     if (to.skin)
       for (SkinVertex& vertex : to.skin->vertices)
         for (int& particle : vertex.particles) particle = number_[static_cast<std::size_t>(particle)];
@@ -76,6 +105,13 @@ class Welding {
   }
 
  private:
+  /// What is pinned stays where its pin is, then what is fixed, then the heaviest.
+  std::pair<bool, float> weight(int particle) const {
+    const bool is_pinned =
+        std::any_of(object_.pins.begin(), object_.pins.end(), [&](const Pin& pin) { return pin.particle == particle; });
+    return {is_pinned, object_.masses[static_cast<std::size_t>(particle)]};
+  }
+
   std::size_t at(int particle) const { return static_cast<std::size_t>(number_[static_cast<std::size_t>(particle)]); }
 
   /// A group with its rest data, which the places of welded particles no longer tell.
@@ -103,6 +139,7 @@ class Welding {
     for (std::size_t c = 0; c < count; ++c) {
       const std::vector<int> stencil = stencil_of(given, static_cast<int>(slots), static_cast<int>(c));
       std::vector<int> to;
+      to.reserve(stencil.size());
       for (const int particle : stencil) to.push_back(number_[static_cast<std::size_t>(particle)]);
       const std::set<int> before(stencil.begin(), stencil.end()), after(to.begin(), to.end());
       if (after.size() == before.size()) append(given, static_cast<int>(c), to, 1, out);
@@ -201,9 +238,14 @@ Edit weld(const Object& object, std::span<const std::array<int, 2>> pairs) {
   if (!object.bodies.empty() || object.fluid || object.gas || object.grains || object.tracers)
     throw Error({.object = object.name}, "has rigid bodies, or is a liquid, gas or grains, whose particles stay apart",
                 "weld cloth, ropes, soft bodies or plain particles");
+  if (object.absorbency)
+    throw Error({.object = object.name}, "takes up liquid, of which welding would lose some",
+                "weld it before it gets wet, without its absorbency");
+  require_indices(object);
   for (const ConstraintGroup& group : object.constraints) {
     const ConstraintType& type = type_of(group, object);
     const auto slots = static_cast<std::size_t>(type.stencil_size);
+    require_rows(object, group, type);
     for (std::size_t c = 0; c < group.particles.size() / slots; ++c)
       (void)points_of(type, stencil_of(group, type.stencil_size, static_cast<int>(c)), object);
     if (std::any_of(type.slots.begin(), type.slots.end(), [](SlotKind kind) { return kind == SlotKind::frame; }))

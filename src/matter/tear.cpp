@@ -31,13 +31,14 @@ std::vector<char> held_particles(const Object& object) {
 
 namespace {
 
-/// The ends of those that have two, both ways round.
+/// The ends of those that are links, both ways round.
 std::set<std::vector<int>> ends_of(const Object& object, const std::set<std::pair<int, int>>& links) {
   std::set<std::vector<int>> ends;
   for (const auto& [group, number] : links) {
-    if (slots_of(object.constraints[static_cast<std::size_t>(group)], object) != 2) continue;
+    if (!is_length(object.constraints[static_cast<std::size_t>(group)].type)) continue;
     const std::vector<int>& particles = object.constraints[static_cast<std::size_t>(group)].particles;
-    const int a = particles[static_cast<std::size_t>(2 * number)], b = particles[static_cast<std::size_t>(2 * number + 1)];
+    const int* const first = particles.data() + 2 * std::ptrdiff_t{number};
+    const int a = first[0], b = first[1];
     ends.insert({a, b});
     ends.insert({b, a});
   }

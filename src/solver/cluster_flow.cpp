@@ -1,5 +1,7 @@
 // Plastic flow of clusters: their rest shapes take on what they are stretched and sheared by.
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "math/functions.h"
 #include "math/isochoric_strain.h"
@@ -34,7 +36,7 @@ Matrix3d deformation(const CompiledClusters& clusters, const CompiledCluster& cl
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         sums[3 * i + j] += of_r[i] * q[j];
-        moments[static_cast<std::size_t>(3 * i + j)] += member.weight * q[i] * q[j];
+        moments[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(j)] += member.weight * q[i] * q[j];
       }
   }
   if (is_flat(moments, 3)) return {};
@@ -44,6 +46,15 @@ Matrix3d deformation(const CompiledClusters& clusters, const CompiledCluster& cl
   return product(sums, by);
 }
 
+/// True if a deformation leaves less than a thousandth in one direction, or inverts: its strain in that direction would be rounding.
+bool is_pressed_flat(const Matrix3d& f) {
+  double squares = 0;
+  for (const double element : f.elements) squares += element * element;
+  constexpr double thinnest = 1e-3;
+  const double mean = squares / 3;
+  return !(determinant(f) > thinnest * mean * sqrt(mean));
+}
+
 }  // namespace
 
 void let_cluster_flow(CompiledClusters& clusters, PlasticCluster& plastic, const SweepArguments& a, double h) {
@@ -51,7 +62,7 @@ void let_cluster_flow(CompiledClusters& clusters, PlasticCluster& plastic, const
   if (!(cluster.size > 0)) return;
   const Matrix3d f = deformation(clusters, cluster, a);
   const double yield = static_cast<double>(plastic.law.yield), rate = static_cast<double>(plastic.law.rate);
-  if (!(determinant(f) > 0) || is_surely_below(f, yield)) return;
+  if (is_pressed_flat(f) || is_surely_below(f, yield)) return;
   const IsochoricStrain strain(f);
   const double equivalent = strain.equivalent();
   if (!(equivalent > yield) || !(equivalent < 1e30)) return;
@@ -65,6 +76,7 @@ void let_cluster_flow(CompiledClusters& clusters, PlasticCluster& plastic, const
     const double size = of.equivalent();
     if (size > most) stretch = product(stretch, of.power(most / size - 1));
   }
+  if (!(std::isfinite(determinant(stretch)) && !is_pressed_flat(stretch))) return;
   std::array<float, 9> out;
   for (int i = 0; i < 9; ++i) out[static_cast<std::size_t>(i)] = static_cast<float>(stretch[i]);
   set_stretch(clusters, plastic, out);

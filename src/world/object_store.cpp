@@ -57,8 +57,7 @@ bool owns(const CompiledObject& object, const Channel& channel) {
   if (channel.name == temperature_channel) return object.gas.has_value();
   if (channel.name == age_channel) return object.tracers.has_value();
   if (channel.name == water_channel) return object.absorbency.is_used;
-  if (channel.name == rest_time_channel || channel.name == rest_shift_channel) return false;  // an edit wakes
-  return true;
+  return channel.name != rest_time_channel && channel.name != rest_shift_channel;  // an edit wakes
 }
 
 /// Returns the State of an object, and sets that part of the State to zero.

@@ -96,13 +96,30 @@ KeyedCluster key_of(const CompiledClusters& clusters, const PlasticCluster& plas
   std::vector<std::pair<int, Vec3f>> members;
   for (std::size_t i = 0; i < plastic.given.size(); ++i)
     members.emplace_back(name(clusters.members[static_cast<std::size_t>(cluster.first) + i].particle), plastic.given[i]);
-  std::sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };  // what a particle has split into
+  members.erase(std::unique(members.begin(), members.end(), same), members.end());
   KeyedCluster out{{-1}, {}};  // no constraint type
   for (const auto& [particle, place] : members) {
     out.key.push_back(particle);
     out.given.insert(out.given.end(), {place.x, place.y, place.z});
   }
   return out;
+}
+
+/// What the cluster had that these particles belonged to, with these rest places: the same, or one that has been divided.
+const FlowedData* find_whole(const FlowedRest& flowed, const KeyedCluster& part) {
+  if (const auto same = flowed.find(part.key); same != flowed.end() && same->second.start == part.given)
+    return &same->second;
+  for (auto at = flowed.lower_bound({-1}); at != flowed.end() && at->first[0] == -1; ++at) {
+    std::size_t found = 1, of = 1;
+    for (; found < part.key.size() && of < at->first.size(); ++of)
+      if (part.key[found] == at->first[of] &&
+          std::equal(&part.given[3 * (found - 1)], &part.given[3 * (found - 1)] + 3, &at->second.start[3 * (of - 1)]))
+        ++found;
+    if (found == part.key.size()) return &at->second;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -198,10 +215,10 @@ void carry_flowed(const FlowedRest& flowed, const std::vector<int>& slot_before,
   for (PlasticCluster& plastic : object.clusters.plastic) {
     const KeyedCluster keyed =
         key_of(object.clusters, plastic, [&](int particle) { return slot_before[static_cast<std::size_t>(particle)]; });
-    const auto found = flowed.find(keyed.key);
-    if (found == flowed.end() || found->second.start != keyed.given) continue;
+    const FlowedData* found = find_whole(flowed, keyed);
+    if (found == nullptr) continue;
     std::array<float, 9> stretch;
-    std::copy(found->second.now.begin(), found->second.now.end(), stretch.begin());
+    std::copy(found->now.begin(), found->now.end(), stretch.begin());
     set_stretch(object.clusters, plastic, stretch);
   }
 }

@@ -372,8 +372,9 @@ int end_rest(WorldData& world, double elapsed, const Resting& resting) {
     float& time = (*rest.times)[at(i)];
     if (time == asleep || !(world.state.positions[at(i)].w > 0)) return;  // or an opening holds it
     const bool is_slow = length(vector_of(world.state.velocities[at(i)])) < slow_speed(world, number);
+    const bool was_slow = time > 0;  // at the top of a throw a grain is slow in one frame, not in two
     time = is_slow ? time + static_cast<float>(elapsed) : 0;
-    if (is_slow && time >= world.settings.sleep.time) fall_asleep(world, rest, i);
+    if (is_slow && was_slow && time >= world.settings.sleep.time) fall_asleep(world, rest, i);
   });
   return static_cast<int>(std::count(rest.times->begin(), rest.times->end(), asleep));
 }

@@ -174,6 +174,45 @@ TEST(PlasticClusters, AnEditKeepsWhatHasFlowed) {
   EXPECT_NE(world.state().flowed, flowed);
 }
 
+/// A shape without volume has no strain; what a cluster is pressed to must not make its rest shape infinite.
+TEST(PlasticClusters, StayFiniteWherePressedFlat) {
+  const Scene scene = block({.yield = 0.01f});
+  World world(scene);
+  Edit held = unchanged(scene.objects[0]);
+  held.object.masses.assign(64, INFINITY);
+  world.edit(0, held);
+  for (const float height : {0.01f, 1e-6f, 1e-9f, 0.f}) {
+    std::vector<Vec3f> flat;
+    for (const Vec3f& x : scene.objects[0].positions)
+      flat.push_back({0.8f * x.x - 0.6f * x.y * height, 0.6f * x.x + 0.8f * x.y * height, x.z});
+    world.object(0).set_targets(scene.objects[0].clusters[0].particles, flat);
+    run(world, 3);
+    for (const float number : world.state().flowed) EXPECT_LT(std::abs(number), 20) << height;
+  }
+  world.edit(0, unchanged(scene.objects[0]));
+  run(world, 60);
+}
+
+TEST(PlasticClusters, AreDividedWithWhatHasFlowed) {
+  const Scene scene = block({.yield = 0.05f});
+  World world(scene);
+  Edit held = unchanged(scene.objects[0]);
+  held.object.masses.assign(64, INFINITY);
+  world.edit(0, held);
+  world.object(0).set_targets(scene.objects[0].clusters[0].particles, stretched(scene.objects[0], 1.4f));
+  run(world, 5);
+  const std::vector<float> whole = world.state().flowed;
+  ASSERT_EQ(whole.size(), 9u);
+  Cluster &first = held.object.clusters.emplace_back(held.object.clusters[0]), &second = held.object.clusters[0];
+  first.particles.resize(40);
+  second.particles.erase(second.particles.begin(), second.particles.begin() + 24);
+  world.edit(0, held);
+  const std::vector<float>& parts = world.state().flowed;
+  ASSERT_EQ(parts.size(), 18u);
+  EXPECT_TRUE(std::equal(whole.begin(), whole.end(), parts.begin()));
+  EXPECT_TRUE(std::equal(whole.begin(), whole.end(), parts.begin() + 9));
+}
+
 TEST(PlasticClusters, NameWhatCannotFlow) {
   Scene scene = block({.yield = 0.1f});
   for (Vec3f& x : scene.objects[0].positions) x.z = 0;

@@ -13,6 +13,7 @@
 #include "pliant/io.h"
 #include "pliant/joint.h"
 #include "pliant/save.h"
+#include "pliant/stitch.h"
 #include "support/scenes.h"
 #include "write_support.h"
 
@@ -179,6 +180,25 @@ TEST(Save, ChannelsAreKept) {
   EXPECT_EQ(loaded.channels[1].name, "vorticity");
   EXPECT_EQ(loaded.channels[1].components, 3);
   EXPECT_EQ(loaded.channels[1].values[8], 9);
+}
+
+/// Threads that broke must not be whole again after a load.
+TEST(Save, ASceneWhoseThreadsHaveBrokenIsRefused) {
+  Object object;
+  object.name = "thread";
+  object.positions = {{0, 0, 0}, {0, -1, 0}};
+  object.masses = {INFINITY, 1};
+  const std::array<int, 2> pair{0, 1};
+  add_stitches(object, std::span(&pair, 1), {.stiffness = Stiffness::compliance(1e-4f), .break_force = 1});
+  object.constraints[0].keyframes = {{0, 1}};
+  Scene scene;
+  scene.add(object);
+  World world(scene);
+  for (int i = 0; i < 20; ++i) world.step(1.f / 60);
+  const std::string path = testing::TempDir() + "broken.pliant";
+  EXPECT_NE(reason([&] { save(path, world, scene); }).find("broken"), std::string::npos);
+  scene.objects[0] = world.object(0).description();
+  EXPECT_EQ(reason([&] { save(path, world, scene); }), "");
 }
 
 TEST(Save, AStateGoesOnInANewWorld) {

@@ -204,6 +204,22 @@ TEST(BreakForce, NeedsAComplianceAndATypeWithForces) {
   EXPECT_NE(refusal([&] { World world(scene_of(object, true)); }).find("break_force"), std::string::npos);
 }
 
+/// Of two threads between the same particles the weak one breaks alone.
+TEST(BreakForce, LeavesAStrongerThread) {
+  Object object = two_points(1);
+  const std::array<int, 2> pair{0, 1};
+  for (const float force : {0.5f * g, 5 * g}) {
+    add_stitches(object, std::span(&pair, 1), {.stiffness = Stiffness::compliance(1e-4f), .break_force = force});
+    object.constraints.back().keyframes = {{0, 1}};
+  }
+  World world(scene_of(object, true));
+  int lost = 0;
+  for (int i = 0; i < 120; ++i)
+    for (const Torn& torn : world.step(1.f / 60).torn) lost += torn.lost_constraints;
+  EXPECT_LE(lost, 1);
+  EXPECT_LT(distance_of(world, pair), 1.01);
+}
+
 /// Two halves of a cloth, welded along their border, are that cloth.
 TEST(Weld, MakesOneOfTwoHalves) {
   ClothOptions options;
@@ -245,6 +261,16 @@ TEST(Weld, MayFollowStitchesInAWorld) {
   run(world, 120);
   const Stretch stretch = world.measure().stretch();
   EXPECT_LT(stretch.largest, 1.05f);  // rest lengths are those of both panels
+}
+
+TEST(Weld, LeavesWhatIsPinnedInPlace) {
+  Object object = panels();
+  const std::vector<std::array<int, 2>> seam = seam_of(object);
+  object.masses[14] *= 2;  // of the other side
+  object.pins = {{39}};
+  const Object welded = weld(object, seam).object;
+  ASSERT_EQ(welded.pins.size(), 1u);
+  EXPECT_EQ(welded.positions[static_cast<std::size_t>(welded.pins[0].particle)], object.positions[39]);
 }
 
 TEST(Weld, JoinsSoftBodies) {

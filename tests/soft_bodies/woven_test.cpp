@@ -140,6 +140,22 @@ TEST(WovenCloth, StretchesOnTheBiasByItsShear) {
   EXPECT_NEAR(hangs_longer(woven(200, 200, 15, {1, 0, 1}), 41, 160), expected, 0.06 * expected);
 }
 
+/// Upright cloth, which the default warp is square to, has it downwards; a fabric that does not say how it shears, shears as most do.
+TEST(WovenCloth, HasDefaultsThatHoldUpright) {
+  TriangleMesh mesh = grid_mesh(4, 5, 1, 1);
+  for (Vec3f& p : mesh.positions) p = {p.x, p.z, 0};
+  ClothOptions options = woven(700, 25, 7, {0, 1, 0});
+  const Object told = make_cloth(mesh, options);
+  options.warp = ClothOptions{}.warp;
+  options.material.shear_stiffness = 0;
+  const Object open = make_cloth(mesh, options);
+  ASSERT_EQ(open.constraints.size(), told.constraints.size());
+  for (std::size_t i = 0; i < told.constraints.size(); ++i) {
+    EXPECT_EQ(open.constraints[i].rest, told.constraints[i].rest);
+    EXPECT_EQ(open.constraints[i].compliances, told.constraints[i].compliances);
+  }
+}
+
 TEST(WovenCloth, RefusesWhatItDoesNotHave) {
   const TriangleMesh mesh = grid_mesh(3, 3, 1, 1);
   ClothOptions options = woven(60, 25, 8, {0, 0, 0});
