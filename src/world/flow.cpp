@@ -8,6 +8,7 @@
 #include "collision/narrow/contact.h"
 #include "geometry/shapes.h"
 #include "math/motion.h"
+#include "world/particles.h"
 #include "world/resting_grains.h"
 
 namespace pliant {
@@ -38,16 +39,11 @@ void for_present(const WorldData& world, int number, const Body& body) {
     if (world.state.births[at(i)] != not_there) body(at(i));
 }
 
-/// The inverse mass that a particle has while nothing holds it.
-float inverse_mass_of(const WorldData& world, int number, std::size_t particle) {
-  return world.model.objects[at(number)].positions[particle - at(world.model.first[number])].w;
-}
-
 /// Calls body(particle) for those of them that can move: what a user has fixed stays.
 template <class Body>
 void for_free(const WorldData& world, int number, const Body& body) {
   for_present(world, number, [&](std::size_t i) {
-    if (inverse_mass_of(world, number, i) > 0) body(i);
+    if (own_inverse_mass(world.model, number, static_cast<std::int64_t>(i)) > 0) body(i);
   });
 }
 
@@ -84,7 +80,7 @@ void release(WorldData& world, int number) {
     const auto since = static_cast<float>(state.time - state.births[i]);
     const Vec3f gravity = world.model.gravity, moved = gravity * (since * since / 2), gained = gravity * since;
     Record &x = state.positions[i], &v = state.velocities[i];
-    x = {x.x + moved.x, x.y + moved.y, x.z + moved.z, inverse_mass_of(world, number, i)};
+    x = {x.x + moved.x, x.y + moved.y, x.z + moved.z, own_inverse_mass(world.model, number, static_cast<std::int64_t>(i))};
     v = {v.x + gained.x, v.y + gained.y, v.z + gained.z, 0};
   });
 }

@@ -9,6 +9,7 @@
 #include "solver/visit.h"
 #include "world/advice.h"
 #include "world/groups.h"
+#include "world/particles.h"
 #include "world/resting_grains.h"
 
 namespace pliant {
@@ -74,15 +75,6 @@ Overstretch with_slot(const WorldData& world, Overstretch measured) {
   return measured;
 }
 
-namespace {
-
-float inverse_mass_at_start(const Model& model, int particle) {
-  const auto number = static_cast<std::size_t>(model.object_of(particle));
-  return model.objects[number].positions[static_cast<std::size_t>(particle - model.first[number])].w;
-}
-
-}  // namespace
-
 double Measurements::kinetic_energy() const {
   double energy = 0;
   for (std::size_t i = 0; i < world_->state.positions.size(); ++i) {
@@ -105,7 +97,8 @@ double Measurements::potential_energy() const {
   for (std::size_t i = 0; i < world_->state.positions.size(); ++i) {
     const Record& x = world_->state.positions[i];
     const bool sleeps = rest_times != nullptr && rest_times[i] == asleep;
-    const float w = sleeps ? inverse_mass_at_start(world_->model, static_cast<int>(i)) : x.w;
+    const int particle = static_cast<int>(i);
+    const float w = sleeps ? own_inverse_mass(world_->model, world_->model.object_of(particle), particle) : x.w;
     if (w > 0) energy -= 1.0 / w * (double(g.x) * x.x + double(g.y) * x.y + double(g.z) * x.z);
   }
   return energy;

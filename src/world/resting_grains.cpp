@@ -11,6 +11,7 @@
 #include "math/motion.h"
 #include "solver/grains/grain_solver.h"
 #include "world/control.h"
+#include "world/particles.h"
 
 namespace pliant {
 
@@ -54,17 +55,13 @@ bool may_sleep(const CompiledObject& object) {
 
 bool any_may_sleep(const Model& model) { return std::any_of(model.objects.begin(), model.objects.end(), may_sleep); }
 
-float inverse_mass_of(const Model& model, int number, int particle) {
-  return model.objects[at(number)].positions[at(particle - model.first[at(number)])].w;
-}
-
 /// Calls body(number, particle) for all grains that are there and not fixed by the user.
 template <class Body>
 void for_grains(const WorldData& world, const Body& body) {
   for (int number = 0; number < static_cast<int>(world.model.objects.size()); ++number) {
     if (!may_sleep(world.model.objects[at(number)])) continue;
     for (int i = world.model.first[at(number)]; i < world.model.end_of(number); ++i)
-      if (is_there(world.state, at(i)) && inverse_mass_of(world.model, number, i) > 0) body(number, i);
+      if (is_there(world.state, at(i)) && own_inverse_mass(world.model, number, i) > 0) body(number, i);
   }
 }
 
@@ -76,10 +73,8 @@ float slow_speed(const WorldData& world, int number) {
 void wake(WorldData& world, const Rest& rest, int number, int particle) {
   (*rest.times)[at(particle)] = (*rest.shifts)[at(particle)] = 0;
   if (!is_there(world.state, at(particle))) return;
-  world.state.positions[at(particle)].w = inverse_mass_of(world.model, number, particle);
+  world.state.positions[at(particle)].w = own_inverse_mass(world.model, number, particle);
 }
-
-bool meet(const CompiledObject& a, const CompiledObject& b) { return (a.mask & b.groups) != 0 && (b.mask & a.groups) != 0; }
 
 // ---------------------------------------------------------------- what moves near grains
 
@@ -91,8 +86,8 @@ float bounding_radius(const ConvexShape& shape) {
   return core + shape.radius;
 }
 
-/// Speed of what no grain can stop, so that grains near it may not sleep [m/s].
-constexpr float driven = std::numeric_limits<float>::infinity();
+/// The speed at which what no grain can stop counts, so that grains near it may not sleep [m/s].
+constexpr float unstoppable = std::numeric_limits<float>::infinity();
 
 /// Boxes around all that moves and may touch grains.
 class Movers {
@@ -106,18 +101,19 @@ class Movers {
     if (!boxes_.empty()) tree_.build(boxes_);
   }
 
-  /// The speed of what moves fastest near a grain of an object [m/s]. Of other grains and of liquids only fast ones count, as `driven`: they
-  /// are never quite still.
+  /// The speed of what moves fastest near a grain of an object [m/s]. Other grains and liquids, which are never quite still,
+  /// count only if they are fast, and then as `unstoppable`.
   float speed_near(int number, const Vec3f& place) const {
-    if (everywhere_) return driven;
+    if (everywhere_) return unstoppable;
     const CompiledObject& grains = world_.model.objects[at(number)];
     const float fast = wake_factor * slow_speed(world_, number);
     float speed = 0;
     if (boxes_.empty()) return speed;
     tree_.query(BoxBounds::of(&place, 1).grown(3 * grains.grains->radius), [&](int box) {
       const Mover& mover = movers_[at(box)];
-      if (mover.object >= 0 && mover.object != number && !meet(world_.model.objects[at(mover.object)], grains)) return;
-      const float of_mover = !mover.is_never_still ? mover.speed : mover.speed > fast ? driven : 0;
+      if (mover.object >= 0 && mover.object != number && !masks_meet(world_.model.objects[at(mover.object)], grains))
+        return;
+      const float of_mover = !mover.is_never_still ? mover.speed : mover.speed > fast ? unstoppable : 0;
       speed = std::max(speed, of_mover);
     });
     return speed;
@@ -131,7 +127,7 @@ class Movers {
   };
 
   void add(const BoxBounds& box, float margin, const Mover& mover) {
-    const float way = mover.speed < driven ? 2 * mover.speed * static_cast<float>(dt_) : 0;
+    const float way = mover.speed < unstoppable ? 2 * mover.speed * static_cast<float>(dt_) : 0;
     boxes_.push_back(box.grown(margin + way));
     movers_.push_back(mover);
   }
@@ -156,8 +152,8 @@ class Movers {
       if (!is_there(world_.state, at(i))) continue;
       const float speed = speed_of(i), size = object.grains ? object.grains->radius : object.thickness;
       const bool is_held = !(world_.state.positions[at(i)].w > 0);  // by an opening, a pin or the user, or it sleeps
-      if (is_held && (speed > 0 || (moves && !(inverse_mass_of(world_.model, number, i) > 0))))
-        add(vector_of(world_.state.positions[at(i)]), size + speed * static_cast<float>(dt_), {number, driven});
+      if (is_held && (speed > 0 || (moves && !(own_inverse_mass(world_.model, number, i) > 0))))
+        add(vector_of(world_.state.positions[at(i)]), size + speed * static_cast<float>(dt_), {number, unstoppable});
       else if (speed > least_fast_)
         add(vector_of(world_.state.positions[at(i)]), size, {number, speed, true});
     }
@@ -195,14 +191,14 @@ class Movers {
       places.push_back(vector_of(world_.state.positions[at(first + i)]));
       places.push_back(convert<float>(after.place(i)));
     }
-    add(BoxBounds::of(places.data(), static_cast<int>(places.size())), mesh.thickness, {number, driven});
+    add(BoxBounds::of(places.data(), static_cast<int>(places.size())), mesh.thickness, {number, unstoppable});
   }
 
   /// One box around the particles of an object, if some of them move.
   void add_particles(int number, const CompiledObject& object) {
     const int first = world_.model.first[at(number)];
     std::vector<Vec3f> places;
-    float speed = is_driven(number, object) ? driven : 0;
+    float speed = is_driven(number, object) ? unstoppable : 0;
     for (int i = first; i < first + object.user_particles; ++i) {
       if (!is_there(world_.state, at(i)) || object.bodies.has_centre(i - first)) continue;
       places.push_back(vector_of(world_.state.positions[at(i)]));
@@ -222,7 +218,7 @@ class Movers {
     for (std::size_t b = 0; b < reach.size(); ++b) {
       const CompiledBodies::Body& body = object.bodies.bodies[b];
       const float spin = length(vector_of(world_.state.frames.angular_velocities[at(first_frame + body.frame)]));
-      const float speed = moves ? driven : speed_of(first + body.particle) + reach[b] * spin;
+      const float speed = moves ? unstoppable : speed_of(first + body.particle) + reach[b] * spin;
       if (speed > 0) add(vector_of(world_.state.positions[at(first + body.particle)]), reach[b], {number, speed});
     }
   }
@@ -244,7 +240,7 @@ class Movers {
                                               : std::array<Posed, 2>{pose_at(collider.motion, world_.state.time),
                                                                      pose_at(collider.motion, world_.state.time + dt_)};
     const std::array<Vec3f, 2> places{carried(poses[0], collider.position), carried(poses[1], collider.position)};
-    add(BoxBounds::of(places.data(), 2), size + collider.thickness, {-1, driven});
+    add(BoxBounds::of(places.data(), 2), size + collider.thickness, {-1, unstoppable});
   }
 
   const WorldData& world_;

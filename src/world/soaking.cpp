@@ -16,6 +16,7 @@
 #include "geometry/triangle.h"
 #include "math/motion.h"
 #include "world/control.h"
+#include "world/particles.h"
 #include "world/wicking.h"
 
 namespace pliant {
@@ -32,8 +33,6 @@ constexpr float slack = 0.25f;
 constexpr float room_of_drop = 0.7f;
 
 bool is_liquid(const CompiledObject& object) { return object.fluid && !object.gas; }
-
-bool meet(const CompiledObject& a, const CompiledObject& b) { return (a.mask & b.groups) != 0 && (b.mask & a.groups) != 0; }
 
 /// A number from 0 to 1 that differs for each particle, frame and purpose.
 double chance(std::int64_t particle, std::int64_t frame, std::uint64_t purpose) {
@@ -102,9 +101,7 @@ class Soaking {
   float capacity(int particle) const { return surface_.areas[at(particle)] * surface_.described.capacity; }
   float room(int particle) const { return std::max(capacity(particle) - water_[particle], 0.f); }
   /// The inverse mass that a particle of a liquid has while it is there [1/kg].
-  float inverse_mass_of(int of, std::int64_t particle) const {
-    return liquid(of).positions[at(particle - world_.model.first[at(of)])].w;
-  }
+  float inverse_mass_of(int of, std::int64_t particle) const { return own_inverse_mass(world_.model, of, particle); }
   /// Its mass [kg]; 0 if that is infinite.
   float mass_of(int of, std::int64_t particle) const {
     const float w = inverse_mass_of(of, particle);
@@ -142,7 +139,7 @@ class Soaking {
   void find_near() {
     float reach = 0;
     for (int o = 0; o < static_cast<int>(world_.model.objects.size()); ++o)
-      if (is_liquid(liquid(o)) && meet(liquid(o), object_))
+      if (is_liquid(liquid(o)) && masks_meet(liquid(o), object_))
         reach = std::max(reach, (1 + slack) * contact_distance(o) + liquid(o).fluid->spacing);
     if (reach == 0) return;
     cell_size_ = reach;
@@ -156,7 +153,7 @@ class Soaking {
     tree.build(boxes);
     const BoxBounds all = BoxBounds::merged(boxes.data(), static_cast<int>(boxes.size()));
     for (int o = 0; o < static_cast<int>(world_.model.objects.size()); ++o)
-      if (is_liquid(liquid(o)) && meet(liquid(o), object_)) find_near(o, tree, all);
+      if (is_liquid(liquid(o)) && masks_meet(liquid(o), object_)) find_near(o, tree, all);
   }
 
   void find_near(int of, const Tree<BoxBounds>& tree, const BoxBounds& all) {
@@ -357,7 +354,7 @@ class Soaking {
     if (lowest.empty()) return;
     std::stable_sort(lowest.begin(), lowest.end(), [&](int a, int b) { return excess(a) > excess(b); });
     for (int of = 0; of < static_cast<int>(world_.model.objects.size()); ++of) {
-      if (!is_liquid(liquid(of)) || !meet(liquid(of), object_)) continue;
+      if (!is_liquid(liquid(of)) || !masks_meet(liquid(of), object_)) continue;
       std::int64_t spare = find_spare(of, world_.model.first[at(of)]);
       for (std::size_t k = 0; spare >= 0 && k < lowest.size(); ++k)
         if (let_fall(lowest[k], of, spare)) spare = find_spare(of, spare + 1);
