@@ -24,17 +24,9 @@ class ForceOf {
   }
 
   double operator()(int number) const {
-    const std::size_t slots = type_.slots.size(), fields = type_.rest_fields.size(),
-                      rows = static_cast<std::size_t>(type_.rows);
-    std::vector<double> at = slots_at(number, positions_), rest(std::max<std::size_t>(fields, 1)), c(rows),
-                        gradients(rows * slots * 3);
-    if (!group_.rest.empty()) {
-      for (std::size_t f = 0; f < fields; ++f)
-        rest[f] = static_cast<double>(group_.rest[static_cast<std::size_t>(number) * fields + f]);
-    } else {
-      const std::vector<double> start = slots_at(number, object_.positions);
-      type_.measure(start.data(), rest.data());
-    }
+    const std::size_t slots = type_.slots.size(), rows = static_cast<std::size_t>(type_.rows);
+    const std::vector<double> at = places_of(stencil_of(group_, static_cast<int>(slots), number), positions_);
+    std::vector<double> rest = rest_of(group_, number, object_), c(rows), gradients(rows * slots * 3);
     rest[0] *= factor_;
     type_.evaluate_double(at.data(), rest.data(), c.data(), gradients.data());
     double squares = 0;
@@ -45,18 +37,6 @@ class ForceOf {
   }
 
  private:
-  /// Relative to the first particle, so that rounding does not grow with the distance from the origin.
-  std::vector<double> slots_at(int number, std::span<const Vec3f> positions) const {
-    const std::vector<int> stencil = stencil_of(group_, static_cast<int>(type_.slots.size()), number);
-    const Vec3d origin = convert<double>(positions[static_cast<std::size_t>(stencil[0])]);
-    std::vector<double> out;
-    for (const int particle : stencil) {
-      const Vec3d x = convert<double>(positions[static_cast<std::size_t>(particle)]) - origin;
-      out.insert(out.end(), {x.x, x.y, x.z, 0});
-    }
-    return out;
-  }
-
   const Object& object_;
   std::span<const Vec3f> positions_;
   const ConstraintGroup& group_;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <string>
 
+#include "constraints/registry.h"
+#include "math/vector.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -77,6 +79,27 @@ void append(const ConstraintGroup& from, int number, const std::vector<int>& ste
   const float alpha = from.compliances.empty() ? from.stiffness.value : from.compliances[at];
   if (compliant || !from.compliances.empty())
     to.compliances.push_back(softer == 1 ? alpha : static_cast<float>(alpha * softer));
+}
+
+std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3f> positions) {
+  const Vec3d origin = convert<double>(positions[static_cast<std::size_t>(particles[0])]);
+  std::vector<double> out;
+  for (const int particle : particles) {
+    const Vec3d x = convert<double>(positions[static_cast<std::size_t>(particle)]) - origin;
+    out.insert(out.end(), {x.x, x.y, x.z, 0});
+  }
+  return out;
+}
+
+std::vector<double> rest_of(const ConstraintGroup& group, int number, const Object& object) {
+  const ConstraintDefinition& type = constraint_type(find_constraint_type(group.type));
+  const std::size_t fields = type.rest_fields.size(), first = static_cast<std::size_t>(number) * fields;
+  std::vector<double> rest(fields);
+  for (std::size_t f = 0; f < fields && !group.rest.empty(); ++f) rest[f] = static_cast<double>(group.rest[first + f]);
+  if (group.rest.empty() && type.measure != nullptr)
+    type.measure(places_of(stencil_of(group, static_cast<int>(type.slots.size()), number), object.positions).data(),
+                 rest.data());
+  return rest;
 }
 
 ConstraintGroup empty_like(const ConstraintGroup& group) {

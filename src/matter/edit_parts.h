@@ -1,6 +1,7 @@
 // What edits of surfaces and of solids share.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "pliant/scene.h"
@@ -21,6 +22,14 @@ std::vector<int> stencil_of(const ConstraintGroup& group, int slots, int number)
 
 /// The particles of a constraint; -1 in place of frames. Throws an Error if one does not exist.
 std::vector<int> points_of(const ConstraintType& type, const std::vector<int>& stencil, const Object& object);
+
+/// The rest data of constraint `number` of a group: as given, or measured from the positions of the description. Its slots are particles that
+/// exist.
+std::vector<double> rest_of(const ConstraintGroup& group, int number, const Object& object);
+
+/// The places of particles as a ConstraintDefinition takes them, relative to the first, so that rounding does not grow with the distance
+/// from the origin.
+std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3f> positions);
 
 /// A group without constraints, otherwise alike.
 ConstraintGroup empty_like(const ConstraintGroup& group);

@@ -66,6 +66,7 @@ class Welding {
  public:
   Welding(const Object& object, std::span<const std::array<int, 2>> pairs)
       : object_(object), sets_(object.positions.size()) {
+    for (const Pin& pin : object.pins) pinned_.insert(pin.particle);
     for (const auto& [a, b] : pairs) sets_.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
     number_.assign(object.positions.size(), -1);
     for (std::size_t i = 0; i < number_.size(); ++i) {
@@ -107,34 +108,25 @@ class Welding {
  private:
   /// What is pinned stays where its pin is, then what is fixed, then the heaviest.
   std::pair<bool, float> weight(int particle) const {
-    const bool is_pinned =
-        std::any_of(object_.pins.begin(), object_.pins.end(), [&](const Pin& pin) { return pin.particle == particle; });
-    return {is_pinned, object_.masses[static_cast<std::size_t>(particle)]};
+    return {pinned_.count(particle) != 0, object_.masses[static_cast<std::size_t>(particle)]};
   }
 
   std::size_t at(int particle) const { return static_cast<std::size_t>(number_[static_cast<std::size_t>(particle)]); }
 
   /// A group with its rest data, which the places of welded particles no longer tell.
-  ConstraintGroup with_rest(const ConstraintGroup& group, std::size_t slots, std::size_t count) const {
+  ConstraintGroup with_rest(const ConstraintGroup& group, std::size_t count) const {
     ConstraintGroup out = group;
     const ConstraintDefinition& type = constraint_type(find_constraint_type(group.type));
     if (!group.rest.empty() || type.measure == nullptr || type.rest_fields.empty()) return out;
-    for (std::size_t c = 0; c < count; ++c) {
-      std::vector<double> x, rest(type.rest_fields.size());
-      for (std::size_t slot = 0; slot < slots; ++slot) {
-        const Vec3f& p = object_.positions[static_cast<std::size_t>(group.particles[c * slots + slot])];
-        x.insert(x.end(), {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), 0});
-      }
-      type.measure(x.data(), rest.data());
-      for (const double one : rest) out.rest.push_back(static_cast<float>(one));
-    }
+    for (std::size_t c = 0; c < count; ++c)
+      for (const double one : rest_of(group, static_cast<int>(c), object_)) out.rest.push_back(static_cast<float>(one));
     return out;
   }
 
   ConstraintGroup welded(const ConstraintGroup& group) const {
     const auto slots = static_cast<std::size_t>(slots_of(group, object_));
     const std::size_t count = group.particles.size() / slots;
-    const ConstraintGroup given = with_rest(group, slots, count);
+    const ConstraintGroup given = with_rest(group, count);
     ConstraintGroup out = empty_like(given);
     for (std::size_t c = 0; c < count; ++c) {
       const std::vector<int> stencil = stencil_of(given, static_cast<int>(slots), static_cast<int>(c));
@@ -157,7 +149,7 @@ class Welding {
                   "has two particles that become one", "weld particles of different triangles");
   }
 
-  /// Pins and attachments: of particles that become one, the first holds it.
+  /// Pins and attachments follow. Of the pins of particles that become one the first stays.
   template <class Held>
   void hold(std::vector<Held>& held) const {
     std::set<int> seen;
@@ -181,6 +173,7 @@ class Welding {
 
   const Object& object_;
   DisjointSets sets_;
+  std::set<int> pinned_;
   std::vector<int> number_;  ///< of each old particle: that of the new one
   std::vector<int> from_;
 };
