@@ -39,6 +39,24 @@ void set_pins(const JsonDocument& document, const JsonValue& at, BuiltObject& bu
   }
 }
 
+namespace {
+
+/// Does what may throw an Error without a file, which then gets the place of a JSON value.
+template <class Action>
+void located(const JsonDocument& document, const JsonValue& item, const BuiltObject& built, const Action& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    if (!error.where().file.empty()) throw;
+    Location place = document.locate(item);
+    place.object = built.object.name;
+    place.element += ", " + error.where().element;
+    throw Error(place, error.problem(), error.advice());
+  }
+}
+
+}  // namespace
+
 void set_clusters(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
   for (const JsonValue& item : elements(at, "clusters")) {
     ClusterOptions options;
@@ -52,7 +70,7 @@ void set_clusters(const JsonDocument& document, const JsonValue& at, BuiltObject
     const JsonValue *particles = item.find("particles"), *size = item.find("size");
     if (particles != nullptr && size != nullptr)
       document.fail_key(*size, "clusters of a size are of all particles", "give `particles` or `size`");
-    try {
+    located(document, item, built, [&] {
       if (size != nullptr) {
         add_clusters(built.object, static_cast<float>(size->number), options);
       } else if (particles != nullptr) {
@@ -60,13 +78,7 @@ void set_clusters(const JsonDocument& document, const JsonValue& at, BuiltObject
       } else {
         add_cluster(built.object, all_particles(built.object), options);
       }
-    } catch (const Error& error) {
-      if (!error.where().file.empty()) throw;
-      Location place = document.locate(item);
-      place.object = built.object.name;
-      place.element += ", " + error.where().element;
-      throw Error(place, error.problem(), error.advice());
-    }
+    });
   }
 }
 
@@ -86,14 +98,8 @@ void set_stitches(const JsonDocument& document, const JsonValue& at, BuiltObject
     if (options.break_force > 0 && !yields)
       document.fail_key(*item.find("break_force"), "a thread without a compliance tells no force at which to break",
                         "give it a `stiffness` of {\"compliance\": 1e-5} m/N or more");
-    try {
-      add_stitches(built.object, nearest_pairs(built.object, particles, to), options);
-    } catch (const Error& error) {
-      Location place = document.locate(item);
-      place.object = built.object.name;
-      place.element += ", " + error.where().element;
-      throw Error(place, error.problem(), error.advice());
-    }
+    located(document, item, built,
+            [&] { add_stitches(built.object, nearest_pairs(built.object, particles, to), options); });
   }
 }
 

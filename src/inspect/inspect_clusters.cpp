@@ -52,9 +52,7 @@ void check_plasticity(Problems& problems, const std::string& name, const Object&
                       Elastic& elastic) {
   const Cluster& cluster = object.clusters[static_cast<std::size_t>(number)];
   if (!cluster.plasticity) return;
-  const Plasticity& p = *cluster.plasticity;
-  const auto is_number = [](float value) { return value >= 0 && value <= 1e30f; };
-  if (!is_number(p.yield) || !is_number(p.rate) || !is_number(p.most))
+  if (!is_sound(*cluster.plasticity))
     problems.grave(name, "has a plasticity with a number below 0 or not finite", "give numbers of 0 or more");
   const bool has_rest = cluster.rest.empty() || cluster.rest.size() == cluster.particles.size();
   const auto exists = [&](int particle) {

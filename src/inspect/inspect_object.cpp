@@ -170,13 +170,12 @@ void check_compliances(Problems& problems, const ConstraintGroup& group, std::si
 void check_plasticity(Problems& problems, const ConstraintGroup& group, const std::string& element) {
   if (!group.plasticity) return;
   const Plasticity& p = *group.plasticity;
-  const auto is_number = [](float value) { return value >= 0 && value <= 1e30f; };
   if (constraint_type(find_constraint_type(group.type)).flow == nullptr)
     problems.grave(element, "have a plasticity, but constraints of this type have none", "leave it out");
   if (is_hinge(group.type) && p.yield > 3.1416f)
     problems.doubtful(element, "yield at more than half a turn, so never", "give the angle in radians");
   if (p.most == 0) problems.doubtful(element, "have a plasticity with a `most` of 0, so nothing flows", "leave it out");
-  if (!is_number(p.yield) || !is_number(p.rate) || !is_number(p.most))
+  if (!is_sound(p))
     problems.grave(element, "have a plasticity with a number below 0 or not finite", "give numbers of 0 or more");
 }
 

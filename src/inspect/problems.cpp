@@ -115,4 +115,9 @@ void check_friction(Problems& problems, float static_friction, float kinetic_fri
                    "lower it to the static friction or less");
 }
 
+bool is_sound(const Plasticity& plasticity) {
+  const auto is_number = [](float value) { return value >= 0 && value <= 1e30f; };
+  return is_number(plasticity.yield) && is_number(plasticity.rate) && is_number(plasticity.most);
+}
+
 }  // namespace pliant

@@ -71,6 +71,9 @@ void check_rotation(Problems& problems, const std::string& element, const Quatf&
 void check_friction(Problems& problems, float static_friction, float kinetic_friction, float restitution);
 void check_rolling(Problems& problems, float rolling_friction, float spinning_friction);
 
+/// True if the numbers of a Plasticity are in their range.
+bool is_sound(const Plasticity& plasticity);
+
 /// Reports as grave what is wrong with the rigid bodies of an object.
 void check_bodies(Problems& problems, const Object& object);
 void check_clusters(Problems& problems, const Object& object);
