@@ -12,6 +12,7 @@
 #include "pliant/grains.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
+#include "support/run.h"
 
 namespace pliant {
 namespace {
@@ -36,12 +37,7 @@ Scene block(const Plasticity& plasticity, Cluster::Mode mode = Cluster::Mode::ri
   return scene;
 }
 
-void run(World& world, int frames) {
-  for (int i = 0; i < frames; ++i) {
-    const Report report = world.step(1.f / 60);
-    ASSERT_TRUE(report.ok()) << report.explain();
-  }
-}
+using testing_support::run;
 
 std::vector<Vec3f> stretched(const Object& object, float by) {
   std::vector<Vec3f> out;
@@ -49,12 +45,17 @@ std::vector<Vec3f> stretched(const Object& object, float by) {
   return out;
 }
 
+/// The Edit that fixes all particles of a block.
+Edit held(const Scene& scene) {
+  Edit edit = unchanged(scene.objects[0]);
+  edit.object.masses.assign(64, INFINITY);
+  return edit;
+}
+
 /// The logarithmic strain that a block has along x after it was held at a stretch, at constant volume, and let go.
 double strain_left(const Scene& scene, float stretch, int held_frames) {
   World world(scene);
-  Edit held = unchanged(scene.objects[0]);
-  held.object.masses.assign(64, INFINITY);
-  world.edit(0, held);
+  world.edit(0, held(scene));
   std::vector<int> all = scene.objects[0].clusters[0].particles;
   world.object(0).set_targets(all, stretched(scene.objects[0], stretch));
   run(world, held_frames);
@@ -178,9 +179,7 @@ TEST(PlasticClusters, AnEditKeepsWhatHasFlowed) {
 TEST(PlasticClusters, StayFiniteWherePressedFlat) {
   const Scene scene = block({.yield = 0.01f});
   World world(scene);
-  Edit held = unchanged(scene.objects[0]);
-  held.object.masses.assign(64, INFINITY);
-  world.edit(0, held);
+  world.edit(0, held(scene));
   for (const float height : {0.01f, 1e-6f, 1e-9f, 0.f}) {
     std::vector<Vec3f> flat;
     for (const Vec3f& x : scene.objects[0].positions)
@@ -196,17 +195,17 @@ TEST(PlasticClusters, StayFiniteWherePressedFlat) {
 TEST(PlasticClusters, AreDividedWithWhatHasFlowed) {
   const Scene scene = block({.yield = 0.05f});
   World world(scene);
-  Edit held = unchanged(scene.objects[0]);
-  held.object.masses.assign(64, INFINITY);
-  world.edit(0, held);
+  world.edit(0, held(scene));
   world.object(0).set_targets(scene.objects[0].clusters[0].particles, stretched(scene.objects[0], 1.4f));
   run(world, 5);
   const std::vector<float> whole = world.state().flowed;
   ASSERT_EQ(whole.size(), 9u);
-  Cluster &first = held.object.clusters.emplace_back(held.object.clusters[0]), &second = held.object.clusters[0];
+  Edit divided = held(scene);
+  divided.object.clusters.push_back(divided.object.clusters[0]);
+  Cluster &first = divided.object.clusters[1], &second = divided.object.clusters[0];
   first.particles.resize(40);
   second.particles.erase(second.particles.begin(), second.particles.begin() + 24);
-  world.edit(0, held);
+  world.edit(0, divided);
   const std::vector<float>& parts = world.state().flowed;
   ASSERT_EQ(parts.size(), 18u);
   EXPECT_TRUE(std::equal(whole.begin(), whole.end(), parts.begin()));

@@ -15,6 +15,7 @@
 #include "pliant/liquid.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
+#include "support/run.h"
 #include "support/scenes.h"
 
 namespace pliant {
@@ -57,12 +58,7 @@ Scene free_scene(Object object, const ClusterOptions& options, int substeps = 20
   return scene;
 }
 
-void run(World& world, int frames) {
-  for (int i = 0; i < frames; ++i) {
-    const Report report = world.step(1.f / 60);
-    ASSERT_TRUE(report.ok()) << report.explain();
-  }
-}
+using testing_support::run;
 
 /// The angular momentum about the centre of particles of one mass, over that mass [m^2/s].
 Vec spin_of(const World& world) {

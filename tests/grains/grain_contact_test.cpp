@@ -10,6 +10,7 @@
 #include "pliant/liquid.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
+#include "support/run.h"
 #include "support/same_bits.h"
 
 namespace pliant {
@@ -17,12 +18,7 @@ namespace {
 
 constexpr float radius = 0.01f, diameter = 2 * radius, gravity = 9.81f;
 
-void run(World& world, int frames) {
-  for (int i = 0; i < frames; ++i) {
-    const Report report = world.step(1.f / 60);
-    ASSERT_TRUE(report.ok()) << report.explain();
-  }
-}
+using testing_support::run;
 
 Solid box(const Vec3f& half_extents, const Vec3f& at, float density = 1000) {
   Solid solid;

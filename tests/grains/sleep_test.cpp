@@ -12,6 +12,7 @@
 #include "pliant/grains.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
+#include "support/run.h"
 
 namespace pliant {
 namespace {
@@ -58,12 +59,7 @@ Object ball(const Vec3f& position, const Vec3f& velocity) {
   return object;
 }
 
-void run(World& world, int frames) {
-  for (int i = 0; i < frames; ++i) {
-    const Report report = world.step(1.f / 60);
-    ASSERT_TRUE(report.ok()) << report.explain();
-  }
-}
+using testing_support::run;
 
 std::size_t sleepers(const World& world, int object = 0) {
   const std::vector<float> times = world.object(object).channel("rest_time");

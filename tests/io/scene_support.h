@@ -6,11 +6,18 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <ostream>
 #include <string>
 
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "support/paths.h"
+
+namespace pliant {
+
+inline void PrintTo(const Vec3f& v, std::ostream* out) { *out << "(" << v.x << ", " << v.y << ", " << v.z << ")"; }
+
+}  // namespace pliant
 
 namespace pliant::test {
 
@@ -33,5 +40,10 @@ inline std::string scene_message(const std::string& text) { return scene_error(t
 
 /// A scene in which every field of the format occurs, except mesh files.
 inline std::string full_scene() { return text_of(PLIANT_SOURCE_DIR "/tests/io/every_field.json"); }
+
+class FullScene : public testing::Test {
+ protected:
+  const Scene scene = parse_scene(full_scene(), "every_field.json", ".");
+};
 
 }  // namespace pliant::test

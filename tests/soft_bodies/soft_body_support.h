@@ -14,6 +14,7 @@
 #include "math/vector.h"
 #include "pliant/soft_body.h"
 #include "pliant/world.h"
+#include "support/run.h"
 
 namespace pliant::testing_support {
 
@@ -72,13 +73,6 @@ inline Scene scene_of(Object body, int substeps) {
 }
 
 inline std::vector<Vec3f> positions_of(const World& world) { return world.object(ObjectId(0)).positions(); }
-
-inline void run(World& world, int frames) {
-  for (int i = 0; i < frames; ++i) {
-    const Report report = world.step(1.f / 60);
-    ASSERT_TRUE(report.ok()) << report.explain();
-  }
-}
 
 /// Momentum, and angular momentum about the origin, of masses of a body.
 struct Momentum {

@@ -12,6 +12,7 @@
 #include "pliant/stitch.h"
 #include "pliant/world.h"
 #include "support/refusal.h"
+#include "support/run.h"
 
 namespace pliant {
 namespace {
@@ -29,12 +30,7 @@ Scene scene_of(Object object, bool falls) {
   return scene;
 }
 
-void run(World& world, int frames) {
-  for (int i = 0; i < frames; ++i) {
-    const Report report = world.step(1.f / 60);
-    ASSERT_TRUE(report.ok()) << report.explain();
-  }
-}
+using testing_support::run;
 
 double distance_of(const World& world, const std::array<int, 2>& pair) {
   const std::vector<Vec3f> x = world.object(0).positions();

@@ -9,6 +9,7 @@
 #include "pliant/edit.h"
 #include "pliant/joint.h"
 #include "pliant/world.h"
+#include "support/run.h"
 
 namespace pliant {
 namespace {
@@ -40,12 +41,7 @@ Object driven(const SolidShape& shape, const Vec3f& position, const Motion& moti
   return body;
 }
 
-void run(World& world, int frames) {
-  for (int i = 0; i < frames; ++i) {
-    const Report report = world.step(1.f / 60);
-    ASSERT_TRUE(report.ok()) << report.explain();
-  }
-}
+using testing_support::run;
 
 /// The angle about y of a rotation about that axis [rad].
 float angle_of(const Quatf& q) {
