@@ -14,7 +14,7 @@
 
 #include <array>
 
-#include "math/isochoric_strain.h"
+#include "math/plastic_strain.h"
 #include "pliant/formula.h"
 #include "pliant/vec3.h"
 
@@ -64,29 +64,17 @@ struct TetrahedronShear {
     return {r0.x, r0.y, r0.z, r1.x, r1.y, r1.z, r2.x, r2.y, r2.z};
   }
 
-  /// Greatest permanent strain, whatever `most` says: rest shapes that are longer than this become so flat that rounding decides.
-  static constexpr double largest_permanent = 1.5;
-
   /// D^-1 becomes D^-1 U^-1, where U = exp(s e), of volume 1, is the part of the stretch that flows, and e the logarithmic strain at
   /// constant volume. `yield` and `most` are equivalent strains (von Mises) of it: log(l) for a bar l times as long.
   static bool flow(const SlotValues<slots, float>& at, Params<float>& p, const Params<float>& start,
                    const PlasticFlow& by) {
     const Matrix3d edges = columns(at.point[1] - at.point[0], at.point[2] - at.point[0], at.point[3] - at.point[0]);
     const Matrix3d f = product(edges, matrix(p));
-    if (!(determinant(f) > 0) || is_surely_below(f, static_cast<double>(by.yield))) return false;
-    const IsochoricStrain strain(f);
-    const double equivalent = strain.equivalent(), yield = static_cast<double>(by.yield);
-    if (!(equivalent > yield) || !(equivalent < 1e30)) return false;
-    const double beyond = 1 - yield / equivalent;
-    Matrix3d to = product(matrix(p), strain.power(-static_cast<double>(by.share) * beyond));
-    const double most = min(static_cast<double>(by.most), largest_permanent);
-    const Matrix3d permanent =
-        product(inverse(matrix(start)), to);  // the inverse of what is permanent, so of the same size
-    if (!is_surely_below(permanent, most)) {
-      const IsochoricStrain of(permanent);
-      const double size = of.equivalent();
-      if (size > most) to = product(to, of.power(most / size - 1));
-    }
+    Matrix3d by_flow, by_limit;
+    if (!flow_of(f, static_cast<double>(by.yield), -static_cast<double>(by.share), by_flow)) return false;
+    Matrix3d to = product(matrix(p), by_flow);
+    // The inverse of what is permanent, so of the same size.
+    if (limit_of(product(inverse(matrix(start)), to), static_cast<double>(by.most), by_limit)) to = product(to, by_limit);
     set(p, to);
     return true;
   }

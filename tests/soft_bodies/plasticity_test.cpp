@@ -1,6 +1,7 @@
 // Plastic tetrahedra and hinges against known answers: what is left of a strain that was held.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "pliant/edit.h"
@@ -244,6 +245,28 @@ TEST(Plasticity, MatterWithoutAYieldStrainEndsAsAPuddle) {
     World world(scene);
     run(world, 150);
   }
+}
+
+/// A shape without volume has no strain; what tetrahedra are pressed to must not make their rest shapes infinite.
+TEST(Plasticity, StaysFiniteWherePressedFlat) {
+  const Scene scene = bar_of({.yield = 0.01f}, 4);
+  const Object& object = scene.objects[0];
+  World world(scene);
+  Edit held = unchanged(object);
+  for (float& mass : held.object.masses) mass = INFINITY;
+  world.edit(0, held);
+  std::vector<int> all(object.positions.size());
+  std::iota(all.begin(), all.end(), 0);
+  for (const float height : {0.01f, 1e-5f, 1e-7f, 1e-8f, 0.f}) {
+    std::vector<Vec3f> flat;
+    for (const Vec3f& p : object.positions)
+      flat.push_back({0.8f * p.x - 0.6f * p.y * height, 0.6f * p.x + 0.8f * p.y * height, p.z});
+    world.object(0).set_targets(all, flat);
+    run(world, 3);
+    for (const float number : world.state().flowed) EXPECT_LT(std::abs(number), 400) << height;  // per metre
+  }
+  world.edit(0, unchanged(object));
+  run(world, 60);
 }
 
 TEST(Plasticity, IsRefusedWhereItMeansNothing) {
