@@ -105,6 +105,7 @@ PLIANT_HD Vec3<R> turned_back(const Vec3<R>& inverse, const Vec3<R>& theta, cons
 template <class R>
 PLIANT_HD Vec3<R> gyroscopic_change(const Vec3<R>& factors, const Vec3<R>& w, const R& h) {
   const Vec3<R> none{R(0.f), R(0.f), R(0.f)};
+  if (all_zero(max(max(abs(factors.x), abs(factors.y)), abs(factors.z)))) return none;  // moments of inertia agree
   Vec3<R> change = none;
   for (int round = 0; round < 3; ++round) change = gyroscopic_step(factors, w, change, h);
   return select(length_squared(w) * (h * h) < R(1.f), change, none);
@@ -114,49 +115,70 @@ PLIANT_HD Vec3<R> gyroscopic_change(const Vec3<R>& factors, const Vec3<R>& w, co
 /// axis. Energy and angular momentum stay whatever the angle of the latter, so that is not exact.
 template <class R>
 struct Spinning {
-  decltype(R{} > R{})
-      applies;    ///< false where two moments of inertia do not agree to 1e-4, or the frame turns slowly and is not round
-  Vec3<R> angle;  ///< about the angular momentum [rad]
-  Quat<R> twist;  ///< about the axis
+  using Applies = decltype(R{} > R{});
+  bool anywhere;    ///< in some lane; if not, what follows is not set
+  Applies applies;  ///< false where two moments of inertia do not agree to 1e-4, or the frame turns slowly and is not round
+  Vec3<R> angle;    ///< about the angular momentum [rad]
+  Quat<R> twist;    ///< about the axis
 
   PLIANT_HD Spinning(const Vec3<R>& inverse, const Vec3<R>& round, const Vec3<R>& w, const R& h) {
     const R zero(0.f), one(1.f), half(0.5f), close(1e-4f);
+    const R fast_or_round = max(length_squared(w) * (h * h), (round.x + round.y) + round.z);
+    anywhere = !all_zero(select(fast_or_round >= one, one, zero));
+    if (!anywhere) return;
     const auto agree = [&](const R& a, const R& b) { return abs(a - b) < close * max(a, b); };
     const Vec3<R> x{one, zero, zero}, y{zero, one, zero}, z{zero, zero, one}, none{zero, zero, zero};
     const Vec3<R> axis = select(agree(inverse.y, inverse.z), x,
                                 select(agree(inverse.z, inverse.x), y, select(agree(inverse.x, inverse.y), z, none)));
     const R own = dot(axis, inverse), across = half * ((inverse.x + inverse.y + inverse.z) - own), along = dot(axis, w);
     const R twisting = along * (one - across / max(own, R(1.2e-38f)));
-    applies = select(min(min(inverse.x, inverse.y), inverse.z) > zero, dot(axis, axis), zero) *
-                  max(length_squared(w) * (h * h), (round.x + round.y) + round.z) >=
-              one;
+    applies = select(min(min(inverse.x, inverse.y), inverse.z) > zero, dot(axis, axis), zero) * fast_or_round >= one;
     angle = (w - axis * twisting) * h;
     const R t = half * h * twisting;
     twist = normalise(Quat<R>{axis.x * t, axis.y * t, axis.z * t, one});
   }
 };
 
-template <class R, int lanes>
-PLIANT_HD void predict_frames(const FrameArrays& a, const Lanes<R, lanes>& at, float step) {
-  const R h(step), half(0.5f), one(1.f);
-  const Quat<R> q = at.rotation(a.orientations);
-  const Vec3<R> inverse = at.vector(a.inverse_inertias);
-  const Vec3<R> w = at.vector(a.angular_velocities);
+/// A frame's pose and angular velocity at the end of a free motion, and the angle by which it has turned, in the world.
+template <class R>
+struct FreeTurn {
+  Quat<R> orientation;
+  Vec3<R> angle, spin;
+};
+
+template <class R>
+PLIANT_HD FreeTurn<R> free_turn(const Quat<R>& q, const Vec3<R>& inverse, const Vec3<R>& round, const Vec3<R>& w,
+                                const R& h) {
+  const R half(0.5f), one(1.f);
   const Vec3<R> change = gyroscopic_change(gyroscopic_factors(inverse, inertia_of(inverse)), w, h);
-  const Spinning<R> fast(inverse, at.vector(a.round), w, h);
-  const Vec3<R> angle = select(fast.applies, fast.angle, (w + change * half) * h);
+  const Spinning<R> fast(inverse, round, w, h);
+  const Vec3<R> slow_angle = (w + change * half) * h;
+  const Vec3<R> angle = fast.anywhere ? select(fast.applies, fast.angle, slow_angle) : slow_angle;
   // Taylor series of the quaternion exponential. The next terms are below a float's precision up to half a radian per
   // substep.
   const R t = length_squared(angle) * R(0.25f), imaginary = half * (one - t * R(1 / 6.f));
   const Quat<R> turn{angle.x * imaginary, angle.y * imaginary, angle.z * imaginary, one - t * half + t * t * R(1 / 24.f)};
-  at.store(a.starts, q);
-  const Quat<R> turned = normalise(multiply(q, turn)), spun = multiply(turned, fast.twist);
+  const FreeTurn<R> slow{normalise(multiply(q, turn)), rotate(q, angle), w + change};
+  if (!fast.anywhere) return slow;
+  const Quat<R> spun = multiply(slow.orientation, fast.twist), &turned = slow.orientation;
   const Vec3<R> spin = rotate(conjugate(fast.twist), w);
-  at.store(a.predicted, select(fast.applies, rotate(spun, spin * h), rotate(q, angle)), R(0.f));
-  at.store(a.orientations, Quat<R>{select(fast.applies, spun.x, turned.x), select(fast.applies, spun.y, turned.y),
-                                   select(fast.applies, spun.z, turned.z), select(fast.applies, spun.w, turned.w)});
-  at.store(a.angular_velocities, select(fast.applies, spin, w + change), R(0.f));
-  at.store(a.corrections, {R(0.f), R(0.f), R(0.f)}, R(0.f));
+  return {{select(fast.applies, spun.x, turned.x), select(fast.applies, spun.y, turned.y),
+           select(fast.applies, spun.z, turned.z), select(fast.applies, spun.w, turned.w)},
+          select(fast.applies, rotate(spun, spin * h), slow.angle),
+          select(fast.applies, spin, slow.spin)};
+}
+
+template <class R, int lanes>
+PLIANT_HD void predict_frames(const FrameArrays& a, const Lanes<R, lanes>& at, float step) {
+  const R zero(0.f);
+  const Quat<R> q = at.rotation(a.orientations);
+  const FreeTurn<R> turned =
+      free_turn(q, at.vector(a.inverse_inertias), at.vector(a.round), at.vector(a.angular_velocities), R(step));
+  at.store(a.starts, q);
+  at.store(a.predicted, turned.angle, zero);
+  at.store(a.orientations, turned.orientation);
+  at.store(a.angular_velocities, turned.spin, zero);
+  at.store(a.corrections, {zero, zero, zero}, zero);
 }
 
 template <class R>
