@@ -32,6 +32,14 @@ std::string summary(const RunOptions& options, const World& world, const RunRepo
          world.isa() + "\nstate " + world.state_hash() + "\n";
 }
 
+/// What tore, was cut or broke, as a line; empty if nothing did.
+std::string summary(const Tears& tears) {
+  if (tears.first_frame < 0) return {};
+  return "tears: " + counted(static_cast<std::size_t>(tears.lost_constraints), "constraint") + " lost and " +
+         counted(static_cast<std::size_t>(tears.new_particles), "new particle") + ", the first in frame " +
+         std::to_string(tears.first_frame) + "\n";
+}
+
 /// Throws an Error for files that cannot be written, or that would overwrite one another.
 void check_files(const RunOptions& options) {
   std::vector<std::string> files = options.out;
@@ -122,7 +130,7 @@ int run(const RunOptions& options) {
   if (!options.quiet) {
     for (const std::string& warning : report.warnings()) print("warning: " + one_line(warning) + "\n");
     if (const std::string advice = report.advice(world); !advice.empty()) print("warning: " + one_line(advice) + "\n");
-    print(summary(options, world, report));
+    print(summary(options, world, report) + summary(report.tears()));
     for (const auto& writer : writers) print_written(writer->written());
     print_written(gauges.written());
     if (report_file) print_written({{report_file->path(), report_file->size()}});

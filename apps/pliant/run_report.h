@@ -41,6 +41,7 @@ class RunReport {
   /// For each kind of warning the first one, with its frame. Warnings that differ only in numbers are of one kind.
   /// The last ones are of liquids that were compressed by more than 1 % on average, and of tetrahedra turned inside out.
   std::vector<std::string> warnings() const;
+  const Tears& tears() const { return tears_; }
 
  private:
   void add(const Compression& compression, std::int64_t frame);

@@ -270,6 +270,24 @@ TEST_F(Command, AReportSaysHowManyIterationsATolerancePermitted) {
   EXPECT_EQ(json.at("iterations_used").at("mean"), 1);
 }
 
+TEST_F(Command, RunSaysWhatTore) {
+  const auto write =
+      [&](double force) {
+        std::ofstream(folder_ / "hung.json")
+            << R"({"frames": 4, "objects": [{"particles": {"positions": [[0, 0, 0], [0, -1, 0]], "masses": ["fixed", 2],
+               "constraints": [{"type": "distance", "particles": [[0, 1]], "stiffness": {"compliance": 1e-4},
+                                "break_force": )"
+            << force << "}]}}]}";
+      };
+  write(1);
+  const Result breaks = pliant("run hung.json");
+  EXPECT_EQ(breaks.status, 0) << breaks.err;
+  EXPECT_NE(breaks.out.find("tears: 1 constraint lost and 0 new particles, the first in frame 1"), std::string::npos)
+      << breaks.out;
+  write(1000);
+  EXPECT_EQ(pliant("run hung.json").out.find("tears"), std::string::npos);
+}
+
 TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {
   std::ofstream(folder_ / "long.json") << small_scene(10000000);
   const int before = files();
