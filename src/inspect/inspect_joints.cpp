@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "constraints/joint_angle.h"
 #include "inspect/problems.h"
 #include "math/quat.h"
 
@@ -91,9 +92,38 @@ void doubt_bearings(Problems& problems, const Object& object, const ObjectJoint&
   }
 }
 
+/// The joint between two bodies, by their particles; null if there is none.
+const ObjectJoint* joint_between(const Object& object, int a, int b) {
+  const auto joins = [&](const ObjectJoint& joint) {
+    return exists(object, joint.a) && exists(object, joint.b) && jointed(object, joint.a).body.particle == a &&
+           jointed(object, joint.b).body.particle == b;
+  };
+  const auto found = std::find_if(object.joints.begin(), object.joints.end(), joins);
+  return found != object.joints.end() ? &*found : nullptr;
+}
+
+/// Angles are known up to full turns, so where hardly any are forbidden a body passes them between two substeps.
+void doubt_wide_limits(Problems& problems, const Object& object) {
+  constexpr double pi = 3.14159265358979323846, widest = 340 * pi / 180;
+  constexpr std::size_t fields = JointAngle::fields.size(), half_width = fields - 2;
+  for (const ConstraintGroup& group : object.constraints) {
+    if (group.type != JointAngle::name) continue;
+    for (std::size_t i = 0; (i + 1) * fields <= group.rest.size() && (i + 1) * 4 <= group.particles.size(); ++i) {
+      const double range = 2 * static_cast<double>(group.rest[i * fields + half_width]);
+      const ObjectJoint* const joint = joint_between(object, group.particles[4 * i], group.particles[4 * i + 2]);
+      if (!(range > widest) || joint == nullptr) continue;
+      problems.doubtful("joint '" + joint->name + "'",
+                        "has a range of " + words(std::round(range * 180 / pi)) +
+                            " degrees, of which a body that passes both ends in one substep sees nothing",
+                        "give less than 340 degrees, or no limit");
+    }
+  }
+}
+
 }  // namespace
 
 void doubt_joints(Problems& problems, const Object& object) {
+  doubt_wide_limits(problems, object);
   for (const ObjectJoint& joint : object.joints) {
     if (!exists(object, joint.a) || !exists(object, joint.b)) continue;
     if (joins_angles(joint))

@@ -41,6 +41,19 @@ void evaluate(JointWork& work, const ConstraintDefinition& type) {
     type.evaluate(a.slots, a.rest, a.c, a.gradients);
 }
 
+/// A rigid stop brings back what is beyond it at this speed [m/s or rad/s]: a joint may begin far outside of its range.
+constexpr float speed_of_return = 1;
+
+/// True if a row with bounds is a stop whose C is on the side where it pushes.
+bool is_beyond(float c, const float* bounds) { return c < 0 ? bounds[0] >= 0 : c > 0 && bounds[1] <= 0; }
+
+/// What a stop is to take away of C now, if C was `start` when the substep began.
+float within_reach(float now, float start, const float* bounds, float h) {
+  const float most = speed_of_return * h;
+  if (!is_beyond(now, bounds) || !is_beyond(start, bounds) || start * now < 0 || abs(start) <= most) return now;
+  return now - (start - (start < 0 ? -most : most));
+}
+
 /// The displacement along a row since the substep's start.
 float motion_along(const JointWork& work, const JointForest::Joint& joint, const Pool& pool, int row) {
   float sum = 0;
@@ -82,13 +95,20 @@ void fill_part(JointWork& work, std::size_t j, const JointForest::Part& part, bo
   float c[most_components], bounds[3 * most_components];
   std::copy_n(work.arrays.c, most_components, c);
   std::copy_n(work.bounds, 3 * most_components, bounds);
-  if (start_gradients) {
+  const float softness = at.value(pool.fields);
+  const bool is_stop = type.evaluate_bounded != nullptr && !type.acts_on_motion && softness == 0;
+  if (start_gradients || is_stop) {
     load(work, joint, true);
     evaluate(work, type);
-    std::copy_n(bounds, 3 * most_components, work.bounds);
+    for (int r = 0; is_stop && r < pool.components; ++r)
+      c[r] = within_reach(c[r], work.arrays.c[r], bounds + 3 * r, work.points.h);
   }
-  const float softness = at.value(pool.fields),
-              alpha = min(softness * (type.acts_on_motion ? work.points.inverse_h : work.points.inverse_h2),
+  if (!start_gradients && is_stop) {
+    load(work, joint, false);
+    evaluate(work, type);
+  }
+  std::copy_n(bounds, 3 * most_components, work.bounds);
+  const float alpha = min(softness * (type.acts_on_motion ? work.points.inverse_h : work.points.inverse_h2),
                           largest_compliance),
               gamma = pool.law == Law::damped && !type.acts_on_motion
                           ? min(softness * at.value(pool.fields + 1) * work.points.inverse_h, largest_compliance)

@@ -14,34 +14,47 @@ namespace {
 constexpr int body_unknowns = 6;
 /// Between two joints with the ground a joint may find that one side cannot move along some direction at all, and has no pivot
 /// there before the other side is known. Joints get this share of their inverse mass as compliance in such trees.
-constexpr float softness = 1e-4f;
+constexpr double softness = 1e-4;
 /// A row with compliance of its own needs no more than this share, above least_pivot of the blocks.
-constexpr float least_compliance = 2e-6f;
+constexpr double least_compliance = 2e-6;
 
-using bodies::at, bodies::times;
-using Gradient = std::array<Vec3f, 2>;  ///< for displacement and rotation
+using bodies::at;
+/// For displacement and rotation. In double: along a chain whose joints hold angles, the smallest eigenvalues of the system fall with the
+/// fourth power of its length, below a float's rounding of the largest at a hundred links.
+using Gradient = std::array<Vec3d, 2>;
+
+Gradient gradient(const std::array<Vec3f, 2>& g) { return {convert<double>(g[0]), convert<double>(g[1])}; }
+
+/// A symmetric matrix times a vector.
+Vec3d times(const Symmetric& m, const Vec3d& v) {
+  const auto row = [&](std::size_t x, std::size_t y, std::size_t z) {
+    return Vec3d{static_cast<double>(m[x]), static_cast<double>(m[y]), static_cast<double>(m[z])};
+  };
+  return {dot(row(0, 5, 4), v), dot(row(5, 1, 3), v), dot(row(4, 3, 2), v)};
+}
 
 /// The inverse mass that one body gives a row, with the mean of its inertia.
-float inverse_mass(const Gradient& gradient, const BodyMass& body) {
-  const float inertia = (body.inertia[0] + body.inertia[1] + body.inertia[2]) / 3;
-  return length_squared(gradient[0]) / body.mass + length_squared(gradient[1]) / inertia;
+double inverse_mass(const Gradient& gradient, const BodyMass& body) {
+  const auto inertia = static_cast<double>((body.inertia[0] + body.inertia[1] + body.inertia[2]) / 3);
+  return length_squared(gradient[0]) / static_cast<double>(body.mass) + length_squared(gradient[1]) / inertia;
 }
 
 /// M^-1 times a gradient.
-Gradient accelerated(const Gradient& g, const BodyMass& body, float inverse) {
+Gradient accelerated(const Gradient& g, const BodyMass& body, double inverse) {
   return {g[0] * inverse, times(body.inverse, g[1])};
 }
 
-float product(const Gradient& a, const Gradient& b) { return dot(a[0], b[0]) + dot(a[1], b[1]); }
+double product(const Gradient& a, const Gradient& b) { return dot(a[0], b[0]) + dot(a[1], b[1]); }
 
-void set_row(const Gradient& g, float* row) {
-  const float six[body_unknowns] = {g[0].x, g[0].y, g[0].z, g[1].x, g[1].y, g[1].z};
+void set_row(const Gradient& g, double* row) {
+  const double six[body_unknowns] = {g[0].x, g[0].y, g[0].z, g[1].x, g[1].y, g[1].z};
   std::copy_n(six, body_unknowns, row);
 }
 
-void set_inertia(const BodyMass& body, float* m, int stride) {
-  for (int i = 0; i < 3; ++i) m[i * stride + i] = body.mass;
-  const auto& inertia = body.inertia;
+void set_inertia(const BodyMass& body, double* m, int stride) {
+  for (int i = 0; i < 3; ++i) m[i * stride + i] = static_cast<double>(body.mass);
+  std::array<double, 6> inertia;
+  std::copy(body.inertia.begin(), body.inertia.end(), inertia.begin());
   m[3 * stride + 3] = inertia[0];
   m[4 * stride + 4] = inertia[1];
   m[5 * stride + 5] = inertia[2];
@@ -66,7 +79,8 @@ float inverse_power_of_two(float x) {
   return bits_as<float>((254 - std::min(exponent, 253u)) << 23);
 }
 
-const std::array<Gradient, most_joint_rows>& gradients_of(const JointRows& rows, const JointEnds& ends, int body) {
+const std::array<std::array<Vec3f, 2>, most_joint_rows>& gradients_of(const JointRows& rows, const JointEnds& ends,
+                                                                      int body) {
   return ends.b == body ? rows.of_b : rows.of_a;
 }
 
@@ -169,7 +183,7 @@ void JointTree::add_joints_of(int body, int parent, int but) {
 
 /// Sets the sizes of all blocks, where they have changed.
 void JointTree::shape_blocks(const std::vector<JointRows>& joints) {
-  std::vector<BlockTree<float>::Block> blocks;
+  std::vector<BlockTree<double>::Block> blocks;
   blocks.reserve(nodes_.size());
   for (const Node& node : nodes_) {
     const int joint = node.is_body ? ground_[at(node.index)] : node.index;
@@ -188,37 +202,37 @@ void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, c
   const JointEnds& ends = ends_[at(node.index)];
   const JointRows& rows = joints[at(node.index)];
   const int stride = blocks_.stride();
-  float *const m = blocks_.diagonal(n), *const up = blocks_.to_parent(n);
+  double *const m = blocks_.diagonal(n), *const up = blocks_.to_parent(n);
   for (int r = 0; r < rows.rows; ++r) {
-    m[r * stride + r] = -rows.compliance[at(r)];
-    blocks_.x(n)[r] = -rows.value[at(r)];
+    m[r * stride + r] = static_cast<double>(-rows.compliance[at(r)]);
+    blocks_.x(n)[r] = static_cast<double>(-rows.value[at(r)]);
   }
   for (const int body : {ends.a, ends.b}) {
     if (body < 0) continue;
     const BodyMass& mass = masses[at(body)];
+    const double inverse = 1 / static_cast<double>(mass.mass);
     const auto& g = gradients_of(rows, ends, body);
     const bool is_held = ends.a >= 0 && ends.b >= 0 && held_[at(body)] != 0;
     for (int r = 0; is_held && r < rows.rows; ++r) {
-      const float own = rows.compliance[at(r)];
+      const auto own = static_cast<double>(rows.compliance[at(r)]);
+      const Gradient of_row = gradient(g[at(r)]);
       if (own == 0)
-        m[r * stride + r] -= softness * inverse_mass(g[at(r)], mass);
+        m[r * stride + r] -= softness * inverse_mass(of_row, mass);
       else
-        m[r * stride + r] -=
-            std::max(0.f, least_compliance * product(accelerated(g[at(r)], mass, 1 / mass.mass), g[at(r)]) - own);
+        m[r * stride + r] -= std::max(0., least_compliance * product(accelerated(of_row, mass, inverse), of_row) - own);
     }
     if (!is_eliminated(body)) {
-      for (int r = 0; body == node.through && r < rows.rows; ++r) set_row(g[at(r)], up + r * stride);
+      for (int r = 0; body == node.through && r < rows.rows; ++r) set_row(gradient(g[at(r)]), up + r * stride);
       continue;
     }
-    const float inverse = 1 / mass.mass;
     const Node* const parent = body == node.through ? &nodes_[at(node.parent)] : nullptr;
     for (int r = 0; r < rows.rows; ++r) {
-      const Gradient moved = accelerated(g[at(r)], mass, inverse);
-      for (int c = r; c < rows.rows; ++c) m[r * stride + c] = m[r * stride + c] - product(moved, g[at(c)]);
+      const Gradient moved = accelerated(gradient(g[at(r)]), mass, inverse);
+      for (int c = r; c < rows.rows; ++c) m[r * stride + c] = m[r * stride + c] - product(moved, gradient(g[at(c)]));
       if (parent == nullptr) continue;
       const JointRows& above = joints[at(parent->index)];
       const auto& other = gradients_of(above, ends_[at(parent->index)], body);
-      for (int c = 0; c < above.rows; ++c) up[r * stride + c] = -product(moved, other[at(c)]);
+      for (int c = 0; c < above.rows; ++c) up[r * stride + c] = -product(moved, gradient(other[at(c)]));
     }
   }
 }
@@ -227,15 +241,15 @@ void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, c
 void JointTree::fill_body(std::size_t n, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints) {
   const Node& node = nodes_[n];
   const int stride = blocks_.stride(), ground = ground_[at(node.index)];
-  float *const m = blocks_.diagonal(n), *const up = blocks_.to_parent(n);
+  double *const m = blocks_.diagonal(n), *const up = blocks_.to_parent(n);
   set_inertia(masses[at(node.index)], m, stride);
   if (node.parent >= 0) {
     const int joint = nodes_[at(node.parent)].index;
     const JointRows& rows = joints[at(joint)];
     const auto& g = gradients_of(rows, ends_[at(joint)], node.index);
     for (int r = 0; r < rows.rows; ++r) {
-      float row[body_unknowns];
-      set_row(g[at(r)], row);
+      double row[body_unknowns];
+      set_row(gradient(g[at(r)]), row);
       for (int c = 0; c < body_unknowns; ++c) up[c * stride + r] = row[c];
     }
   }
@@ -243,17 +257,17 @@ void JointTree::fill_body(std::size_t n, const std::vector<BodyMass>& masses, co
   const JointRows& rows = joints[at(ground)];
   const auto& g = gradients_of(rows, ends_[at(ground)], node.index);
   for (int r = 0; r < rows.rows; ++r) {
-    float row[body_unknowns];
-    set_row(g[at(r)], row);
+    double row[body_unknowns];
+    set_row(gradient(g[at(r)]), row);
     for (int c = 0; c < body_unknowns; ++c) m[c * stride + body_unknowns + r] = row[c];
-    m[(body_unknowns + r) * stride + body_unknowns + r] = -rows.compliance[at(r)];
-    blocks_.x(n)[body_unknowns + r] = -rows.value[at(r)];
+    m[(body_unknowns + r) * stride + body_unknowns + r] = static_cast<double>(-rows.compliance[at(r)]);
+    blocks_.x(n)[body_unknowns + r] = static_cast<double>(-rows.value[at(r)]);
   }
 }
 
 /// The bodies that are no blocks: d = -M^-1 J^T lambda of their joints.
 void JointTree::move_eliminated(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
-                                std::vector<BodyCorrection>& corrections) {
+                                std::vector<std::array<Vec3d, 2>>& moves) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     if (nodes_[n].is_body) continue;
     const JointEnds& ends = ends_[at(nodes_[n].index)];
@@ -261,14 +275,15 @@ void JointTree::move_eliminated(const std::vector<BodyMass>& masses, const std::
     for (const int body : {ends.a, ends.b}) {
       if (body < 0 || !is_eliminated(body)) continue;
       const auto& g = gradients_of(rows, ends, body);
-      Vec3f force{}, torque{};
+      Vec3d force{}, torque{};
       for (int r = 0; r < rows.rows; ++r) {
-        force = force + g[at(r)][0] * blocks_.x(n)[r];
-        torque = torque + g[at(r)][1] * blocks_.x(n)[r];
+        const Gradient of_row = gradient(g[at(r)]);
+        force = force + of_row[0] * blocks_.x(n)[r];
+        torque = torque + of_row[1] * blocks_.x(n)[r];
       }
-      BodyCorrection& by = corrections[at(body)];
-      by.displacement = by.displacement - force * (1 / masses[at(body)].mass);
-      by.rotation = by.rotation - times(masses[at(body)].inverse, torque);
+      const BodyMass& mass = masses[at(body)];
+      moves[at(body)][0] -= force * (1 / static_cast<double>(mass.mass));
+      moves[at(body)][1] -= times(mass.inverse, torque);
     }
   }
 }
@@ -284,17 +299,21 @@ void JointTree::solve(const std::vector<BodyMass>& masses, const std::vector<Joi
       fill_joint(n, masses, joints);
   }
   blocks_.solve();
-  corrections.assign(masses.size(), {});
   if (multipliers != nullptr) multipliers->assign(joints.size(), {});
+  moves_.assign(masses.size(), {});
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
-    const float* x = blocks_.x(n);
-    if (node.is_body) corrections[at(node.index)] = {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
+    const double* x = blocks_.x(n);
+    if (node.is_body) moves_[at(node.index)] = {Vec3d{x[0], x[1], x[2]}, Vec3d{x[3], x[4], x[5]}};
     const int joint = node.is_body ? ground_[at(node.index)] : node.index;
     if (multipliers == nullptr || joint < 0) continue;
-    std::copy_n(x + (node.is_body ? body_unknowns : 0), joints[at(joint)].rows, (*multipliers)[at(joint)].data());
+    const double* const first = x + (node.is_body ? body_unknowns : 0);
+    for (int r = 0; r < joints[at(joint)].rows; ++r) (*multipliers)[at(joint)][at(r)] = static_cast<float>(first[r]);
   }
-  move_eliminated(masses, joints, corrections);
+  move_eliminated(masses, joints, moves_);
+  corrections.clear();
+  for (const auto& [displacement, rotation] : moves_)
+    corrections.push_back({convert<float>(displacement), convert<float>(rotation)});
 }
 
 }  // namespace pliant

@@ -76,7 +76,7 @@ class JointTree {
   void fill_joint(std::size_t node, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints);
   void fill_body(std::size_t node, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints);
   void move_eliminated(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
-                       std::vector<BodyCorrection>& corrections);
+                       std::vector<std::array<Vec3d, 2>>& moves);
 
   std::vector<JointEnds> ends_;
   std::vector<Node> nodes_;
@@ -84,7 +84,8 @@ class JointTree {
   std::vector<int> ground_;                  ///< joint of each body with the ground; -1: none
   std::vector<char> held_;                   ///< [body] 1: its tree has two joints with the ground or more
   std::vector<int> loose_;
-  BlockTree<float> blocks_;
+  BlockTree<double> blocks_;
+  std::vector<std::array<Vec3d, 2>> moves_;  ///< [body] displacement and rotation; scratch
 };
 
 }  // namespace pliant
