@@ -13,10 +13,11 @@
 #include "constraints/triangle_shear.h"
 #include "constraints/triangle_stretch.h"
 #include "constraints/type_list.h"
+#include "constraints/volume_around_edge.h"
 
 namespace pliant {
 
 using LaneConstraints = TypeList<Distance, DihedralBending, IsometricBending, Fibre, TetrahedronShear, TetrahedronVolume,
-                                 TriangleShear, TriangleStretch, DistanceLimit>;
+                                 TriangleShear, TriangleStretch, DistanceLimit, VolumeAroundEdge>;
 
 }  // namespace pliant

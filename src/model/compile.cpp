@@ -10,6 +10,7 @@
 #include "model/compile_surface.h"
 #include "model/compiled_object.h"
 #include "model/gather_constraints.h"
+#include "model/join_volumes.h"
 #include "model/length_ranges.h"
 #include "model/object_sets.h"
 #include "model/schedule.h"
@@ -76,6 +77,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   const std::vector<ChangingGroup> changing = find_changing_groups(object);  // likewise
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)
                                                             : gather_constraints(object, options.passes);
+  join_volumes(lists);
   const bool in_given_order = options.sweep == Sweep::natural;
   if (solves_chains(options.sweep)) split_off_chains(lists, held_by_targets(object, static_cast<double>(options.gravity)));
   std::vector<int> tile;

@@ -3,16 +3,9 @@
 
 #include "constraints/traits.h"
 #include "math/scalar.h"
+#include "math/unroll.h"
 #include "model/pool.h"
 #include "solver/kernels.h"
-
-/// Put before loops over a stencil's slots. If they are unrolled, their arrays stay in registers; otherwise g++ keeps
-/// the records in memory, sets them to zero first and takes 2.5 times as long.
-#if defined(__clang__) || defined(__CUDACC__)
-#define PLIANT_UNROLL _Pragma("unroll")
-#else
-#define PLIANT_UNROLL _Pragma("GCC unroll 8")
-#endif
 
 namespace pliant {
 

@@ -1,10 +1,12 @@
 // Measures a World between steps, and describes what falls short.
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "constraints/registry.h"
+#include "constraints/tetrahedron_shear.h"
 #include "constraints/tetrahedron_volume.h"
+#include "constraints/volume_around_edge.h"
+#include "math/matrix.h"
 #include "matter/advice_settings.h"
 #include "solver/visit.h"
 #include "world/advice.h"
@@ -41,14 +43,40 @@ double six_volumes(const Record* positions, const std::int32_t* corners) {
   return dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]);
 }
 
+/// The constraints that tell the tetrahedra of an object with their rest volumes.
+struct TetrahedronType {
+  int type = 0;
+  double (*rest_volume)(const ConstraintPlace&) = nullptr;  ///< [m^3]
+};
+
+double given_rest_volume(const ConstraintPlace& at) { return static_cast<double>(at.value(0)); }
+
+/// From D^-1, the inverse of three edges at rest.
+double rest_volume_of_shear(const ConstraintPlace& at) {
+  Matrix3d inverse;
+  for (int i = 0; i < 9; ++i) inverse[i] = static_cast<double>(at.value(i));
+  const double six = determinant(inverse);
+  return six == 0 ? 0 : 1 / (6 * six);
+}
+
+/// The volume constraints, or those of shear if the former are joined around edges (model/join_volumes.h).
+TetrahedronType tetrahedron_type(const CompiledObject& object) {
+  const int joined = find_constraint_type(VolumeAroundEdge::name);
+  const bool is_joined =
+      std::any_of(object.pools.begin(), object.pools.end(), [&](const Pool& pool) { return pool.type == joined; });
+  if (is_joined) return {find_constraint_type(TetrahedronShear::name), &rest_volume_of_shear};
+  return {find_constraint_type(TetrahedronVolume::name), &given_rest_volume};
+}
+
 /// Sums of a TetrahedraMeasure while objects are added.
 struct TetrahedraSum {
   TetrahedraMeasure measure;
   double volume = 0, at_rest = 0;  ///< [m^3]
 
-  void add(const CompiledObject& object, ObjectId id, const Record* positions, int type) {
-    for_constraints(object, type, [&](const ConstraintPlace& at, const std::int32_t* corners) {
-      const auto rest = static_cast<double>(at.value(0));
+  void add(const CompiledObject& object, ObjectId id, const Record* positions) {
+    const TetrahedronType of = tetrahedron_type(object);
+    for_constraints(object, of.type, [&](const ConstraintPlace& at, const std::int32_t* corners) {
+      const double rest = of.rest_volume(at);
       if (rest == 0) return;
       const double now = six_volumes(positions, corners) / 6, ratio = now / rest;
       ++measure.tetrahedra;
@@ -120,12 +148,9 @@ Overstretch Measurements::overstretch() const {
 
 TetrahedraMeasure Measurements::tetrahedra() const {
   TetrahedraSum sum;
-  for (int type = 0; type < constraint_type_count(); ++type) {
-    if (constraint_type(type).name != std::string_view(TetrahedronVolume::name)) continue;
-    for (std::size_t o = 0; o < world_->model.objects.size(); ++o)
-      sum.add(world_->model.objects[o], world_->ids.objects.id_of(static_cast<int>(o)),
-              world_->state.positions.data() + world_->model.first[o], type);
-  }
+  for (std::size_t o = 0; o < world_->model.objects.size(); ++o)
+    sum.add(world_->model.objects[o], world_->ids.objects.id_of(static_cast<int>(o)),
+            world_->state.positions.data() + world_->model.first[o]);
   if (sum.at_rest > 0) sum.measure.volume_ratio = sum.volume / sum.at_rest;
   return sum.measure;
 }

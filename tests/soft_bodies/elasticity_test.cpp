@@ -102,6 +102,13 @@ TEST(Elasticity, ABarSagsAsABeamTheMoreTheFinerItIs) {
   EXPECT_NEAR(sag_over_beam(4, 1e5f, 0.3f, 40), 0.78, 0.02);
 }
 
+// With a constraint for the volume of each tetrahedron 0.60, 0.35 and 0.28.
+TEST(Elasticity, ABarBendsThatHardlyChangesItsVolume) {
+  EXPECT_NEAR(sag_over_beam(4, 1e5f, 0.45f, 40), 0.81, 0.02);
+  EXPECT_NEAR(sag_over_beam(4, 1e5f, 0.49f, 40), 0.80, 0.02);
+  EXPECT_NEAR(sag_over_beam(4, 1e5f, 0.495f, 40), 0.79, 0.02);
+}
+
 TEST(Elasticity, SubstepsHardlyChangeHowFarABarSags) {
   const double few = sag_over_beam(3, 1e5f, 0.3f, 40), many = sag_over_beam(3, 1e5f, 0.3f, 160);
   EXPECT_NEAR(few / many, 1, 0.02);

@@ -128,12 +128,25 @@ bool is_well_spread(const std::array<Vec3d, n>& x) {
 
 /// True if a type has no rest shape without volume.
 template <class T>
-inline constexpr bool needs_volume = std::is_same_v<T, TetrahedronShear> || std::is_same_v<T, TetrahedronVolume>;
+inline constexpr bool needs_volume =
+    std::is_same_v<T, TetrahedronShear> || std::is_same_v<T, TetrahedronVolume> || std::is_same_v<T, VolumeAroundEdge>;
 
 /// True if C is a norm of several numbers. Its level sets are curved at any distance from rest, so one projection removes its share
 /// only roughly, and several turn the direction of the gradient.
 template <class T>
 inline constexpr bool is_norm = std::is_same_v<T, TetrahedronShear>;
+
+/// An edge along z and six points around it, none of them exactly in its place, turned as a whole.
+inline Stencil<VolumeAroundEdge, double> random_ring(Random& random) {
+  Stencil<VolumeAroundEdge, double> x;
+  const Quatd turn = random_rotation(random);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double angle = 1.0471975511965976 * static_cast<double>(i);
+    const Vec3d place = i < 6 ? Vec3d{std::cos(angle), std::sin(angle), 0} : Vec3d{0, 0, i == 6 ? -0.8 : 0.8};
+    x[i] = rotate(turn, place + random_point(random, 0.2));
+  }
+  return x;
+}
 
 /// True unless a type needs a volume that its first four points do not enclose.
 template <class T>
@@ -146,6 +159,7 @@ bool spans_volume(const Stencil<T, double>& x) {
 
 template <class T>
 Stencil<T, double> random_stencil(Random& random) {
+  if constexpr (std::is_same_v<T, VolumeAroundEdge>) return random_ring(random);
   for (;;) {
     Stencil<T, double> x;
     for (Vec3d& p : x) p = random_point(random, 1);

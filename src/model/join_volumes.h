@@ -1,0 +1,15 @@
+// Joins tetrahedra of solids that are nearly incompressible, so that those around an edge keep their volume together.
+#pragma once
+
+#include <vector>
+
+#include "model/gather_constraints.h"
+
+namespace pliant {
+
+/// Replaces TetrahedronVolume constraints by VolumeAroundEdge where the modulus of volume is at least four times that of shear (a Poisson
+/// ratio of 0.4), which the TetrahedronShear of the same corners tells. Each tetrahedron is in one constraint; those that no others
+/// are left for keep their own. Lists whose rest data change stay as they are.
+void join_volumes(std::vector<ConstraintList>& lists);
+
+}  // namespace pliant
