@@ -230,8 +230,12 @@ class Soaking {
 
   /// Both take on part of the velocity of the other.
   void drag(const Touch& touch) {
-    const float rate = surface_.described.drag;
-    if (!(rate > 0)) return;
+    const auto by = static_cast<float>(dt_) * surface_.described.drag;
+    if (by > 0) share_velocity(touch, by / (1 + by));
+  }
+
+  /// Takes away a share of the velocity of a particle against the surface, and keeps momentum.
+  void share_velocity(const Touch& touch, float share) {
     Record& own = state_.velocities[at(touch.particle)];
     const float w = state_.positions[at(touch.particle)].w;
     float inverse = w;
@@ -240,8 +244,7 @@ class Soaking {
       slower = slower - place_of(state_.velocities[at(first_ + touch.corners[k])]) * touch.weights[k];
       inverse += touch.weights[k] * touch.weights[k] * corner(touch.corners[k]).w;
     }
-    const auto by = static_cast<float>(dt_) * rate;
-    const Vec3f impulse = slower * (by / (1 + by) / inverse);
+    const Vec3f impulse = slower * (share / inverse);
     add(own, impulse * -w);
     for (std::size_t k = 0; k < 3; ++k) push(touch.corners[k], impulse * touch.weights[k]);
   }
@@ -323,7 +326,8 @@ class Soaking {
     state_.births[at(particle)] = not_there;
   }
 
-  /// Lets a particle that lies on a full surface pass to its other side.
+  /// Lets a particle that lies on a full surface pass to its other side, where it leaves with the surface's velocity: what comes out of pores
+  /// has lost its own.
   void seep(const Touch& touch) {
     const float falls = -dot(touch.away, down_);
     if (!(falls > 0) || !happens(touch, surface_.described.seepage * falls, 1)) return;
@@ -332,6 +336,7 @@ class Soaking {
     Record& x = state_.positions[at(touch.particle)];
     x = {below.x, below.y, below.z, x.w};
     state_.remainders[at(touch.particle)] = {};
+    share_velocity(touch, 1);
     note(touch.particle);
     ++report_.seeped;
   }
