@@ -193,7 +193,8 @@ TYPED_TEST(Sweeps, GiveTheBitsOfTheReferenceWithAnySlotsInRuns) {
 TYPED_TEST(Sweeps, MeetRunsAndSinglesInThisTest) {
   using T = TypeParam;
   const CompiledObject rows = compile(separate_constraints<T>(160, Law::damped, all_slots<T>, this->random_), {10, 4096});
-  EXPECT_EQ(rows.pools[0].block_floats, batch_width * (field_count<T> + 1))
+  constexpr int equal = std::is_same_v<T, VolumeAroundEdge> ? 2 : 0;  // all rings have six points, and are closed
+  EXPECT_EQ(rows.pools[0].block_floats, batch_width * (field_count<T> - equal + 1))
       << "rest and compliance differ, damping does not";
   const auto batches_in_runs = [&](int ladder, int runs) {
     const CompiledObject compiled =

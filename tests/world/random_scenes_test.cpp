@@ -71,10 +71,11 @@ void add_random_constraints(Dice& all, Object& object, float scale) {
     if (has_frames || type.stencil_size > particles || dice.one_in(3)) continue;  // these objects have no frames
     ConstraintGroup group{type.name, {}, {}, random_stiffness(dice), {}};
     const int count = dice.below(3 * particles);
+    const int strides = type.stencil_size > 4 ? 1 : 3;  // wide ones would often have a particle twice, and be refused
     for (int c = 0; c < count; ++c) {
       const int first = dice.below(particles);
       for (int slot = 0; slot < type.stencil_size; ++slot)
-        group.particles.push_back((first + slot * (1 + c % 3)) % particles);
+        group.particles.push_back((first + slot * (1 + c % strides)) % particles);
     }
     if (dice.one_in(4)) {
       for (std::size_t i = 0; i < static_cast<std::size_t>(count) * type.rest_fields.size(); ++i) {
