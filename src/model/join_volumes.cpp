@@ -195,6 +195,7 @@ ConstraintList fans_like(const ConstraintList& volumes) {
 
 std::vector<char> which_join(const Shear& shear, const ConstraintList& volumes) {
   std::vector<char> joins;
+  joins.reserve(at(volumes.count()));
   for (int i = 0; i < volumes.count(); ++i)
     joins.push_back(volumes.rest[at(i)] > 0 && is_nearly_incompressible(shear, volumes, i) ? 1 : 0);
   return joins;
