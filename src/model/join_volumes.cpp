@@ -48,7 +48,7 @@ Shear shear_of(const std::vector<ConstraintList>& lists) {
 bool is_nearly_incompressible(const Shear& shear, const ConstraintList& volumes, int i) {
   const Corners corners = sorted(corners_of(volumes, i));
   const auto found = std::lower_bound(shear.begin(), shear.end(), std::pair{corners, 0.f});
-  return found != shear.end() && found->first == corners &&
+  return found != shear.end() && found->first == corners && found->second > 0 &&
          static_cast<double>(found->second) >= least_ratio * static_cast<double>(volumes.response[at(i)]);
 }
 
@@ -130,7 +130,8 @@ class Fans {
     Fan fan{start.a, start.b, {start.from}, {}, false};
     for (const AtEdge* next = &start; next != nullptr && !fan.closes;) {
       fan.closes = next->to == start.from;
-      if (!fan.closes && fan.ring.size() == most_around) break;
+      const bool is_in_ring = std::find(fan.ring.begin(), fan.ring.end(), next->to) != fan.ring.end();
+      if (!fan.closes && (is_in_ring || fan.ring.size() == most_around)) break;
       fan.tetrahedra.push_back(next->tetrahedron);
       if (!fan.closes) fan.ring.push_back(next->to);
       const int from = next->to;

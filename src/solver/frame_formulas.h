@@ -251,44 +251,6 @@ PLIANT_HD Vec3<R> pushed_at_start(const Vec3<R>& inverse, const Vec3<R>& round, 
                 pushed + gyroscopic_change(factors, pushed, h));
 }
 
-/// The sine and cosine of an angle from 0 to 3, by series at a quarter of it.
-template <class R>
-PLIANT_HD void sine_and_cosine(const R& angle, R& sine, R& cosine) {
-  const R one(1.f), two(2.f), x = angle * R(0.25f), t = x * x;
-  sine = x * (one - t * R(1 / 6.f) * (one - t * R(1 / 20.f) * (one - t * R(1 / 42.f))));
-  cosine = one - two * (sine * sine);  // of half of the angle, after the first doubling
-  sine = two * sine * (one - t * R(0.5f) * (one - t * R(1 / 12.f) * (one - t * R(1 / 30.f) * (one - t * R(1 / 56.f)))));
-  const R doubled = two * sine * cosine;
-  cosine = one - two * (sine * sine);
-  sine = doubled;
-}
-
-/// True where a frame turns by more than a radian in h and has two moments of inertia that agree to 1e-4.
-template <class R>
-PLIANT_HD auto is_fast_top(const Vec3<R>& inverse, const R& middle, const Vec3<R>& w, const R& h) {
-  const R low = min(min(inverse.x, inverse.y), inverse.z), high = max(max(inverse.x, inverse.y), inverse.z), zero(0.f);
-  const R apart = min(middle - low, high - middle);
-  return select(low > zero, select(apart < R(1e-4f) * high, length_squared(w) * (h * h), zero), zero) > R(1.f);
-}
-
-/// The change of the angular velocity w of a fast symmetric top that constraints have turned by theta in a substep, as an impulse at its
-/// start would turn it: what that adds across the angular momentum L precesses about it by 2 x = h |L| / I, so the top turns by h sin(x) / x of
-/// it, x behind. With theta / h a disc on a hinge gains energy where tan x > 2 x, from 1.17 rad in a substep on. Where sin(x) / x is below a
-/// third, nothing is added across.
-template <class R>
-PLIANT_HD Vec3<R> pushed_while_spinning(const Vec3<R>& inverse, const R& middle, const Vec3<R>& w, const Vec3<R>& theta,
-                                        const R& h) {
-  const R half(0.5f), one(1.f), zero(0.f), least(1.2e-38f), largest(3.f);
-  const Vec3<R> inertia = inertia_of(inverse), momentum{w.x * inertia.x, w.y * inertia.y, w.z * inertia.z};
-  const R size = sqrt(length_squared(momentum)), rate = one / h;
-  const Vec3<R> about = momentum * (one / max(size, least)), along = about * dot(about, theta), across = theta - along;
-  const R x = max(half * h * size * middle, least);
-  R sine, cosine;
-  sine_and_cosine(min(x, largest), sine, cosine);
-  const R mean = sine / x;
-  return along * rate + (across * cosine - cross(about, across) * sine) * select(mean > R(1 / 3.f), rate / mean, zero);
-}
-
 /// Zero if all values are finite, else not a number.
 template <class R, int lanes>
 PLIANT_HD R update_frames(const FrameArrays& a, const Lanes<R, lanes>& at, float h, float share) {
@@ -300,12 +262,6 @@ PLIANT_HD R update_frames(const FrameArrays& a, const Lanes<R, lanes>& at, float
   const auto is_large = is_large_turn(inverse, round, correction.xyz);
   if (!all_zero(select(is_large, R(1.f), R(0.f))))  // seldom
     w = select(is_large, pushed_at_start(inverse, round, before, theta * R(share), R(h)), w);
-  const R middle = max(min(inverse.x, inverse.y), min(max(inverse.x, inverse.y), inverse.z));
-  const auto is_fast = is_fast_top(inverse, middle, before, R(h));
-  if (!all_zero(select(is_fast, R(1.f), R(0.f)))) {  // likewise
-    const Vec3<R> pushed = pushed_while_spinning(inverse, middle, before, theta * R(share), R(h));
-    w = select(is_fast, before + (pushed + turned_back(inverse, theta, before)), w);
-  }
   w = w * correction.w;
   at.store(a.angular_velocities, w, R(0.f));
   return ((w.x - w.x) + (w.y - w.y) + (w.z - w.z)) + ((q.x - q.x) + (q.y - q.y) + (q.z - q.z) + (q.w - q.w));
