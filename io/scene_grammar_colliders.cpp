@@ -102,8 +102,8 @@ const Record& collider_record() {
              "Only for a mesh: its deformation, linear between frames; `motion` is applied after it."),
        field("repeat_frames", boolean(), MeshCollider{}.repeat_frames, "Only for a mesh: restart after the last frame."),
        field("as", choice({"triangles", "distance_grid", "heightfield"}), "triangles",
-             "Only for a mesh: its collision geometry. Distance grids and heightfields are cheap and solid, and collide "
-             "with particles only (docs/guide/contact.md)."),
+             "Only for a mesh: its collision geometry. Distance grids and heightfields are cheap and solid, and meet "
+             "bodies and particles, not edges of surfaces (docs/guide/contact.md)."),
        field("grid_spacing", positive("m", largest_place), "a 48th of the longest side",
              "Only for a distance grid: the distance between its nodes."),
        field("groups", bits(), "[0]", "Only for a mesh: indices of its groups, 0 to 31."),
