@@ -218,7 +218,7 @@ void Solver::substep(double h) {
   for (auto& constraint : constraints_) constraint->start_substep();
   for (int i = 0; i < iterations; ++i)
     for (auto& constraint : constraints_) constraint->project(particles, start, h, substeps * iterations);
-  const double kept = std::exp(-damping * h);
+  const double kept = std::exp(-damping * h);  // libm, as in pbd_change
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (particles[i].inverse_mass > 0) particles[i].velocity = (particles[i].position - start[i]) * (kept / h);
 }

@@ -101,7 +101,7 @@ class Movers {
     if (!boxes_.empty()) tree_.build(boxes_);
   }
 
-  /// The speed of what moves fastest near a grain of an object [m/s]. Other grains and liquids, which are never quite still,
+  /// The largest speed near a grain of an object [m/s]. Other grains and liquids, which never come to rest completely,
   /// count only if they are fast, and then as `unstoppable`.
   float speed_near(int number, const Vec3f& place) const {
     if (everywhere_) return unstoppable;

@@ -21,19 +21,14 @@ void add_chain(Mechanism& m, int links, float end_mass) {
   }
 }
 
-/// The body that is link `i`: the world is the second body, added with the first joint.
-int link(int i) { return i == 0 ? 0 : i + 1; }
-
 double drift(const Mechanism& m, int links) {
   double most = length(m.place(0, {0, 0, 0}));
   for (int i = 1; i < links; ++i) {
     const Vec3f anchor{half_link * static_cast<float>(2 * i), 0, 0};
-    most = std::max(most, length(m.place(link(i), anchor) - m.place(link(i - 1), anchor)));
+    most = std::max(most, length(m.place(body_of_link(i), anchor) - m.place(body_of_link(i - 1), anchor)));
   }
   return most;
 }
-
-double energy(const Mechanism& m) { return m.world->measure().kinetic_energy() + m.world->measure().potential_energy(); }
 
 struct ChainResult {
   double drift = 0, gain = 0, end = 0;  ///< [m]; of energy, the largest and last, as shares of what all weight could gain

@@ -91,6 +91,14 @@ struct Mechanism {
   }
 };
 
+/// Kinetic and gravitational energy [J].
+inline double energy(const Mechanism& m) {
+  return m.world->measure().kinetic_energy() + m.world->measure().potential_energy();
+}
+
+/// The body of link `i` of a chain that hangs from the world, which is the second body, since it is added with the first joint.
+inline int body_of_link(int i) { return i == 0 ? 0 : i + 1; }
+
 /// The moment of inertia of a box about an axis through its centre that is perpendicular to sides 2a and 2b.
 inline double box_inertia(double mass, double a, double b) { return mass * (a * a + b * b) / 3; }
 

@@ -20,20 +20,16 @@ struct Links {
   std::function<void(Object&, int a, int b, const Vec3f& anchor)> join;
 };
 
-int body_of(int link) { return link == 0 ? 0 : link + 1; }  ///< the world is the second body, added with the first joint
-
 Mechanism chain(const Links& links) {
   Mechanism m;
   m.substeps = 8;
   for (int i = 0; i < static_cast<int>(links.masses.size()); ++i) {
     const float x = links.half * static_cast<float>(2 * i + 1);
     const int b = m.box({x, 0, 0}, links.masses[static_cast<std::size_t>(i)], {links.half, 0.03f, 0.03f});
-    links.join(m.object, i == 0 ? -1 : body_of(i - 1), b, {x - links.half, 0, 0});
+    links.join(m.object, i == 0 ? -1 : body_of_link(i - 1), b, {x - links.half, 0, 0});
   }
   return m;
 }
-
-double energy(const Mechanism& m) { return m.world->measure().kinetic_energy() + m.world->measure().potential_energy(); }
 
 /// How far the energy rises above an earlier minimum, over the largest drop of the potential.
 double largest_rise(Mechanism& m, int frames) {
@@ -66,7 +62,7 @@ TEST(LockedChains, AHundredFixedJointsStandOut) {
                          add_joint(object, FixedJoint{.a = a, .b = b, .anchor = anchor});
                        }});
   m.run(6);
-  EXPECT_LT(length(m.place(body_of(99), {20, 0, 0}) - Vec3d{20, 0, 0}), 1e-3);
+  EXPECT_LT(length(m.place(body_of_link(99), {20, 0, 0}) - Vec3d{20, 0, 0}), 1e-3);
 }
 
 void hinge_with_stops(Object& object, int a, int b, const Vec3f& anchor) {
@@ -98,7 +94,7 @@ TEST(LockedChains, FrictionHoldsThem) {
                add_joint(object, HingeJoint{.a = a, .b = b, .anchor = anchor, .axis = {0, 0, 1}, .friction = 100});
              }});
   m.run(3);
-  EXPECT_LT(length(m.place(body_of(7), {0.8f, 0, 0}) - Vec3d{0.8, 0, 0}), 1e-3);
+  EXPECT_LT(length(m.place(body_of_link(7), {0.8f, 0, 0}) - Vec3d{0.8, 0, 0}), 1e-3);
 }
 
 TEST(LockedChains, StrongMotorsBendAnArm) {
@@ -108,7 +104,7 @@ TEST(LockedChains, StrongMotorsBendAnArm) {
                          add_joint(object, HingeJoint{.a = a, .b = b, .anchor = anchor, .axis = {0, 1, 0}, .motor = motor});
                        }});
   m.run(4);
-  EXPECT_NEAR(length(m.turned(body_of(11)) - Vec3d{0, 12 * 0.349 - 2 * pi, 0}), 0, 0.05);
+  EXPECT_NEAR(length(m.turned(body_of_link(11)) - Vec3d{0, 12 * 0.349 - 2 * pi, 0}), 0, 0.05);
 }
 
 /// A joint that begins far outside of its range goes back slowly.
