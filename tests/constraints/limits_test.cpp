@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-/// Four points, of which a type uses as many as it needs.
+/// Four points, of which a type uses as many as it needs. Slots beyond them repeat the first, as padded slots do.
 struct Case {
   const char* name;
   std::array<Vec3d, 4> x;
@@ -47,7 +47,7 @@ const double scales[] = {1e-6, 1e-3, 1, 1e3, 1e6};
 template <class T>
 Stencil<T, float> scaled(const Case& from, double scale) {
   Stencil<T, float> x;
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = convert<float>(from.x[i] * scale);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = convert<float>(from.x[i < from.x.size() ? i : 0] * scale);
   return x;
 }
 
