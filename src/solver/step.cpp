@@ -12,7 +12,7 @@
 //     filter        steps that would make surfaces cross are truncated
 //     guard         where the substep has become shorter, corrections may not increase energy
 //     yield         what is deformed too far keeps some of it (Plasticity)
-//     update        v from the corrections, x += displacement; restitution at colliders
+//     update        v from the corrections, x += displacement; restitution at colliders; joints of fast wheels
 //     respond       restitution between surfaces (friction is part of a contact's projection)
 //   measure         overstretch of the frame, and gaps of ties
 //

@@ -68,6 +68,7 @@ struct JointForest {
   using Pull = std::array<Vec3f, 2>;  ///< the force on bodies a and b, times h^2 [kg m]
   std::vector<Pull> pulls;            ///< [joint] of the last substep, or of this one's passes so far
   std::vector<Pull> pulls_of_pass;    ///< [joint] scratch
+  bool is_fast = false;               ///< a body turns by so much in a substep that joints hold velocities, too
   float inverse_h2_of_pulls = 0;      ///< of the substep in which the pulls were found [1/s^2]
 };
 
@@ -78,5 +79,10 @@ void prepare_joints(const CompiledObject& object, ObjectJoints& joints);
 void solve_joint_trees(Substep& s, bool first_pass);
 /// Solves them again where contact has opened joints since.
 void close_joint_trees(Substep& s);
+
+/// Finds the trees of which a body turns fast, by the velocities at the substep's end. True if there are any.
+bool has_fast_joints(Substep& s);
+/// Joints of those trees hold velocities, too.
+void hold_joint_velocities(Substep& s);
 
 }  // namespace pliant

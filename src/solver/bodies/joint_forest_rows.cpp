@@ -15,30 +15,10 @@ using bodies::quaternion, bodies::xyz;
 using BoundedRow = JointForest::BoundedRow;
 using RowState = BoundedRow::State;
 
-/// Sets the slots of a joint to the positions at the substep's start, or now. Points are relative to the first.
+/// Sets the slots of a joint to the positions at the substep's start, or now.
 void load(JointWork& work, const JointForest::Joint& joint, bool at_start) {
-  const std::int32_t origin = joint.slots[0];
-  const auto moved = [&](std::int32_t n) {
-    return at_start ? xyz(work.points.remainders[n]) : xyz(work.points.displacements[n]);
-  };
-  for (int slot = 0; slot < 4; ++slot) {
-    const std::int32_t n = joint.slots[static_cast<std::size_t>(slot)];
-    if (slot % 2 == 1) {
-      const Record& q = at_start ? work.frames.starts[n] : work.frames.orientations[n];
-      work.arrays.set_slot(slot, q.x, q.y, q.z, q.w);
-      continue;
-    }
-    const Vec3f x = (xyz(work.points.positions[n]) - xyz(work.points.positions[origin])) + (moved(n) - moved(origin));
-    work.arrays.set_slot(slot, x.x, x.y, x.z, 0);
-  }
-}
-
-void evaluate(JointWork& work, const ConstraintDefinition& type) {
-  StencilArrays<float>& a = work.arrays;
-  if (type.evaluate_bounded != nullptr)
-    type.evaluate_bounded(a.slots, a.rest, a.c, a.gradients, work.bounds);
-  else
-    type.evaluate(a.slots, a.rest, a.c, a.gradients);
+  load_slots(work, joint, at_start ? work.points.remainders : work.points.displacements,
+             at_start ? work.frames.starts : work.frames.orientations);
 }
 
 /// A rigid stop brings back what is beyond it at this speed [m/s or rad/s]: a joint may begin far outside of its range.
@@ -160,6 +140,29 @@ ConstraintPlace place_of(const JointWork& work, const JointForest::Part& part) {
 float* multipliers_of(const JointWork& work, const ConstraintPlace& at) {
   float* all = work.points.multipliers == nullptr ? nullptr : work.points.multipliers[at.pool_number];
   return all == nullptr ? nullptr : all + at.multiplier_place(0);
+}
+
+void load_slots(JointWork& work, const JointForest::Joint& joint, const Record* displacements, const Record* orientations) {
+  const std::int32_t origin = joint.slots[0];
+  for (int slot = 0; slot < 4; ++slot) {
+    const std::int32_t n = joint.slots[static_cast<std::size_t>(slot)];
+    if (slot % 2 == 1) {
+      const Record& q = orientations[n];
+      work.arrays.set_slot(slot, q.x, q.y, q.z, q.w);
+      continue;
+    }
+    const Vec3f x = (xyz(work.points.positions[n]) - xyz(work.points.positions[origin])) +
+                    (xyz(displacements[n]) - xyz(displacements[origin]));
+    work.arrays.set_slot(slot, x.x, x.y, x.z, 0);
+  }
+}
+
+void evaluate(JointWork& work, const ConstraintDefinition& type) {
+  StencilArrays<float>& a = work.arrays;
+  if (type.evaluate_bounded != nullptr)
+    type.evaluate_bounded(a.slots, a.rest, a.c, a.gradients, work.bounds);
+  else
+    type.evaluate(a.slots, a.rest, a.c, a.gradients);
 }
 
 void fill_rows(JointWork& work, bool start_gradients) {

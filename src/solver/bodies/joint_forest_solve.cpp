@@ -192,7 +192,14 @@ std::vector<ForestTask> tasks_of(const Substep& s) {
   return tasks;
 }
 
-/// Calls a function for the forests of each object that takes part.
+/// Contact moves one body of a tree at a time, so a joint is open by what an impact gives it in a substep, and a solve is linear. Gaps above
+/// this share of a joint's arms are closed.
+constexpr float closed = 2e-5f;
+/// Each round leaves a gap of the order of the square of the last one over the length of a body.
+constexpr int most_closing_rounds = 3;
+
+}  // namespace
+
 void for_trees(Substep& s, bool first_pass, FunctionRef<void(JointWork&)> body) {
   const std::vector<ForestTask> tasks = tasks_of(s);
   if (tasks.empty()) return;
@@ -201,19 +208,11 @@ void for_trees(Substep& s, bool first_pass, FunctionRef<void(JointWork&)> body) 
     const int o = task.object;
     for (std::size_t i = task.first; i < task.first + task.count; ++i) {
       JointWork work{s.model.objects[static_cast<std::size_t>(o)], arguments(s, o, first_pass), frame_arguments(s, o),
-                     s.work.joints[static_cast<std::size_t>(o)].forests[i]};
+                     s.work.joints[static_cast<std::size_t>(o)].forests[i], o};
       body(work);
     }
   });
 }
-
-/// Contact moves one body of a tree at a time, so a joint is open by what an impact gives it in a substep, and a solve is linear. Gaps above
-/// this share of a joint's arms are closed.
-constexpr float closed = 2e-5f;
-/// Each round leaves a gap of the order of the square of the last one over the length of a body.
-constexpr int most_closing_rounds = 3;
-
-}  // namespace
 
 void solve_joint_trees(Substep& s, bool first_pass) {
   for_trees(s, first_pass, [&](JointWork& work) { solve_object(s, work); });

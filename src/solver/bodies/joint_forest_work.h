@@ -1,6 +1,7 @@
 // What the solution of an object's joint trees works with, and its parts.
 #pragma once
 
+#include "constraints/registry.h"
 #include "solver/bodies/joint_forest.h"
 #include "solver/substep.h"
 #include "solver/visit.h"
@@ -13,9 +14,13 @@ struct JointWork {
   SweepArguments points;
   FrameArguments frames;
   JointForest& forest;
+  int number = 0;  ///< of the object
   StencilArrays<float> arrays{};
   float bounds[3 * most_components] = {};  ///< of each row: low, high, speed
 };
+
+/// Calls a function for the forests of each object that takes part.
+void for_trees(Substep& s, bool first_pass, FunctionRef<void(JointWork&)> body);
 
 /// Where a constraint of a joint is stored.
 ConstraintPlace place_of(const JointWork& work, const JointForest::Part& part);
@@ -25,6 +30,13 @@ float* multipliers_of(const JointWork& work, const ConstraintPlace& at);
 
 /// Sets masses and inertias of all bodies, by their present orientations.
 void fill_masses(JointWork& work);
+
+/// Sets the slots of a joint: its points' displacements are those of one list, its frames' orientations of another. Points are relative to the
+/// first.
+void load_slots(JointWork& work, const JointForest::Joint& joint, const Record* displacements, const Record* orientations);
+
+/// Evaluates a constraint in the slots.
+void evaluate(JointWork& work, const ConstraintDefinition& type);
 
 /// Sets the rows of all joints of trees: C at present, gradients at the substep's start or at present.
 void fill_rows(JointWork& work, bool start_gradients);

@@ -8,6 +8,7 @@
 
 #include "math/motion.h"
 #include "solver/bodies/body_solver.h"
+#include "solver/bodies/joint_forest.h"
 #include "solver/contact_kernels.h"
 #include "solver/drivers/lanes.h"
 #include "solver/forces.h"
@@ -148,7 +149,8 @@ bool predict(Substep& s) {
 bool update(Substep& s) {
   update_frames(s);
   for_objects(s, [&](int object) { s.work.gravity[object].next(s.h); });
-  s.update_is_due = !velocities_are_read(s);
+  const bool has_fast = has_fast_joints(s);
+  s.update_is_due = !velocities_are_read(s) && !has_fast;
   if (s.update_is_due) return true;
   const auto find_non_finite = [&](int task) { s.work.tiles[task].finite = is_finite(s, task); };
   if (s.context.separate_phases) for_tiles(s, "find non-finite values", find_non_finite);
@@ -156,6 +158,7 @@ bool update(Substep& s) {
     if (!s.context.separate_phases) find_non_finite(task);
     if (s.work.tiles[task].finite) update_tile(s, task, settles(s));
   });
+  if (has_fast) hold_joint_velocities(s);
   return all_finite(s, s.made);
 }
 

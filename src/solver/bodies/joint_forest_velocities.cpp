@@ -1,0 +1,108 @@
+// Rigid joints of trees hold velocities too where a body turns fast (RATTLE; Andersen 1983).
+//
+// Where bodies turn little in a substep, the next solve of positions changes velocities by the same gradients, and does it. A body that turns
+// by radians is predicted as a free top. What a joint should have taken from its angular momentum then comes back turned, and a disc on
+// a hinge gains speed.
+#include "constraints/registry.h"
+#include "math/quat.h"
+#include "solver/bodies/body_math.h"
+#include "solver/bodies/joint_forest_work.h"
+#include "solver/stages/stages.h"
+#include "solver/substep_law.h"
+
+namespace pliant {
+
+namespace {
+
+using bodies::plus, bodies::quaternion, bodies::xyz;
+
+/// From this angle in a substep on [rad].
+constexpr float fast_angle = 0.25f;
+
+/// Velocities of an object's points and frames, and what gravity has yet to add to those of points.
+struct Velocities {
+  Record *points, *frames;
+  Vec3f missing;
+
+  /// Of a slot of a joint: the velocity of a point, or the angular velocity of a frame in world axes.
+  Vec3f of(const JointWork& work, const JointForest::Joint& joint, int slot) const {
+    const std::int32_t n = joint.slots[static_cast<std::size_t>(slot)];
+    if (slot % 2 == 1) return rotate(quaternion(work.frames.orientations[n]), xyz(frames[n]));
+    return work.points.positions[n].w > 0 ? xyz(points[n]) + missing : xyz(points[n]);
+  }
+};
+
+bool is_fast(const Substep& s, const JointWork& work) {
+  const Record* spins = s.state.frames.angular_velocities.data() + s.model.first_frame[work.number];
+  const float most = fast_angle * fast_angle * work.points.inverse_h2;
+  for (const JointForest::Body& body : work.forest.bodies)
+    if (length_squared(xyz(spins[body.frame])) > most) return true;
+  return false;
+}
+
+/// The rows of a joint at present, whose values are their rates of change. A joint with compliance has none.
+void fill_rates(JointWork& work, const Velocities& velocities, std::size_t j) {
+  const JointForest::Joint& joint = work.forest.joints[j];
+  JointRows& rows = work.forest.rows[j];
+  rows.rows = 0;
+  const ConstraintPlace at = place_of(work, joint.parts.front());
+  const ConstraintDefinition& type = constraint_type(at.pool.type);
+  if (!joint.in_tree || at.value(at.pool.fields) > 0 || type.acts_on_motion) return;
+  work.arrays.load_rest(at);
+  load_slots(work, joint, work.points.remainders, work.frames.orientations);
+  evaluate(work, type);
+  rows.rows = at.pool.components;
+  for (int r = 0; r < at.pool.components; ++r) {
+    const auto row = static_cast<std::size_t>(r);
+    rows.of_a[row] = {work.arrays.gradient(at.pool, r, 0), work.arrays.gradient(at.pool, r, 1)};
+    rows.of_b[row] = {work.arrays.gradient(at.pool, r, 2), work.arrays.gradient(at.pool, r, 3)};
+    rows.compliance[row] = 0;
+    rows.value[row] = 0;
+    for (int slot = 0; slot < 4; ++slot)
+      rows.value[row] += dot(work.arrays.gradient(at.pool, r, slot), velocities.of(work, joint, slot));
+  }
+}
+
+/// Takes the rates of change of rigid joints from the velocities of their bodies.
+void hold(JointWork& work, const Velocities& velocities) {
+  JointForest& forest = work.forest;
+  fill_masses(work);
+  forest.rows.resize(forest.joints.size());
+  for (std::size_t j = 0; j < forest.joints.size(); ++j) fill_rates(work, velocities, j);
+  forest.tree->solve(forest.masses, forest.rows, forest.corrections);
+  for (std::size_t i = 0; i < forest.bodies.size(); ++i) {
+    const JointForest::Body& body = forest.bodies[i];
+    const BodyCorrection& change = forest.corrections[i];
+    if (work.points.positions[body.point].w > 0)
+      velocities.points[body.point] = plus(velocities.points[body.point], change.displacement);
+    const Quatf q = quaternion(work.frames.orientations[body.frame]);
+    velocities.frames[body.frame] = plus(velocities.frames[body.frame], rotate(conjugate(q), change.rotation));
+  }
+}
+
+}  // namespace
+
+bool has_fast_joints(Substep& s) {
+  bool any = false;
+  for_objects(s, [&](int o) {
+    for (JointForest& forest : s.work.joints[static_cast<std::size_t>(o)].forests) {
+      const JointWork work{s.model.objects[static_cast<std::size_t>(o)], arguments(s, o, false), frame_arguments(s, o),
+                           forest, o};
+      forest.is_fast = is_fast(s, work);
+      any = any || forest.is_fast;
+    }
+  });
+  return any;
+}
+
+void hold_joint_velocities(Substep& s) {
+  const bool is_settled = s.is_last() || ends_quarter(s);
+  for_trees(s, false, [&](JointWork& work) {
+    if (!work.forest.is_fast) return;
+    const Vec3f missing = is_settled ? Vec3f{} : gravity_for(s, s.work.gravity[work.number].settled);
+    hold(work, {s.state.velocities.data() + s.model.first[work.number],
+                s.state.frames.angular_velocities.data() + s.model.first_frame[work.number], missing});
+  });
+}
+
+}  // namespace pliant

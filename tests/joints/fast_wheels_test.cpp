@@ -1,0 +1,66 @@
+// Tests wheels that turn by radians in a substep: a joint neither speeds them up nor takes their momentum.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "joint_support.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+constexpr int substeps = 8;
+
+/// The angular velocity at which a body turns by `angle` in a substep [rad/s].
+float spin_of(float angle) { return angle * 60 * substeps; }
+
+struct Wheel {
+  float radius = 0.3f, half_width = 0.02f;
+};
+
+int add_wheel(Object& object, const Wheel& wheel, const Vec3f& at, const Vec3f& spin) {
+  BodyOptions options;
+  options.position = at;
+  options.mass = 2;
+  options.angular_velocity = spin;
+  options.rotation = normalise(Quatf{0, 0, 1, 1});  // a cylinder is along y; the wheel along x
+  return add_body(object, {{Cylinder{wheel.radius, wheel.half_width}, {}, {}, 1000}}, options);
+}
+
+TEST(FastWheels, KeepTheirSpeedOnAHinge) {
+  for (const Wheel& wheel : {Wheel{0.3f, 0.02f}, Wheel{0.3f, 0.1f}, Wheel{0.1f, 0.3f}})
+    for (const float angle : {0.3f, 0.6f, 1.f, 1.2f, 1.5f, 2.f, 3.f, 5.f}) {
+      Mechanism m;
+      m.substeps = substeps;
+      const int b = add_wheel(m.object, wheel, {0, 0, 0}, {spin_of(angle), 0, 0});
+      add_joint(m.object, HingeJoint{.a = -1, .b = b, .anchor = {0, 0, 0}, .axis = {1, 0, 0}});
+      m.run(4);
+      EXPECT_NEAR(m.spin(b).x / spin_of(angle), 1, 2e-4) << angle << " rad a substep, half width " << wheel.half_width;
+      EXPECT_LT(length(m.velocity(b)), 1e-2);
+    }
+}
+
+TEST(FastWheels, AForkThatSwingsGainsNoEnergyAndLosesLittle) {
+  for (const float angle : {0.3f, 0.9f, 1.3f}) {
+    Mechanism m;
+    m.substeps = substeps;
+    const int fork = m.box({0.5f, 0, 0}, 3, {0.5f, 0.05f, 0.05f});
+    add_joint(m.object, BallJoint{.a = -1, .b = fork, .anchor = {0, 0, 0}});
+    const int wheel = add_wheel(m.object, {}, {1, 0, 0}, {spin_of(angle), 0, 0});
+    add_joint(m.object, HingeJoint{.a = fork, .b = wheel, .anchor = {1, 0, 0}, .axis = {1, 0, 0}});
+    m.start();
+    const double start = energy(m);
+    double most = start, least = start;
+    for (int frame = 0; frame < 240; ++frame) {
+      m.run(1 / 60.);
+      most = std::max(most, energy(m));
+      least = std::min(least, energy(m));
+    }
+    EXPECT_LT(most - start, 1e-4 * start) << angle;
+    EXPECT_LT(start - least, 5e-3 * start) << angle;
+  }
+}
+
+}  // namespace
+}  // namespace pliant
