@@ -127,7 +127,12 @@ const Record& fill_record() {
        either("mesh", record(mesh_record()), "A closed mesh, with its placement."),
        field("max", place(), "none", "Corner of the box with the largest coordinates; only with `min`, which needs it."),
        field("clearance", number("m", 0, largest_place), 0.f,
-             "Only for a mesh: distance of particles from its surface. Half the spacing if it is a vessel's wall.")},
+             "Only for a mesh: distance of particles from its surface. Half the spacing if it is a vessel's wall."),
+       field("jitter", number("-", 0, 0.25), 0.f,
+             "Displaces each particle along each axis by a random length up to this many spacings, and widens the lattice "
+             "by twice as much, so "
+             "that none overlap. 0.05 lets grains fall in no order."),
+       field("seed", integer(0, 2147483647), 0, "Of the jitter: the same seed gives the same places.")},
       {"min", "mesh"}};
   return result;
 }

@@ -92,6 +92,28 @@ std::vector<Vec3f> places_in_mesh(const Filling& by, const JsonValue& fill) {
   return fill_mesh(surface.mesh, by.spacing, clearance);
 }
 
+std::vector<Vec3f> places_in_box(const Filling& by, const JsonValue& fill) {
+  if (fill.find("max") == nullptr) by.document.fail(fill, "has 'min' without 'max'", "give both corners of the box");
+  if (const JsonValue* clearance = fill.find("clearance"))
+    by.document.fail_key(*clearance, "is only for a mesh", "remove it, or make the box smaller");
+  const Vec3f low = vector_of(*fill.find("min")), high = vector_of(*fill.find("max"));
+  limit_particles(by, fill, low, high);
+  return fill_box(low, high, by.spacing);
+}
+
+/// The places of a `fill`, shaken by its jitter.
+std::vector<Vec3f> places_in(const Filling& by, const JsonValue& fill) {
+  float jitter = 0;
+  int seed = 0;
+  set(fill, "jitter", jitter);
+  set(fill, "seed", seed);
+  if (const JsonValue* given = fill.find("seed"); given != nullptr && jitter == 0)
+    by.document.fail_key(*given, "has no 'jitter' to draw", "give a 'jitter', or remove it");
+  const Filling wider{by.document, by.folder, by.name, by.repairs, by.spacing * (1 + 2 * jitter)};
+  return shaken(fill.find("mesh") != nullptr ? places_in_mesh(wider, fill) : places_in_box(wider, fill),
+                jitter * by.spacing, seed);
+}
+
 }  // namespace
 
 std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at) {
@@ -102,13 +124,7 @@ std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at) {
     by.document.fail(at, "has no particles", "give 'fill', 'positions' or 'emitters'");
   if (fill != nullptr && !positions.empty()) by.document.fail_key(*fill, "is given with 'positions'", "give one of them");
   if (fill == nullptr) return positions;
-  if (fill->find("mesh") != nullptr) return places_in_mesh(by, *fill);
-  if (fill->find("max") == nullptr) by.document.fail(*fill, "has 'min' without 'max'", "give both corners of the box");
-  if (const JsonValue* clearance = fill->find("clearance"))
-    by.document.fail_key(*clearance, "is only for a mesh", "remove it, or make the box smaller");
-  const Vec3f low = vector_of(*fill->find("min")), high = vector_of(*fill->find("max"));
-  limit_particles(by, *fill, low, high);
-  return fill_box(low, high, by.spacing);
+  return places_in(by, *fill);
 }
 
 namespace {

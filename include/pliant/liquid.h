@@ -43,6 +43,11 @@ std::vector<Vec3f> fill_box(const Vec3f& low, const Vec3f& high, float spacing);
 /// not closed or not finite, if no point is inside, if a number is out of range, or if the box would have over 2^26 points.
 std::vector<Vec3f> fill_mesh(const TriangleMesh& mesh, float spacing, float clearance = 0);
 
+/// Displaces each point along each axis by a random length up to `most` [m]; the same seed gives the same points. The columns of a lattice of
+/// grains stand on one another, and fall in layers; with a lattice 1.1 diameters apart and 0.05 diameters as `most` they do not, and none
+/// overlap. Throws an Error if `most` is negative or not finite.
+std::vector<Vec3f> shaken(std::vector<Vec3f> points, float most, int seed = 0);
+
 /// Makes a liquid of particles at given places, about a spacing apart. Each has the mass of a cube of that side, and touches colliders at
 /// half the spacing, without friction. Throws an Error that names an option that is out of range.
 Object make_liquid(const std::vector<Vec3f>& positions, const LiquidOptions& options = {});

@@ -6,6 +6,7 @@
 #include "matter/closed_query.h"
 #include "pliant/error.h"
 #include "pliant/liquid.h"
+#include "pliant/random.h"
 
 namespace pliant {
 
@@ -58,6 +59,17 @@ std::vector<Vec3f> fill_mesh(const TriangleMesh& mesh, float spacing, float clea
   });
   if (points.empty())
     throw Error({.element = "mesh"}, "has no room for a particle", "give a smaller spacing or clearance, or a larger mesh");
+  return points;
+}
+
+std::vector<Vec3f> shaken(std::vector<Vec3f> points, float most, int seed) {
+  if (!(most >= 0) || !std::isfinite(most))
+    throw Error({.element = "displacement"}, "is " + std::to_string(most), "give a finite length of 0 or more [m]");
+  Random random(seed);
+  for (Vec3f& p : points) {
+    const float x = random.between(-most, most), y = random.between(-most, most), z = random.between(-most, most);
+    p += Vec3f{x, y, z};
+  }
   return points;
 }
 

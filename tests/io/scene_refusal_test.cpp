@@ -57,6 +57,7 @@ TEST(SceneRefusal, SaysWhatAFillLacks) {
   says(R"({})", "give exactly one of 'min' and 'mesh'");
   says(R"({"min": [0, 0, 0]})", "has 'min' without 'max'; give both corners of the box");
   says(R"({"min": [0, 0, 0], "max": [1, 1, 1], "clearance": 0.1})", "is only for a mesh");
+  says(R"({"min": [0, 0, 0], "max": [1, 1, 1], "seed": 1})", "has no 'jitter'");
   says(R"({"mesh": {"box": {"size": [1, 1, 1]}}, "max": [1, 1, 1]})", "is the corner of a box, but a mesh is filled");
   says(R"({"mesh": {"tube": {"columns": 6, "rows": 2, "length": 1, "top_radius": 1, "bottom_radius": 1}}})",
        "so the mesh is not closed");

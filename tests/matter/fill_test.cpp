@@ -1,6 +1,7 @@
 // Particles that fill a closed mesh: as many as its volume holds, all inside.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "pliant/body.h"
@@ -59,6 +60,22 @@ TEST(FillMesh, RefusesWhatHasNoInside) {
   TriangleMesh wild = mesh_of(Box{});
   wild.triangles.front()[0] = 99;
   EXPECT_THROW((void)fill_mesh(wild, 0.1f), Error);
+}
+
+TEST(Shaken, MovesEachPointByUpToTheLengthAndDependsOnTheSeed) {
+  const std::vector<Vec3f> lattice = fill_box({0, 0, 0}, {1, 1, 1}, 0.1f), moved = shaken(lattice, 0.01f);
+  ASSERT_EQ(moved.size(), lattice.size());
+  float most = 0;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const Vec3f by = moved[i] - lattice[i];
+    for (const float along : {by.x, by.y, by.z}) most = std::max(most, std::abs(along));
+  }
+  EXPECT_LE(most, 0.01f + 1e-7f);
+  EXPECT_GT(most, 0.0099f);
+  EXPECT_EQ(moved, shaken(lattice, 0.01f));
+  EXPECT_NE(moved, shaken(lattice, 0.01f, 1));
+  EXPECT_EQ(lattice, shaken(lattice, 0));
+  EXPECT_THROW(shaken(lattice, -1), Error);
 }
 
 }  // namespace
