@@ -143,8 +143,9 @@ void fields(A& a, Is<WorldLayout> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<Fluid> auto& of) {
-  auto& [spacing, density, speed_of_sound, viscosity, surface_tension, contact_angle, vorticity] = of;
+  auto& [spacing, density, speed_of_sound, viscosity, surface_tension, contact_angle, vorticity, clarity] = of;
   a(spacing, density, speed_of_sound, viscosity, surface_tension, contact_angle, vorticity);
+  a.aside(clarity);
 }
 template <class A>
 void fields(A& a, Is<Grains> auto& of) {

@@ -197,6 +197,9 @@ const Record& liquid_record() {
              "Contact angle on colliders and rigid bodies, if there is surface tension. 180: no adhesion."),
        field("vorticity", number("m/s", 0, 1e6), Fluid{}.vorticity,
              "Vorticity confinement: accelerates by this times N x omega, so that swirls last. 0: none."),
+       field("clarity", positive("m", largest_place), "by the size of the picture",
+             "In pictures: the way in the liquid that leaves a third of the light that is not of its colour. Water some "
+             "metres, honey 0.02."),
        field("capacity", integer(1, 1 << 26), "those at the start", "Most particles that are there at a time."),
        field("emitters", list(record(emitter_record())), "none", "What adds particles; needs a `capacity`."),
        field("drains", list(record(drain_record())), "none", "Solids that take particles away, as each frame begins."),

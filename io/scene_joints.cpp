@@ -273,11 +273,21 @@ class Joints {
     if (const JsonValue* repeat = item.find("repeat")) {
       set(*repeat, "count", count);
       set(*repeat, "step", step);
+      if (count > 1 && step == Vec3f{} && counted_alike(item))
+        document_.fail_key(*repeat, "joins the same bodies at the same place " + std::to_string(count) + " times",
+                           "name bodies whose names end in numbers, such as 'link_0', which count up, or give a 'step'");
     }
     for (int copy = 0; copy < count; ++copy) add_copy(item, copy, static_cast<float>(copy) * step, count > 1);
   }
 
  private:
+  /// True if the names of both bodies stay the same in all copies.
+  static bool counted_alike(const JsonValue& item) {
+    const std::vector<JsonValue>& names = item.find("between")->items;
+    return std::all_of(names.begin(), names.end(),
+                       [](const JsonValue& name) { return counted(name.text, 1) == name.text; });
+  }
+
   void add_copy(const JsonValue& item, int copy, const Vec3f& shift, bool numbered) {
     const JsonValue &kind = kind_of(item), &between = *item.find("between");
     JointOptions options = options_of(item, kind);

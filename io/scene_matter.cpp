@@ -156,6 +156,7 @@ BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const s
   set(at, "surface_tension", options.fluid.surface_tension);
   set(at, "contact_angle", options.fluid.contact_angle);
   set(at, "vorticity", options.fluid.vorticity);
+  set(at, "clarity", options.fluid.clarity);
   set_flow(document, at, options);
   return {make_liquid(places_of({document, folder, name, repairs, options.fluid.spacing}, at), options)};
 }

@@ -48,6 +48,7 @@ Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries) {
   // The shadow map extends far along the rays, so that it contains the ground with its shadows.
   const Vec3f low = box.low - Vec3f{margin, margin, 150 * margin}, high = box.high + Vec3f{margin, margin, margin};
   sun.clip = orthographic(low, high) * view_matrix(frame, {});
+  sun.depth = high.z - low.z;
   sun.softness = angular_radius * (high.z - low.z) / std::max(high.x - low.x, high.y - low.y);
   return sun;
 }

@@ -24,6 +24,7 @@ Eye make_eye(const Camera& camera, int width, int height, const Extent& extent);
 struct Sun {
   Vec3f direction{};
   Matrix clip;
+  float depth = 1;     // of the shadow map along the rays [m]
   float softness = 0;  // radius of a shadow's soft edge over the distance of what casts it, in units of the shadow map
 };
 

@@ -225,7 +225,7 @@ Geometry build_balls(const RenderBalls& balls, float least_radius) {
 Geometry build_mesh(const RenderMesh& mesh) {
   if (mesh.is_solid) return build_solid(mesh);
   const Material material = mesh.is_liquid ? Material::liquid : Material::cloth;
-  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = material};
+  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = material, .clarity = mesh.clarity};
   const std::vector<Vec3f> normals = output::vertex_normals(mesh.positions, mesh.triangles);
   constexpr float dark = 0.55f;  // what a full one loses of its colour
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)

@@ -23,6 +23,7 @@ struct Geometry {
   std::vector<std::uint32_t> indices;
   Vec3f colour{};
   Material material = Material::solid;
+  float clarity = 0;                           ///< of a liquid [m]; 0: by the size of the picture
   std::vector<std::array<float, 4>> places{};  ///< a copy is drawn at each: shift and scale; none: once, as it is
 };
 

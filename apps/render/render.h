@@ -25,6 +25,7 @@ struct RenderMesh {
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< colour as linear RGB, 0..1
   bool is_solid = false;              ///< true: a collider, drawn with sharp edges
   bool is_liquid = false;             ///< true: the closed surface of a liquid, drawn clear, deeper in colour where thick
+  float clarity = 0;                  ///< of a liquid, as Fluid::clarity [m]
   std::vector<float> wetness{};       ///< of each vertex, 0 dry to 1 full of liquid, which darkens it; empty: dry
 };
 

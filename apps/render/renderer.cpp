@@ -1,35 +1,21 @@
-// Draws a picture in five passes: shadow map, depth, ambient occlusion, the multisampled picture, and the mean of its
-// samples.
+// Draws a picture in passes: shadow map, shadows of liquids, depth, ambient occlusion, the multisampled picture with its liquids, and the mean
+// of its samples.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 
-#include "context.h"
 #include "eye_and_sun.h"
 #include "geometry.h"
-#include "gl_objects.h"
 #include "matrix.h"
+#include "passes.h"
 #include "pliant/error.h"
 #include "render.h"
-#include "shaders.h"
 #include "smoke.h"
 
 namespace pliant::render {
 
 namespace {
-
-constexpr int shadow_size = 2048;
-
-/// Where a Geometry is in the vertex and index buffers.
-struct Range {
-  GLsizei count = 0;
-  std::size_t first = 0;  // offset in the index buffer [bytes]
-  Vec3f colour{};
-  Material material = Material::solid;
-  std::size_t first_place = 0;  // offset in the buffer of places [bytes]
-  GLsizei places = 0;
-};
 
 Matrix to_texture(const Matrix& clip) {
   const Matrix halve{{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
@@ -62,53 +48,6 @@ float grid_spacing(float radius) {
 }
 
 }  // namespace
-
-struct Programs {
-  Program depth{depth_vertex, depth_fragment};
-  Program occlusion{screen_vertex, occlusion_fragment};
-  Program blur{screen_vertex, blur_fragment};
-  Program sky{screen_vertex, std::string(light_functions) + sky_fragment};
-  Program surface{surface_vertex, std::string(light_functions) + surface_fragment};
-  Program thickness{depth_vertex, thickness_fragment};
-  Program liquid{surface_vertex, std::string(light_functions) + liquid_fragment};
-};
-
-/// A texture, and the framebuffer that draws into it.
-struct Target {
-  Texture texture;
-  Framebuffer framebuffer;
-};
-
-/// Over fifteen members: the OpenGL objects that the passes of a picture use.
-struct Renderer::Implementation {
-  Implementation(int w, int h);
-  std::vector<std::uint8_t> draw(const RenderScene& scene);
-
-  void upload(const std::vector<Geometry>& geometries);
-  void draw_range(const Range& range) const;
-  void draw_ranges(bool ground) const;
-  void draw_shadows(const Matrix& clip) const;
-  void draw_depth(const Eye& eye) const;
-  void draw_occlusion(const Eye& eye, float reach) const;
-  void draw_sky(const Eye& eye) const;
-  void draw_surfaces(const Eye& eye, const Sun& sun, const Extent& extent, float pixel) const;
-  void draw_both_sides(const Range& range) const;
-  bool has_liquid() const;
-  void draw_thickness(const Eye& eye, const Range& range, float middle) const;
-  void draw_liquids(const Eye& eye, const Sun& sun, const Extent& extent) const;
-  std::vector<std::uint8_t> read_back() const;
-  std::vector<float> read_depths() const;
-
-  int width, height, half_width, half_height;
-  Context context;
-  Programs programs;
-  VertexArray array, nothing;
-  Sampler plain_sampler;  // reads depths of the shadow map without comparing them
-  Buffer vertices, indices, places;
-  Target shadow, depth, raw_occlusion, occlusion, picture, behind, thickness;
-  SampledTarget sampled;
-  std::vector<Range> ranges;
-};
 
 Renderer::Implementation::Implementation(int w, int h)
     : width(w), height(h), half_width((w + 1) / 2), half_height((h + 1) / 2), sampled(w, h, best_samples()) {
@@ -152,6 +91,8 @@ Renderer::Implementation::Implementation(int w, int h)
   behind.framebuffer = make_framebuffer(behind.texture.get(), 0);
   thickness.texture = make_texture(GL_R32F, width, height, GL_RED, GL_FLOAT, GL_NEAREST);
   thickness.framebuffer = make_framebuffer(thickness.texture.get(), 0);
+  liquid_shadow.texture = make_texture(GL_RGBA32F, liquid_shadow_size, liquid_shadow_size, GL_RGBA, GL_FLOAT, GL_LINEAR);
+  liquid_shadow.framebuffer = make_framebuffer(liquid_shadow.texture.get(), 0);
 }
 
 void Renderer::Implementation::upload(const std::vector<Geometry>& geometries) {
@@ -162,7 +103,7 @@ void Renderer::Implementation::upload(const std::vector<Geometry>& geometries) {
   for (const Geometry& geometry : geometries) {
     const auto first = static_cast<std::uint32_t>(all_vertices.size());
     ranges.push_back({static_cast<GLsizei>(geometry.indices.size()), all_indices.size() * sizeof(std::uint32_t),
-                      geometry.colour, geometry.material, all_places.size() * sizeof(all_places[0]),
+                      geometry.colour, geometry.material, geometry.clarity, all_places.size() * sizeof(all_places[0]),
                       static_cast<GLsizei>(geometry.places.size())});
     all_places.insert(all_places.end(), geometry.places.begin(), geometry.places.end());
     all_vertices.insert(all_vertices.end(), geometry.vertices.begin(), geometry.vertices.end());
@@ -268,12 +209,16 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   glActiveTexture(GL_TEXTURE2);
   glBindTexture(GL_TEXTURE_2D, shadow.texture.get());
   glBindSampler(2, plain_sampler.get());
+  glActiveTexture(GL_TEXTURE3);
+  glBindTexture(GL_TEXTURE_2D, liquid_shadow.texture.get());
   const Program& program = programs.surface;
   const float size = extent.radius;
   program.use();
   program.set("shadow", 0);
   program.set("shadow_depth", 2);
   program.set("occlusion", 1);
+  program.set("liquid_shadow", 3);
+  program.set("in_liquid", has_liquid() ? 1.f : 0.f);
   program.set("view_projection", eye.view_projection);
   program.set("light", to_texture(sun.clip));
   program.set("eye", eye.camera.eye);
@@ -308,69 +253,6 @@ void Renderer::Implementation::draw_both_sides(const Range& range) const {
   draw_range(range);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_CULL_FACE);
-}
-
-bool Renderer::Implementation::has_liquid() const {
-  return std::any_of(ranges.begin(), ranges.end(), [](const Range& range) { return range.material == Material::liquid; });
-}
-
-/// Adds the distances of one liquid's faces. `middle` is the distance of the scene.
-void Renderer::Implementation::draw_thickness(const Eye& eye, const Range& range, float middle) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, thickness.framebuffer.get());
-  glClearColor(0, 0, 0, 0);
-  glClear(GL_COLOR_BUFFER_BIT);
-  glDisable(GL_DEPTH_TEST);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE);
-  const Program& program = programs.thickness;
-  program.use();
-  program.set("view_projection", eye.view_projection);
-  program.set("eye", eye.camera.eye);
-  program.set("forward", -eye.frame.back);
-  program.set("near_far", eye.near, eye.far);
-  program.set("picture", static_cast<float>(width), static_cast<float>(height));
-  program.set("middle", middle);
-  program.set("depth", 0);
-  draw_range(range);
-  glDisable(GL_BLEND);
-  glEnable(GL_DEPTH_TEST);
-}
-
-/// Draws each liquid over the picture so far.
-void Renderer::Implementation::draw_liquids(const Eye& eye, const Sun& sun, const Extent& extent) const {
-  if (!has_liquid()) return;
-  const float middle = length(extent.centre - eye.camera.eye);
-  glBindSampler(2, 0);
-  for (const Range& range : ranges) {
-    if (range.material != Material::liquid) continue;
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled.framebuffer.get());
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, behind.framebuffer.get());
-    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindVertexArray(array.get());
-    const Target* const read[3] = {&depth, &thickness, &behind};
-    for (GLuint unit = 0; unit < 3; ++unit) {
-      glActiveTexture(GL_TEXTURE0 + unit);
-      glBindTexture(GL_TEXTURE_2D, read[unit]->texture.get());
-    }
-    draw_thickness(eye, range, middle);
-    glBindFramebuffer(GL_FRAMEBUFFER, sampled.framebuffer.get());
-    const Program& program = programs.liquid;
-    program.use();
-    program.set("view_projection", eye.view_projection);
-    program.set("eye", eye.camera.eye);
-    program.set("sun", sun.direction);
-    program.set("right", eye.frame.right);
-    program.set("up", eye.frame.up);
-    program.set("forward", -eye.frame.back);
-    program.set("slope", eye.half_width, eye.half_height);
-    program.set("picture", static_cast<float>(width), static_cast<float>(height));
-    program.set("albedo", range.colour);
-    program.set("clarity", 0.6f * extent.radius);
-    program.set("depth", 0);
-    program.set("thickness", 1);
-    program.set("behind", 2);
-    draw_range(range);
-  }
 }
 
 std::vector<std::uint8_t> Renderer::Implementation::read_back() const {
@@ -416,6 +298,7 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
   upload(geometries);
   glEnable(GL_DEPTH_TEST);
   draw_shadows(sun.clip);
+  if (has_liquid()) draw_liquid_shadows(sun, extent.radius);
   draw_depth(eye);
   draw_occlusion(eye, 0.08f * extent.radius);
   glBindFramebuffer(GL_FRAMEBUFFER, sampled.framebuffer.get());

@@ -158,7 +158,8 @@ void add_liquid(RenderScene& result, const Object& object, std::vector<Vec3f> po
   result.meshes.push_back({.positions = std::move(surface.positions),
                            .triangles = std::move(surface.triangles),
                            .colour = colour,
-                           .is_liquid = true});
+                           .is_liquid = true,
+                           .clarity = object.fluid->clarity});
 }
 
 /// Draws tracers as smoke that thins out with age.

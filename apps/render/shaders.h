@@ -147,6 +147,8 @@ uniform sampler2D shadow_depth;
 uniform sampler2D occlusion;
 uniform vec2 picture;      // width and height of the picture in pixels
 uniform vec2 spiral[16];   // points evenly distributed over the unit disc
+uniform sampler2D liquid_shadow;   // length of the way in liquid [m], and absorption along it
+uniform float in_liquid;   // 1 if there is liquid
 uniform float widest, softness;  // largest blur of shadows [texels]; its growth with depth
 uniform float bias, radius, spacing;
 float lit(vec3 normal) {
@@ -167,6 +169,15 @@ float lit(vec3 normal) {
   for (int i = 0; i < taps; ++i) sum += texture(shadow, vec3(place.xy + spiral[i] * wide, place.z));
   return taps > 0 ? sum / 16.0 : float(found == 0.0);
 }
+/// The share of the sunlight that liquids leave: absorbed by the length of its way, and some turned away by their surfaces.
+vec3 left_by_liquid() {
+  if (in_liquid == 0.0) return vec3(1.0);
+  vec2 place = (light * vec4(at, 1.0)).xy;
+  vec4 passed = vec4(0.0);
+  for (int i = 0; i < 8; ++i) passed += texture(liquid_shadow, place + spiral[2 * i] * 2.5 / 1024.0) * 0.125;
+  passed = max(passed, vec4(0.0));
+  return exp(-passed.rgb) * mix(0.75, 1.0, exp(-passed.a / (0.02 * radius)));
+}
 float lines(float x) {
   float width = fwidth(x);
   float away = abs(fract(x + 0.5) - 0.5) / max(width, 1e-6);
@@ -185,7 +196,7 @@ void main() {
   float seen = lit(toward < 0.0 && material == 0 ? -normal : normal);
   // Where light grazes, a surface's shadow on itself would show the triangles of the mesh, so direct light fades there.
   float direct = max(toward, 0.0) * smoothstep(0.0, 0.3, toward);
-  vec3 sunlight = vec3(1.90, 1.80, 1.62);
+  vec3 sunlight = vec3(1.90, 1.80, 1.62) * left_by_liquid();
   vec3 above = vec3(0.32, 0.365, 0.44), below = vec3(0.19, 0.175, 0.16);
   vec3 around = mix(below, above, normal.y * 0.5 + 0.5) * open;
   vec3 fill = vec3(0.10, 0.105, 0.12) * max(dot(normal, normalize(vec3(-sun.x, 0.25, -sun.z) + 0.6 * view)), 0.0) * open;
@@ -228,6 +239,19 @@ void main() {
 }
 )";
 
+/// What sunlight passes of a liquid before it meets what is opaque: the length [m] in the fourth component, and its product with the
+/// coefficients of absorption in the others.
+inline constexpr const char* liquid_shadow_fragment = R"(#version 330 core
+out vec4 passed;
+uniform sampler2D opaque;
+uniform vec3 absorption;
+uniform float depth, texels;
+void main() {
+  float away = min(gl_FragCoord.z, texture(opaque, gl_FragCoord.xy / texels).r) * depth;
+  passed = vec4(absorption, 1.0) * (gl_FrontFacing ? -away : away);
+}
+)";
+
 /// Shades the surface of a liquid: what is behind it, shifted as a refracted ray is (Snell), absorbed by thickness (Beer and Lambert), and the
 /// sky's reflection by angle (Schlick 1994).
 inline constexpr const char* liquid_fragment = R"(
@@ -246,6 +270,7 @@ void main() {
   vec2 shift = vec2(dot(bend, right), dot(bend, up)) * min(deep, clarity) * 0.5 / (slope * dot(at - eye, forward));
   shift = clamp(shift, vec2(-0.1), vec2(0.1));
   if (texture(depth, place + shift).r < gl_FragCoord.z) shift = vec2(0.0);  // an object before the liquid
+  deep = max(texture(thickness, place + shift).r, 0.0);  // of the way that the refracted ray takes
   vec3 water = developed(albedo * (1.2 + 1.2 * max(dot(normal, sun), 0.0)));  // light that is scattered back
   vec3 seen = texture(behind, place + shift).rgb * exp(-1.3 * (1.0 - albedo) * deep / clarity);
   seen = mix(water, seen, exp(-0.6 * deep / clarity));

@@ -57,6 +57,9 @@ struct Fluid {
   /// Confinement: accelerates by this times N x omega (Macklin and Mueller 2013, eq. 15 and 16), so that swirls last; 0: none, at most 1e6
   /// [m/s]. A gas has Gas::vorticity instead.
   float vorticity = 0;
+  /// In pictures: the way in the liquid that leaves a third of the light that is not of its colour; water some metres, honey two centimetres.
+  /// 0: by the size of what the picture shows [m]
+  float clarity = 0;
 };
 
 /// Makes the particles of an object grains: spheres that press on one another with friction, and do not turn. Grains whose objects meet by

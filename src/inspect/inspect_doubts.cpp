@@ -152,6 +152,15 @@ void doubt_distances(const Doubts& d, const ConstraintGroup& group) {
                         "the object will hover above colliders: lengths are in metres");
 }
 
+/// Damping is that of a spring: what is rigid has none.
+void doubt_damping(const Doubts& d, const ConstraintGroup& group) {
+  const Stiffness& stiffness = group.stiffness;
+  if (stiffness.kind != Stiffness::Kind::compliance || stiffness.value > 0 || !(stiffness.damping > 0)) return;
+  if (!group.compliances.empty() || group.particles.empty()) return;
+  d.problems.doubtful(group.type + " constraints, damping", "has no effect, because they are rigid",
+                      "give a compliance, or remove the damping");
+}
+
 void doubt_hinges(const Doubts& d, const ConstraintGroup& group) {
   Tally flat, curved;
   for (std::size_t c = 0; c < group.particles.size() / 4; ++c) {
@@ -310,6 +319,7 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   for (const ConstraintGroup& group : object.constraints) {
     if (is_length(group.type)) doubt_distances(doubts, group);
     if (is_hinge(group.type)) doubt_hinges(doubts, group);
+    doubt_damping(doubts, group);
   }
   doubt_surface(doubts);
   doubt_volume(doubts);

@@ -333,6 +333,7 @@ void check_fluid(Problems& problems, const Object& object) {
   require_range(problems, "fluid, surface_tension", object.fluid->surface_tension, 0, 1e6);
   require_range(problems, "fluid, contact_angle", object.fluid->contact_angle, 0, 180);
   require_range(problems, "fluid, vorticity", object.fluid->vorticity, 0, 1e6);
+  require_range(problems, "fluid, clarity", object.fluid->clarity, 0, largest_place);
   if (object.gas && object.fluid->vorticity > 0)
     problems.grave("fluid, vorticity", "is given for a gas", "give gas.vorticity instead");
 }

@@ -42,6 +42,9 @@ Object make_liquid(const std::vector<Vec3f>& positions, const LiquidOptions& opt
   if (!(fluid.vorticity >= 0) || !std::isfinite(fluid.vorticity))
     throw Error({.object = options.name, .element = "vorticity"}, "is " + std::to_string(fluid.vorticity),
                 "give a positive coefficient of confinement [m/s], or 0 for none");
+  if (!(fluid.clarity >= 0) || !std::isfinite(fluid.clarity))
+    throw Error({.object = options.name, .element = "clarity"}, "is " + std::to_string(fluid.clarity),
+                "give a positive length [m], or 0 for one by the size of the picture");
   Object liquid;
   liquid.name = options.name;
   liquid.positions = positions;

@@ -90,9 +90,17 @@ std::optional<std::string> replay_phase(const StepContext& context, const Compil
   return std::nullopt;
 }
 
+/// A particle, or the body whose centre it is.
+std::string words_of_particle(const CompiledObject& object, int i) {
+  const auto& bodies = object.bodies.bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (bodies[b].particle == i) return words_of_body(object.bodies, static_cast<int>(b), object.name);
+  return "particle " + std::to_string(object.order[i]);
+}
+
 std::string first_bad_particle(const CompiledObject& object, const Tile& tile, const Record* displacements) {
   for (int i = tile.first_particle; i < tile.last_particle; ++i) {
-    if (!is_finite(displacements[i])) return "particle " + std::to_string(object.order[i]);
+    if (!is_finite(displacements[i])) return words_of_particle(object, i);
   }
   return "a particle";
 }
@@ -121,7 +129,7 @@ std::string explain(const Substep& s, const CompiledObject& object, const std::v
     context.kernels.predict(again, nullptr);
     for (int i = again.first; i < again.last; ++i) {
       if (is_finite(displacements[i])) continue;
-      return "particle " + std::to_string(object.order[i]) + " (its velocity or the force on it is too large)";
+      return words_of_particle(object, i) + " (its velocity or the force on it is too large)";
     }
   }
   arguments.displacements = displacements.data();

@@ -104,14 +104,13 @@ class Growth {
     return true;
   }
 
-  std::vector<int> links_of(const Rank& candidate) const {
-    std::vector<int> links;
+  /// Calls a function for each rank that would be linked to a candidate.
+  template <class Body>
+  void for_links_of(const Rank& candidate, const Body& body) const {
     const int one = *std::min_element(candidate.begin(), candidate.end(),
                                       [&](int a, int b) { return neighbours_.count(a) < neighbours_.count(b); });
-    for (const int* n = neighbours_.begin(one); n != neighbours_.end(one); ++n) {
-      if (!is_left(*n) && linked_to_rank(candidate, rank_of_[*n])) links.push_back(rank_of_[*n]);
-    }
-    return links;
+    for (const int* n = neighbours_.begin(one); n != neighbours_.end(one); ++n)
+      if (!is_left(*n) && linked_to_rank(candidate, rank_of_[*n])) body(rank_of_[*n]);
   }
 
   /// Finds up to two particles that are not numbered yet and are linked to both a and b.
@@ -137,7 +136,7 @@ class Growth {
     for (int choice = 0; choice < choices; ++choice) {
       Proposal proposal;
       for (int l = 0, rest = choice; l < patches; rest /= count[l++]) proposal.rank[l] = found[l][rest % count[l]];
-      proposal.links = static_cast<int>(links_of(proposal.rank).size());
+      for_links_of(proposal.rank, [&](int) { ++proposal.links; });
       if (proposal.links > best.links) best = proposal;
     }
     return best;
@@ -201,7 +200,8 @@ class Growth {
 
   void add(const Rank& rank) {
     const int number = static_cast<int>(ranks_.size());
-    const std::vector<int> links = links_of(rank);
+    std::vector<int> links;
+    for_links_of(rank, [&](int other) { links.push_back(other); });
     for (int particle : rank) rank_of_[particle] = number;
     ranks_.push_back(rank);
     links_.push_back(links);

@@ -141,6 +141,23 @@ TEST(InspectScene, NamesAnAnchorFarFromWhatItHolds) {
   EXPECT_NE(text.find("joint 'pivot': has its anchor 50 m from the centre of body 'bob'"), std::string::npos) << text;
 }
 
+TEST(InspectScene, SaysThatDampingOfRigidConstraintsHasNoEffect) {
+  const auto doubt = [](float compliance) {
+    Object object;
+    object.name = "door";
+    const int door = add_body(object, {{.shape = Box{{0.5f, 1, 0.05f}}}}, {});
+    HingeJoint hinge{.a = -1, .b = door, .anchor = {-0.5f, 0, 0}, .axis = {0, 1, 0}};
+    hinge.options.compliance = compliance;
+    hinge.options.damping = 0.5f;
+    add_joint(object, hinge);
+    Scene scene;
+    scene.objects = {object};
+    return finding(scene, "has no effect, because they are rigid");
+  };
+  EXPECT_NE(doubt(0).find("damping"), std::string::npos);
+  EXPECT_EQ(doubt(1e-4f), "");
+}
+
 TEST(InspectScene, TakesAnchorsAnywhereOnTheAxisOfASlider) {
   Scene scene;
   Object bead = make_body({{Sphere{0.005f}}}, {.name = "bead", .position = {1, 0, 0}});

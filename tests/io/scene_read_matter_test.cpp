@@ -32,6 +32,7 @@ TEST_F(FullScene, HasItsLiquids) {
   EXPECT_EQ(oil.fluid->speed_of_sound, 12.5f);
   EXPECT_EQ(oil.fluid->contact_angle, 60);
   EXPECT_EQ(oil.fluid->vorticity, 0.25f);
+  EXPECT_EQ(oil.fluid->clarity, 0.5f);
   EXPECT_EQ(oil.positions.size(), 16U);
   EXPECT_EQ(oil.positions.at(1), (Vec3f{-7.625f, 4.125f, 1.125f}));
   EXPECT_EQ(oil.masses.at(0), 14.375f);

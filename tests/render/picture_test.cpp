@@ -210,6 +210,32 @@ TEST_F(Picture, OfALiquidIsClearWhereItIsThinAndColouredWhereItIsThick) {
   EXPECT_EQ(middle(hidden).brightness(), middle(front).brightness());
 }
 
+TEST_F(Picture, OfALiquidHasItsShadowByItsClarity) {
+  RenderScene bare;
+  bare.ground.reset();
+  bare.camera = straight();
+  bare.extent = Extent{{}, 1};
+  bare.meshes.push_back(square(0.9f, {0, 0, -0.8f}, {0.8f, 0.8f, 0.8f}));
+  const auto shaded = [&](float clarity) {
+    RenderScene scene = bare;
+    const TriangleMesh ball = sphere_mesh(4);
+    RenderMesh liquid{.positions = ball.positions,
+                      .triangles = ball.triangles,
+                      .colour = {0.1f, 0.3f, 0.6f},
+                      .is_liquid = true,
+                      .clarity = clarity};
+    for (Vec3f& p : liquid.positions) p = p * 0.25f + Vec3f{-0.64f, 0.73f, -0.56f};  // in the sun of the picture's middle
+    scene.meshes.push_back(liquid);
+    return at(renderer->draw(scene), width / 2, height / 2);
+  };
+  const Pixel sunny = at(renderer->draw(bare), width / 2, height / 2), clear = shaded(100), usual = shaded(0),
+              dark = shaded(0.05f);
+  EXPECT_LT(clear.r, sunny.r - 5);
+  EXPECT_LT(usual.r, clear.r - 10);
+  EXPECT_GT(usual.b - usual.r, clear.b - clear.r + 5) << "the light that is left has the liquid's colour";
+  EXPECT_LT(dark.r, usual.r - 20);
+}
+
 TEST_F(Picture, LeavesOutAWallBetweenTheCameraAndWhatItHolds) {
   const float half = std::sqrt(0.5f);
   RenderScene bare = with_sphere(0.5f), front = bare, back = bare;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "pliant/body.h"
 #include "world/world_support.h"
 
 namespace pliant {
@@ -89,6 +90,20 @@ TEST(NonFiniteValue, IsNamedAndTheWorldWaitsForARestore) {
     EXPECT_TRUE(world.step(dt).ok());
     EXPECT_TRUE(is_finite(world.state()));
   }
+}
+
+TEST(NonFiniteValue, OfABodyHasItsName) {
+  bool armed = true;
+  Object object;
+  for (const char* name : {"ball", "top"})
+    add_body(object, {{Sphere{0.1f}}},
+             {.name = name, .position = {static_cast<float>(object.bodies.size()), 0, 0}, .mass = 1e-15f});
+  object.collides = object.self_collision = false;
+  World world(bomb(armed, object));
+  Report report = world.step(dt);
+  for (int frame = 0; frame < 5 && report.ok(); ++frame) report = world.step(dt);
+  ASSERT_FALSE(report.ok());
+  EXPECT_NE(report.explain().find("body 0 ('ball')"), std::string::npos) << report.explain();
 }
 
 }  // namespace

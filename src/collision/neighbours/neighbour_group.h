@@ -15,7 +15,7 @@ inline constexpr int neighbour_lanes = 16;  ///< slots whose lists lie side by s
 /// The lists of sixteen consecutive slots.
 struct NeighbourGroup {
   const std::int32_t* slots = nullptr;  ///< `rows` times sixteen; short lists end in NeighbourLists::nobody()
-  float* factors = nullptr;             ///< as many, for what a pass keeps for the next one
+  float* factors = nullptr;             ///< as many, for what a pass keeps for the next one; null if nothing is kept
   int rows = 0;                         ///< length of the longest list
 };
 

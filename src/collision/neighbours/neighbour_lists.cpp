@@ -68,18 +68,19 @@ void NeighbourLists::find_in_task(const NeighbourKernels& kernels, int number, N
     groups_[at(g)].rows = append(kernels, scratch, task);
     task.left_out += std::accumulate(scratch.has_more, scratch.has_more + lanes, 0);
   }
-  if (task.factors.size() < task.used) resize_to(task.factors, task.used + task.used / 16);
+  if (keeps_factors_ && task.factors.size() < task.used) resize_to(task.factors, task.used + task.used / 16);
   std::size_t from = 0;
   for (int g = first; g < last; ++g) {
     groups_[at(g)].slots = task.slots.data() + from;
-    groups_[at(g)].factors = task.factors.data() + from;
+    groups_[at(g)].factors = keeps_factors_ ? task.factors.data() + from : nullptr;
     from += at(groups_[at(g)].rows) * lanes;
   }
 }
 
-void NeighbourLists::find(Executor& executor, const NeighbourKernels& kernels, std::span<const Record> points,
-                          float reach) {
+void NeighbourLists::find(Executor& executor, const NeighbourKernels& kernels, std::span<const Record> points, float reach,
+                          bool keeps_factors) {
   reach_ = reach;
+  keeps_factors_ = keeps_factors;
   {
     const Stopwatch watch(executor.timings(), "neighbours: order");
     order_.sort(executor, points, reach);

@@ -17,8 +17,9 @@ class NeighbourLists {
   static constexpr int lanes = neighbour_lanes;
   static constexpr int groups_in_a_task = 32;
 
-  /// Finds the neighbours of points within `reach` [m].
-  void find(Executor& executor, const NeighbourKernels& kernels, std::span<const Record> points, float reach);
+  /// Finds the neighbours of points within `reach` [m]. `keeps_factors` makes room for NeighbourGroup::factors.
+  void find(Executor& executor, const NeighbourKernels& kernels, std::span<const Record> points, float reach,
+            bool keeps_factors = false);
 
   const CellOrder& order() const { return order_; }
   int slots() const { return static_cast<int>(order_.points().size()); }
@@ -46,6 +47,7 @@ class NeighbourLists {
   int append(const NeighbourKernels& kernels, NeighbourScratch& scratch, Task& task) const;
 
   float reach_ = 0;
+  bool keeps_factors_ = false;
   CellOrder order_;
   std::vector<float> x_, y_, z_;  ///< by slot
   std::vector<NeighbourGroup> groups_;

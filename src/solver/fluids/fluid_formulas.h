@@ -24,17 +24,28 @@ struct Sums {
   Vec3<R> gradient{R(0.f), R(0.f), R(0.f)};  ///< of q^2 times the direction from the neighbour
 };
 
-/// Adds a neighbour at -d. Returns q^2 / r, which the move needs again.
+/// The kernel of a neighbour at -d: q = max(reach - r, 0), q^2 and q^2 / r.
 template <class R>
-PLIANT_HD R add_neighbour(const Vec3<R>& d, const R& reach, Sums<R>& sums) {
-  const R r2 = max(d.x * d.x + d.y * d.y + d.z * d.z, R(least_squared));
-  const R inverse = inverse_root(r2);
-  const R q = max(reach - r2 * inverse, R(0.f));
-  const R q2 = q * q, factor = q2 * inverse;
-  sums.cubes += q2 * q;
-  sums.fourths += q2 * q2;
-  sums.gradient = {sums.gradient.x + factor * d.x, sums.gradient.y + factor * d.y, sums.gradient.z + factor * d.z};
-  return factor;
+struct Kernel {
+  R q, square, factor;
+
+  PLIANT_HD Kernel(const Vec3<R>& d, const R& reach) {
+    const R r2 = max(d.x * d.x + d.y * d.y + d.z * d.z, R(least_squared));
+    const R inverse = inverse_root(r2);
+    q = max(reach - r2 * inverse, R(0.f));
+    square = q * q;
+    factor = square * inverse;
+  }
+};
+
+/// Adds a neighbour at -d.
+template <class R>
+PLIANT_HD void add_neighbour(const Vec3<R>& d, const R& reach, Sums<R>& sums) {
+  const Kernel<R> kernel(d, reach);
+  sums.cubes += kernel.square * kernel.q;
+  sums.fourths += kernel.square * kernel.square;
+  sums.gradient = {sums.gradient.x + kernel.factor * d.x, sums.gradient.y + kernel.factor * d.y,
+                   sums.gradient.z + kernel.factor * d.z};
 }
 
 /// A particle's density, and how far its multiplier changes.

@@ -21,8 +21,7 @@ struct Loops {
       Sums<R> sums;
       for (int k = 0; k < group.rows; ++k) {
         const auto other = Lanes::load(a.places, group.slots + k * neighbour_lanes + lane);
-        Lanes::store(group.factors + k * neighbour_lanes + lane,
-                     add_neighbour(own.position - other.position, R(a.law.reach), sums));
+        add_neighbour(own.position - other.position, R(a.law.reach), sums);
       }
       R wall(0.f);
       Vec3<R> gradient{wall, wall, wall};
@@ -48,8 +47,9 @@ struct Loops {
       Vec3<R> sum{zero, zero, zero};
       for (int k = 0; k < group.rows; ++k) {
         const auto other = Lanes::load(a.weighted, group.slots + k * neighbour_lanes + lane);
-        const R by = (own.w + other.w) * Lanes::load(group.factors + k * neighbour_lanes + lane);
         const Vec3<R> d = own.position - other.position;
+        // Made again: to keep it would take twice the memory of the lists, and more time to move it.
+        const R by = (own.w + other.w) * Kernel<R>(d, R(a.law.reach)).factor;
         sum = {sum.x + by * d.x, sum.y + by * d.y, sum.z + by * d.z};
       }
       const R scale(-a.law.gradient_scale);

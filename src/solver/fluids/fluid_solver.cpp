@@ -64,31 +64,37 @@ FluidSolver::FluidSolver(const Model& model, const std::vector<int>* objects) {
 
 FluidSolver::~FluidSolver() = default;
 
-/// Lists the particles of a pool that are there, and how light each is.
+/// Lists the particles of a pool that are there, and what each has where that differs or is used at all.
 void FluidSolver::list_points(const Model& model, const State& state, FluidPool& p) {
-  float least = model.objects[at(p.objects.front())].fluid->density, most = least;
+  const auto fluid_of = [&](int o) -> const Fluid& { return *model.objects[at(o)].fluid; };
+  const auto any = [&](float Fluid::*of) {
+    return std::any_of(p.objects.begin(), p.objects.end(), [&](int o) { return fluid_of(o).*of > 0; });
+  };
+  const bool is_viscous = any(&Fluid::viscosity), has_tension = any(&Fluid::surface_tension),
+             swirls = any(&Fluid::vorticity);
+  const auto [lightest, heaviest] = std::minmax_element(
+      p.objects.begin(), p.objects.end(), [&](int a, int b) { return fluid_of(a).density < fluid_of(b).density; });
+  const float least = fluid_of(*lightest).density, most = fluid_of(*heaviest).density;
+  int most_points = 0;
+  for (const int o : p.objects) most_points += model.end_of(o) - model.first[at(o)];
   p.points.clear();
+  p.points.reserve(at(most_points));  // what grows by itself takes twice that
   p.ends.clear();
   p.lightness_of_point.clear();
   p.viscosity.clear();
   p.tension.clear();
   p.vorticity.clear();
   for (const int o : p.objects) {
-    const CompiledObject& object = model.objects[at(o)];
-    least = std::min(least, object.fluid->density);
-    most = std::max(most, object.fluid->density);
+    const std::size_t before = p.points.size();
     for (int i = model.first[at(o)]; i < model.end_of(o); ++i)
       if (is_there(state, at(i))) p.points.push_back(i);
-    const std::size_t before = p.lightness_of_point.size();
-    p.lightness_of_point.resize(p.points.size(), object.fluid->density);
     const int added = static_cast<int>(p.points.size() - before);
-    p.viscosity.add(object.fluid->viscosity, added);
-    p.tension.add(*object.fluid, added);
-    p.vorticity.add(object.fluid->vorticity, added);
+    if (least < most) p.lightness_of_point.resize(p.points.size(), least / fluid_of(o).density);
+    if (is_viscous) p.viscosity.add(fluid_of(o).viscosity, added);
+    if (has_tension) p.tension.add(fluid_of(o), added);
+    if (swirls) p.vorticity.add(fluid_of(o).vorticity, added);
     p.ends.push_back(static_cast<std::int32_t>(p.points.size()));
   }
-  for (float& of : p.lightness_of_point) of = least / of;
-  if (least == most) p.lightness_of_point.clear();
 }
 
 void FluidSolver::begin_frame(const Substep& s) {
@@ -106,7 +112,7 @@ void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
   by_point.resize(pool.points.size());
   for_all(s, "neighbours: order", static_cast<int>(by_point.size()),
           [&](int i) { by_point[at(i)] = predicted(s, pool.points[at(i)]); });
-  pool.neighbours.find(s.context.executor, s.kernels.neighbours, by_point, pool.law.reach);
+  pool.neighbours.find(s.context.executor, s.kernels.neighbours, by_point, pool.law.reach, pool.viscosity.has_any());
   pool.tension.find_neighbours(s, pool, by_point);
   const std::vector<std::int32_t>& order = pool.neighbours.order().points();
   const std::size_t padded = at(pool.neighbours.nobody()) + NeighbourLists::lanes;
