@@ -150,10 +150,10 @@ void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
   bench_app->add_option("--against", options.against, "also measure this engine")
       ->type_name("NAME")
       ->check(CLI::IsMember({"bullet"}));
-  bench_app->add_option("--sizes", options.sizes, "particles per side, or size of a pile, such as 64,128")
+  bench_app->add_option("--sizes", options.sizes, "particles per side, of W5 particles, or size of a pile, such as 64,128")
       ->type_name("SIZES")
       ->delimiter(',')
-      ->check(range(1, 100000));
+      ->check(range(1, 10000000));
   bench_app->add_option("--frames", options.frames, "measured frames, after 20 unmeasured ones")
       ->type_name("N")
       ->check(range(1, 1000000))

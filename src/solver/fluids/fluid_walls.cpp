@@ -64,6 +64,17 @@ bool is_within(const BoundingBox<float>& a, const BoundingBox<float>& b, float d
            b.low.x > a.high.x + distance || b.low.y > a.high.y + distance || b.low.z > a.high.z + distance);
 }
 
+float largest_of(const Vec3f& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// True if no point of a box can be within a distance of a primitive: its middle is too far, beyond all rounding. Distances to primitives grow
+/// no faster than ways; those to grids may.
+bool is_beyond(const MovingCollider& wall, const BoundingBox<float>& box, float distance) {
+  if (wall.field != nullptr) return false;
+  const Vec3f middle = (box.low + box.high) * 0.5f, half = (box.high - box.low) * 0.5f;
+  const float rounding = 1e-5f * (largest_of(middle) + largest_of(convert<float>(wall.after.position)) + distance);
+  return distance_to(wall, middle).distance > distance + sqrt(length_squared(half)) + rounding;
+}
+
 }  // namespace
 
 SurfaceDistance<float> distance_to(const MovingCollider& collider, const Vec3f& place) {
@@ -92,7 +103,7 @@ void FluidWalls::find_in_task(const CompiledObject& liquid, const NeighbourLists
     for (int c = 0; c < all; ++c) {
       const MovingCollider& wall = bounds.at(c);
       if (c < colliders ? !can_meet(liquid, wall) : bounds.meets[at(c - colliders)] == 0) continue;
-      if (!is_within(box, wall.swept, distance)) continue;
+      if (!is_within(box, wall.swept, distance) || is_beyond(wall, box, distance)) continue;
       const auto is_near = [&](const Record& p) { return distance_to(wall, {p.x, p.y, p.z}).distance < distance; };
       if (std::any_of(places.begin() + first, places.begin() + last, is_near)) near.push_back(c);
     }
