@@ -98,6 +98,7 @@ void Renderer::Implementation::draw_liquids(const Eye& eye, const Sun& sun, cons
     program.set("up", eye.frame.up);
     program.set("forward", -eye.frame.back);
     program.set("slope", eye.half_width, eye.half_height);
+    program.set("near_far", eye.near, eye.far);
     program.set("picture", static_cast<float>(width), static_cast<float>(height));
     program.set("albedo", range.colour);
     program.set("clarity", clarity_of(range, extent.radius));

@@ -258,7 +258,7 @@ inline constexpr const char* liquid_fragment = R"(
 in vec3 at, facing;
 out vec4 colour;
 uniform vec3 albedo, sun, right, up, forward;
-uniform vec2 picture, slope;
+uniform vec2 picture, slope, near_far;
 uniform sampler2D behind, thickness, depth;
 uniform float clarity;  // length over which the light of other colours falls to a third [m]
 void main() {
@@ -270,7 +270,10 @@ void main() {
   vec2 shift = vec2(dot(bend, right), dot(bend, up)) * min(deep, clarity) * 0.5 / (slope * dot(at - eye, forward));
   shift = clamp(shift, vec2(-0.1), vec2(0.1));
   if (texture(depth, place + shift).r < gl_FragCoord.z) shift = vec2(0.0);  // an object before the liquid
-  deep = max(texture(thickness, place + shift).r, 0.0);  // of the way that the refracted ray takes
+  // Of the way that the refracted ray takes: no farther than what it meets.
+  float d = texture(depth, place + shift).r * 2.0 - 1.0, ahead = dot(at - eye, forward);
+  float opaque = 2.0 * near_far.x * near_far.y / (near_far.y + near_far.x - d * (near_far.y - near_far.x));
+  deep = clamp((opaque - ahead) * length(at - eye) / ahead, 0.0, max(deep, texture(thickness, place + shift).r));
   vec3 water = developed(albedo * (1.2 + 1.2 * max(dot(normal, sun), 0.0)));  // light that is scattered back
   vec3 seen = texture(behind, place + shift).rgb * exp(-1.3 * (1.0 - albedo) * deep / clarity);
   seen = mix(water, seen, exp(-0.6 * deep / clarity));
