@@ -23,9 +23,26 @@ constexpr int most_to_judge_by = 1 << 14;
 
 using Links = std::vector<std::array<int, 2>>;
 
-/// The pairs of particles that share a constraint. If there are two-particle
+/// Sorts pairs, by a counting sort of their first particles, and removes those that are there already.
+void keep_one_of_each(Links& links, std::size_t particles) {
+  std::vector<std::size_t> begin(particles + 1, 0);
+  for (const auto& link : links) ++begin[static_cast<std::size_t>(link[0]) + 1];
+  for (std::size_t i = 0; i < particles; ++i) begin[i + 1] += begin[i];
+  std::vector<int> others(links.size());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (const auto& link : links) others[next[static_cast<std::size_t>(link[0])]++] = link[1];
+  links.clear();
+  for (std::size_t i = 0; i < particles; ++i) {
+    const auto first = others.begin() + static_cast<std::ptrdiff_t>(begin[i]);
+    const auto last = others.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]);
+    std::sort(first, last);
+    std::for_each(first, std::unique(first, last), [&](int other) { links.push_back({static_cast<int>(i), other}); });
+  }
+}
+
+/// The pairs of particles that share a constraint, each once: tetrahedra share their edges. If there are two-particle
 /// constraints, only those count: they are the mesh on which larger stencils are built.
-Links links_of(const std::vector<ConstraintList>& lists) {
+Links links_of(const std::vector<ConstraintList>& lists, std::size_t particles) {
   const bool pairs =
       std::any_of(lists.begin(), lists.end(), [](const ConstraintList& list) { return list.in_lanes && list.size == 2; });
   Links links;
@@ -34,10 +51,14 @@ Links links_of(const std::vector<ConstraintList>& lists) {
     links.reserve(links.size() + list.stencils.size() / 2 * (list.size - 1));
     for (std::size_t first = 0; first < list.stencils.size(); first += list.size) {
       for (int a = 0; a < list.size; ++a) {
-        for (int b = a + 1; b < list.size; ++b) links.push_back({list.stencils[first + a], list.stencils[first + b]});
+        for (int b = a + 1; b < list.size; ++b) {
+          const int one = list.stencils[first + a], other = list.stencils[first + b];
+          if (one != other) links.push_back({std::min(one, other), std::max(one, other)});
+        }
       }
     }
   }
+  keep_one_of_each(links, particles);
   return links;
 }
 
@@ -74,7 +95,7 @@ std::vector<int> choose_order(const std::vector<Vec3f>& positions, const std::ve
                               const std::vector<ConstraintList>& lists) {
   std::vector<int> chains = number_in_chains(tile, find_links_to_next(lists, tile.size()));
   if (tile.size() < fewest_to_choose_for) return chains;
-  const Links links = links_of(lists);
+  const Links links = links_of(lists, tile.size());
   const double in_chains = links_in_runs(links, chains);
   if (in_chains >= enough_in_runs) return chains;
   std::vector<int> lockstep = number_in_lockstep(positions, tile, links);

@@ -21,7 +21,11 @@ constexpr std::size_t fewest_to_group = 512;  // below this many ungrouped const
 struct Key {
   std::array<int, largest_stencil> shape;  // difference of each slot's particle to slot 0; slot 0 itself comes last
   int member;
-  friend bool operator<(const Key& a, const Key& b) { return a.shape != b.shape ? a.shape < b.shape : a.member < b.member; }
+  friend bool operator<(const Key& a, const Key& b) {
+    for (std::size_t i = 0; i < largest_stencil; ++i)
+      if (a.shape[i] != b.shape[i]) return a.shape[i] < b.shape[i];
+    return a.member < b.member;
+  }
 };
 
 std::vector<Key> sorted_by_shape(const std::vector<int>& stencils, int size, const std::vector<int>& members) {

@@ -47,8 +47,10 @@ class Neighbours {
   const int* end(int particle) const { return to_.data() + begin_[particle + 1]; }
   int count(int particle) const { return begin_[particle + 1] - begin_[particle]; }
   bool linked(int a, int b) const {
+    constexpr int few = 24;  // of which looking at each is faster than a binary search
     if (count(a) > count(b)) std::swap(a, b);
-    return std::binary_search(begin(a), end(a), b);
+    if (count(a) > few) return std::binary_search(begin(a), end(a), b);
+    return std::find(begin(a), end(a), b) != end(a);
   }
 
  private:
@@ -58,6 +60,7 @@ class Neighbours {
 /// Two linked ranks, and the number of links that a rank beside them would have, at the last evaluation.
 struct Open {
   int links, older, younger;
+  friend bool operator==(const Open& a, const Open& b) = default;
   friend bool operator<(const Open& a, const Open& b) {  // the priority queue returns the largest, which is the best
     return std::tuple(a.links, -a.older, -a.younger) < std::tuple(b.links, -b.older, -b.younger);
   }
@@ -72,8 +75,11 @@ struct Proposal {
 class Growth {
  public:
   Growth(const Neighbours& neighbours, const std::array<std::vector<int>, patches>& members, std::vector<int>& rank_of,
-         std::vector<int>& passed)
-      : neighbours_(neighbours), members_(members), rank_of_(rank_of), passed_(passed) {}
+         std::vector<int>& passed, std::vector<int>& left_around)
+      : neighbours_(neighbours), members_(members), rank_of_(rank_of), passed_(passed), left_around_(left_around) {
+    for (const std::vector<int>& patch : members_)
+      for (const int particle : patch) left_around_[particle] = neighbours_.count(particle);
+  }
 
   void append_to(std::vector<int>& order) {
     std::size_t ranks = members_[0].size();
@@ -128,8 +134,11 @@ class Growth {
     std::array<std::array<int, most_corners>, patches> found;
     Rank count{};
     int choices = 1;
+    for (int l = 0; l < patches; ++l)
+      if (left_around_[ranks_[a][l]] == 0 || left_around_[ranks_[b][l]] == 0) return {};
     for (int l = 0; l < patches; ++l) {
       count[l] = corners(ranks_[a][l], ranks_[b][l], found[l]);
+      if (count[l] == 0) return {};
       choices *= count[l];
     }
     Proposal best;
@@ -146,8 +155,13 @@ class Growth {
     while (!open_.empty()) {
       const Open open = open_.top();
       open_.pop();
+      bool again = false;  // the same may wait several times; it is evaluated once
+      for (; !open_.empty() && open_.top() == open; again = true) open_.pop();
       const Proposal proposal = propose(open.older, open.younger);
-      if (proposal.links == open.links) return proposal.rank;
+      if (proposal.links == open.links) {
+        if (again) open_.push(open);
+        return proposal.rank;
+      }
       if (proposal.links > 0) open_.push({proposal.links, open.older, open.younger});
     }
     return next_with_one_link();
@@ -202,7 +216,10 @@ class Growth {
     const int number = static_cast<int>(ranks_.size());
     std::vector<int> links;
     for_links_of(rank, [&](int other) { links.push_back(other); });
-    for (int particle : rank) rank_of_[particle] = number;
+    for (int particle : rank) {
+      rank_of_[particle] = number;
+      for (const int* n = neighbours_.begin(particle); n != neighbours_.end(particle); ++n) --left_around_[*n];
+    }
     ranks_.push_back(rank);
     links_.push_back(links);
     for (int other : links) links_[other].push_back(number);
@@ -219,8 +236,9 @@ class Growth {
 
   const Neighbours& neighbours_;
   const std::array<std::vector<int>, patches>& members_;
-  std::vector<int>& rank_of_;  // rank of each particle; -1: not numbered yet
-  std::vector<int>& passed_;   // for each particle, how many of its first neighbours are known to be numbered
+  std::vector<int>& rank_of_;      // rank of each particle; -1: not numbered yet
+  std::vector<int>& passed_;       // for each particle, how many of its first neighbours are known to be numbered
+  std::vector<int>& left_around_;  // for each particle, how many of its neighbours have no number yet
   std::vector<Rank> ranks_;
   std::vector<std::vector<int>> links_;  // for each rank, the ranks to which it is linked
   std::priority_queue<Open> open_;
@@ -254,7 +272,7 @@ std::array<std::vector<int>, patches> cut_in_four(const std::vector<Vec3f>& posi
 
 std::vector<int> number_in_lockstep(const std::vector<Vec3f>& positions, const std::vector<int>& tile,
                                     const std::vector<std::array<int, 2>>& links) {
-  std::vector<int> patch(tile.size()), rank_of(tile.size(), -1), passed(tile.size(), 0), order;
+  std::vector<int> patch(tile.size()), rank_of(tile.size(), -1), passed(tile.size(), 0), left_around(tile.size(), 0), order;
   std::vector<std::array<std::vector<int>, patches>> cuts;
   for (const std::vector<int>& members : members_of(tile)) {
     cuts.push_back(cut_in_four(positions, members));
@@ -264,7 +282,7 @@ std::vector<int> number_in_lockstep(const std::vector<Vec3f>& positions, const s
   }
   const Neighbours neighbours(patch, links);
   order.reserve(tile.size());
-  for (const auto& members : cuts) Growth(neighbours, members, rank_of, passed).append_to(order);
+  for (const auto& members : cuts) Growth(neighbours, members, rank_of, passed, left_around).append_to(order);
   return order;
 }
 
