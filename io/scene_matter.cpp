@@ -1,5 +1,6 @@
 // Builds objects in scene files: cloth, rope, particles; scene_bodies.cpp builds rigid bodies.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "pliant/grains.h"
@@ -80,7 +81,8 @@ void limit_particles(const Filling& by, const JsonValue& at, const Vec3f& low, c
                      "use a larger spacing, or a smaller box");
 }
 
-std::vector<Vec3f> places_in_mesh(const Filling& by, const JsonValue& fill) {
+/// `way` is by how far places will be moved afterwards, at most [m]: none comes closer to the surface than it may.
+std::vector<Vec3f> places_in_mesh(const Filling& by, const JsonValue& fill, float way) {
   if (const JsonValue* high = fill.find("max"))
     by.document.fail(*high, "is the corner of a box, but a mesh is filled", "give 'min' and 'max', or 'mesh'");
   SceneMesh surface = make_mesh(by.document, *fill.find("mesh"), by.folder, by.name);
@@ -89,7 +91,7 @@ std::vector<Vec3f> places_in_mesh(const Filling& by, const JsonValue& fill) {
   set(fill, "clearance", clearance);
   const MeshBounds bounds = bounds_of(surface.mesh.positions);
   limit_particles(by, fill, bounds.low, bounds.high);
-  return fill_mesh(surface.mesh, by.spacing, clearance);
+  return fill_mesh(surface.mesh, by.spacing, clearance + way);
 }
 
 std::vector<Vec3f> places_in_box(const Filling& by, const JsonValue& fill) {
@@ -110,8 +112,8 @@ std::vector<Vec3f> places_in(const Filling& by, const JsonValue& fill) {
   if (const JsonValue* given = fill.find("seed"); given != nullptr && jitter == 0)
     by.document.fail_key(*given, "has no 'jitter' to draw", "give a 'jitter', or remove it");
   const Filling wider{by.document, by.folder, by.name, by.repairs, by.spacing * (1 + 2 * jitter)};
-  return shaken(fill.find("mesh") != nullptr ? places_in_mesh(wider, fill) : places_in_box(wider, fill),
-                jitter * by.spacing, seed);
+  const float most = jitter * by.spacing, way = std::sqrt(3.f) * most;
+  return shaken(fill.find("mesh") != nullptr ? places_in_mesh(wider, fill, way) : places_in_box(wider, fill), most, seed);
 }
 
 }  // namespace

@@ -160,7 +160,7 @@ TEST(SceneJoints, AreNamedInErrors) {
        "bodies"},
       {R"({"between": ["arm_1", "arm_2"], "distance": {"anchors": [[0, 0, 0], [1, 0, 0]], "least": 2, "most": 1}})",
        "has a least distance of 2 m, more than its greatest of 1 m"},
-      {R"({"between": ["world", "end"], "fixed": {"anchor": [0, 0, 0]}, "repeat": {"count": 3}})",
+      {R"({"between": ["world", "end"], "fixed": {"anchor": [0, 0, 0]}, "repeat": {"count": 3, "step": [0, 0, 0]}})",
        "/objects/0/joints/0/repeat: joins the same bodies at the same place 3 times"},
       {R"({"between": ["arm_1", "arm_2"]})", "the kind of this joint is missing"},
       {R"({"between": ["arm_1"], "fixed": {"anchor": [0, 0, 0]}})", "/objects/0/joints/0/between: "}};

@@ -1,4 +1,4 @@
-// Tests wheels that turn by radians in a substep: a joint neither speeds them up nor takes their momentum.
+// Tests wheels that turn by radians in a substep: a bearing that stands still neither speeds them up nor slows them down.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,24 +41,20 @@ TEST(FastWheels, KeepTheirSpeedOnAHinge) {
     }
 }
 
-TEST(FastWheels, AForkThatSwingsGainsNoEnergyAndLosesLittle) {
-  for (const float angle : {0.3f, 0.9f, 1.3f}) {
+/// Holding velocities, which keeps a wheel on a bearing at its speed, would make a light frame swing more and more.
+TEST(FastWheels, KeepTheirEnergyInALightFreeFrame) {
+  for (const float angle : {1.2f, 2.f, 3.f}) {
     Mechanism m;
     m.substeps = substeps;
-    const int fork = m.box({0.5f, 0, 0}, 3, {0.5f, 0.05f, 0.05f});
-    add_joint(m.object, BallJoint{.a = -1, .b = fork, .anchor = {0, 0, 0}});
-    const int wheel = add_wheel(m.object, {}, {1, 0, 0}, {spin_of(angle), 0, 0});
-    add_joint(m.object, HingeJoint{.a = fork, .b = wheel, .anchor = {1, 0, 0}, .axis = {1, 0, 0}});
+    const int wheel = add_wheel(m.object, {}, {0, 0, 0}, {spin_of(angle), 0, 0});
+    const int frame = m.box({0.5f, 0.4f, 0}, 1, {0.1f, 0.1f, 0.1f});
+    add_joint(m.object, HingeJoint{.a = frame, .b = wheel, .anchor = {0, 0, 0}, .axis = {1, 0, 0}});
+    m.object.collides = m.object.self_collision = false;
+    m.scene.gravity = {};
     m.start();
-    const double start = energy(m);
-    double most = start, least = start;
-    for (int frame = 0; frame < 240; ++frame) {
-      m.run(1 / 60.);
-      most = std::max(most, energy(m));
-      least = std::min(least, energy(m));
-    }
-    EXPECT_LT(most - start, 1e-4 * start) << angle;
-    EXPECT_LT(start - least, 5e-3 * start) << angle;
+    const double start = m.world->measure().kinetic_energy();
+    m.run(4);
+    EXPECT_NEAR(m.world->measure().kinetic_energy() / start, 1, 1e-3) << angle;
   }
 }
 

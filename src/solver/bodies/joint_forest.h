@@ -68,8 +68,8 @@ struct JointForest {
   using Pull = std::array<Vec3f, 2>;  ///< the force on bodies a and b, times h^2 [kg m]
   std::vector<Pull> pulls;            ///< [joint] of the last substep, or of this one's passes so far
   std::vector<Pull> pulls_of_pass;    ///< [joint] scratch
-  bool is_fast = false;               ///< a body turns by so much in a substep that joints hold velocities, too
-  float inverse_h2_of_pulls = 0;      ///< of the substep in which the pulls were found [1/s^2]
+  bool is_fast = false;           ///< a body turns so fast on a bearing that stands still that joints hold velocities, too
+  float inverse_h2_of_pulls = 0;  ///< of the substep in which the pulls were found [1/s^2]
 };
 
 /// Finds the trees of an object, of its joints that are not broken.

@@ -1,8 +1,10 @@
-// Rigid joints of trees hold velocities too where a body turns fast (RATTLE; Andersen 1983).
+// Rigid joints of trees hold velocities too where a body on a bearing that stands still turns by radians in a substep (RATTLE; Andersen 1983).
 //
-// Where bodies turn little in a substep, the next solve of positions changes velocities by the same gradients, and does it. A body that turns
-// by radians is predicted as a free top. What a joint should have taken from its angular momentum then comes back turned, and a disc on
-// a hinge gains speed.
+// A body that turns by radians is predicted as a free top. What a joint should have taken from its angular momentum then comes back turned, and a
+// disc on a hinge gains speed. Where bodies turn less, the next solve of positions does the same by nearly the same gradients. Bearings that move are
+// left out: a wheel on a light, free frame swings (nutates) faster than substeps can follow, and holding velocities would make it grow.
+//
+// Multipliers of velocities are no part of Report's joint loads.
 #include "constraints/registry.h"
 #include "math/quat.h"
 #include "solver/bodies/body_math.h"
@@ -17,7 +19,7 @@ namespace {
 using bodies::plus, bodies::quaternion, bodies::xyz;
 
 /// From this angle in a substep on [rad].
-constexpr float fast_angle = 0.25f;
+constexpr float fast_angle = 1;
 
 /// Velocities of an object's points and frames, and what gravity has yet to add to those of points.
 struct Velocities {
@@ -32,11 +34,27 @@ struct Velocities {
   }
 };
 
-bool is_fast(const Substep& s, const JointWork& work) {
-  const Record* spins = s.state.frames.angular_velocities.data() + s.model.first_frame[work.number];
-  const float most = fast_angle * fast_angle * work.points.inverse_h2;
-  for (const JointForest::Body& body : work.forest.bodies)
-    if (length_squared(xyz(spins[body.frame])) > most) return true;
+/// True if a point and a frame neither move nor can.
+bool stands_still(const Substep& s, int object, std::int32_t point, std::int32_t frame) {
+  const auto p = static_cast<std::size_t>(s.model.first[object] + point);
+  const auto f = static_cast<std::size_t>(s.model.first_frame[object] + frame);
+  return s.state.positions[p].w == 0 && xyz(s.state.velocities[p]) == Vec3f{} &&
+         xyz(s.state.frames.angular_velocities[f]) == Vec3f{} && xyz(s.state.frames.inverse_inertias[f]) == Vec3f{};
+}
+
+/// True if a body turns fast on a joint with what stands still.
+bool is_fast(const Substep& s, int object, const JointForest& forest) {
+  const Record* spins = s.state.frames.angular_velocities.data() + s.model.first_frame[object];
+  const float most = fast_angle * fast_angle / (s.h * s.h);
+  for (std::size_t j = 0; j < forest.joints.size(); ++j) {
+    const JointForest::Joint& joint = forest.joints[j];
+    const JointEnds& ends = forest.ends[j];
+    if (!joint.in_tree || (ends.a >= 0) == (ends.b >= 0)) continue;
+    const std::size_t own = ends.a >= 0 ? 0 : 2, other = 2 - own;
+    if (length_squared(xyz(spins[joint.slots[own + 1]])) > most &&
+        stands_still(s, object, joint.slots[other], joint.slots[other + 1]))
+      return true;
+  }
   return false;
 }
 
@@ -86,9 +104,7 @@ bool has_fast_joints(Substep& s) {
   bool any = false;
   for_objects(s, [&](int o) {
     for (JointForest& forest : s.work.joints[static_cast<std::size_t>(o)].forests) {
-      const JointWork work{s.model.objects[static_cast<std::size_t>(o)], arguments(s, o, false), frame_arguments(s, o),
-                           forest, o};
-      forest.is_fast = is_fast(s, work);
+      forest.is_fast = is_fast(s, o, forest);
       any = any || forest.is_fast;
     }
   });

@@ -158,8 +158,9 @@ bool update(Substep& s) {
     if (!s.context.separate_phases) find_non_finite(task);
     if (s.work.tiles[task].finite) update_tile(s, task, settles(s));
   });
-  if (has_fast) hold_joint_velocities(s);
-  return all_finite(s, s.made);
+  const bool is_finite_now = all_finite(s, s.made);
+  if (has_fast && is_finite_now) hold_joint_velocities(s);
+  return is_finite_now;
 }
 
 }  // namespace pliant

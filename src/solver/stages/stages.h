@@ -47,8 +47,8 @@ void guard_bodies(Substep& s);
 /// Rest data of plastic constraints follow what is deformed too far.
 void yield(Substep& s);
 
-/// Updates velocities by the corrections, x += displacement, and applies restitution at colliders; joints of fast bodies hold velocities, too. Returns false if a
-/// displacement is not finite; then the report names it, and the State has been made finite.
+/// Updates velocities by the corrections, x += displacement, and applies restitution at colliders; joints of fast wheels hold velocities, too.
+/// Returns false if a displacement is not finite; then the report names it, and the State has been made finite.
 bool update(Substep& s);
 
 /// Applies restitution between surfaces.
