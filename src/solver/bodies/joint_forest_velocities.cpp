@@ -36,8 +36,8 @@ struct Velocities {
 
 /// True if a point and a frame neither move nor can.
 bool stands_still(const Substep& s, int object, std::int32_t point, std::int32_t frame) {
-  const auto p = static_cast<std::size_t>(s.model.first[object] + point);
-  const auto f = static_cast<std::size_t>(s.model.first_frame[object] + frame);
+  const auto p = static_cast<std::size_t>(s.model.first[object]) + static_cast<std::size_t>(point);
+  const auto f = static_cast<std::size_t>(s.model.first_frame[object]) + static_cast<std::size_t>(frame);
   return s.state.positions[p].w == 0 && xyz(s.state.velocities[p]) == Vec3f{} &&
          xyz(s.state.frames.angular_velocities[f]) == Vec3f{} && xyz(s.state.frames.inverse_inertias[f]) == Vec3f{};
 }
