@@ -73,6 +73,18 @@ Texture make_texture(GLint internal, int width, int height, GLenum format, GLenu
 /// Makes a framebuffer with a colour and a depth texture; 0: none. Throws an Error if OpenGL calls it incomplete.
 Framebuffer make_framebuffer(GLuint colour, GLuint depth);
 
+/// A texture, and the framebuffer that draws into it.
+struct Target {
+  Texture texture;
+  Framebuffer framebuffer;
+};
+
+/// The target that draws colours into a texture.
+inline Target colour_target(Texture texture) {
+  Framebuffer framebuffer = make_framebuffer(texture.get(), 0);
+  return {std::move(texture), std::move(framebuffer)};
+}
+
 /// A multisampled framebuffer. Its samples are averaged into another one later.
 struct SampledTarget {
   Renderbuffer colour, depth;

@@ -4,18 +4,33 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <string>
 
+#include "context.h"
 #include "eye_and_sun.h"
 #include "geometry.h"
+#include "gl_objects.h"
+#include "liquid_passes.h"
 #include "matrix.h"
-#include "passes.h"
 #include "pliant/error.h"
 #include "render.h"
+#include "scene_buffers.h"
+#include "shaders.h"
 #include "smoke.h"
 
 namespace pliant::render {
 
 namespace {
+
+constexpr int shadow_size = 2048;
+
+struct Programs {
+  Program depth{depth_vertex, depth_fragment};
+  Program occlusion{screen_vertex, occlusion_fragment};
+  Program blur{screen_vertex, blur_fragment};
+  Program sky{screen_vertex, std::string(light_functions) + sky_fragment};
+  Program surface{surface_vertex, std::string(light_functions) + surface_fragment};
+};
 
 Matrix to_texture(const Matrix& clip) {
   const Matrix halve{{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
@@ -49,26 +64,38 @@ float grid_spacing(float radius) {
 
 }  // namespace
 
+/// Over fifteen members: the OpenGL objects that the passes of a picture use.
+struct Renderer::Implementation {
+  Implementation(int w, int h);
+  std::vector<std::uint8_t> draw(const RenderScene& scene);
+
+  void draw_ranges(bool ground) const;
+  void draw_shadows(const Matrix& clip) const;
+  void draw_depth(const Eye& eye) const;
+  void draw_occlusion(const Eye& eye, float reach) const;
+  void draw_sky(const Eye& eye) const;
+  void draw_surfaces(const Eye& eye, const Sun& sun, const Extent& extent, float pixel) const;
+  void draw_both_sides(const Range& range) const;
+  std::vector<std::uint8_t> read_back() const;
+  std::vector<float> read_depths() const;
+  OpaquePicture opaque() const;
+
+  int width, height, half_width, half_height;
+  Context context;
+  Programs programs;
+  SceneBuffers buffers;
+  VertexArray nothing;
+  Sampler plain_sampler;  // reads depths of the shadow map without comparing them
+  Target shadow, depth, raw_occlusion, occlusion, picture;
+  SampledTarget sampled;
+  LiquidPasses liquids;
+};
+
 Renderer::Implementation::Implementation(int w, int h)
-    : width(w), height(h), half_width((w + 1) / 2), half_height((h + 1) / 2), sampled(w, h, best_samples()) {
-  GLuint names[3];
-  glGenVertexArrays(2, names);
-  array = VertexArray(names[0]);
-  nothing = VertexArray(names[1]);
-  glGenBuffers(3, names);
-  vertices = Buffer(names[0]);
-  indices = Buffer(names[1]);
-  places = Buffer(names[2]);
-  glBindVertexArray(array.get());
-  glBindBuffer(GL_ARRAY_BUFFER, vertices.get());
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.get());
-  for (GLuint i = 0; i < 2; ++i) {
-    glEnableVertexAttribArray(i);
-    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(i * sizeof(Vec3f)));
-  }
-  glEnableVertexAttribArray(3);
-  glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(offsetof(Vertex, shade)));
-  glVertexAttribDivisor(2, 1);
+    : width(w), height(h), half_width((w + 1) / 2), half_height((h + 1) / 2), sampled(w, h, best_samples()), liquids(w, h) {
+  GLuint name = 0;
+  glGenVertexArrays(1, &name);
+  nothing = VertexArray(name);
   shadow.texture =
       make_texture(GL_DEPTH_COMPONENT24, shadow_size, shadow_size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -81,63 +108,15 @@ Renderer::Implementation::Implementation(int w, int h)
   shadow.framebuffer = make_framebuffer(0, shadow.texture.get());
   depth.texture = make_texture(GL_DEPTH_COMPONENT24, width, height, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_NEAREST);
   depth.framebuffer = make_framebuffer(0, depth.texture.get());
-  raw_occlusion.texture = make_texture(GL_R8, half_width, half_height, GL_RED, GL_UNSIGNED_BYTE, GL_NEAREST);
-  raw_occlusion.framebuffer = make_framebuffer(raw_occlusion.texture.get(), 0);
-  occlusion.texture = make_texture(GL_R8, half_width, half_height, GL_RED, GL_UNSIGNED_BYTE, GL_LINEAR);
-  occlusion.framebuffer = make_framebuffer(occlusion.texture.get(), 0);
-  picture.texture = make_texture(GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, GL_NEAREST);
-  picture.framebuffer = make_framebuffer(picture.texture.get(), 0);
-  behind.texture = make_texture(GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, GL_LINEAR);
-  behind.framebuffer = make_framebuffer(behind.texture.get(), 0);
-  thickness.texture = make_texture(GL_R32F, width, height, GL_RED, GL_FLOAT, GL_NEAREST);
-  thickness.framebuffer = make_framebuffer(thickness.texture.get(), 0);
-  liquid_shadow.texture = make_texture(GL_RGBA32F, liquid_shadow_size, liquid_shadow_size, GL_RGBA, GL_FLOAT, GL_LINEAR);
-  liquid_shadow.framebuffer = make_framebuffer(liquid_shadow.texture.get(), 0);
-}
-
-void Renderer::Implementation::upload(const std::vector<Geometry>& geometries) {
-  std::vector<Vertex> all_vertices;
-  std::vector<std::uint32_t> all_indices;
-  std::vector<std::array<float, 4>> all_places;
-  ranges.clear();
-  for (const Geometry& geometry : geometries) {
-    const auto first = static_cast<std::uint32_t>(all_vertices.size());
-    ranges.push_back({static_cast<GLsizei>(geometry.indices.size()), all_indices.size() * sizeof(std::uint32_t),
-                      geometry.colour, geometry.material, geometry.clarity, all_places.size() * sizeof(all_places[0]),
-                      static_cast<GLsizei>(geometry.places.size())});
-    all_places.insert(all_places.end(), geometry.places.begin(), geometry.places.end());
-    all_vertices.insert(all_vertices.end(), geometry.vertices.begin(), geometry.vertices.end());
-    for (const std::uint32_t i : geometry.indices) all_indices.push_back(first + i);
-  }
-  glBindVertexArray(array.get());
-  glBindBuffer(GL_ARRAY_BUFFER, vertices.get());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(all_vertices.size() * sizeof(Vertex)), all_vertices.data(),
-               GL_STREAM_DRAW);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all_indices.size() * sizeof(std::uint32_t)),
-               all_indices.data(), GL_STREAM_DRAW);
-  glBindBuffer(GL_ARRAY_BUFFER, places.get());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(all_places.size() * sizeof(all_places[0])), all_places.data(),
-               GL_STREAM_DRAW);
-}
-
-/// Draws a range once, or at each of its places.
-void Renderer::Implementation::draw_range(const Range& range) const {
-  const auto* const first = reinterpret_cast<const void*>(range.first);
-  if (range.places == 0) {
-    glDisableVertexAttribArray(2);
-    glVertexAttrib4f(2, 0, 0, 0, 1);
-    return glDrawElements(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, first);
-  }
-  glBindBuffer(GL_ARRAY_BUFFER, places.get());
-  glVertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, 0, reinterpret_cast<const void*>(range.first_place));
-  glEnableVertexAttribArray(2);
-  glDrawElementsInstanced(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, first, range.places);
+  raw_occlusion = colour_target(make_texture(GL_R8, half_width, half_height, GL_RED, GL_UNSIGNED_BYTE, GL_NEAREST));
+  occlusion = colour_target(make_texture(GL_R8, half_width, half_height, GL_RED, GL_UNSIGNED_BYTE, GL_LINEAR));
+  picture = colour_target(make_texture(GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, GL_NEAREST));
 }
 
 void Renderer::Implementation::draw_ranges(bool ground) const {
-  for (const Range& range : ranges) {
+  for (const Range& range : buffers.ranges()) {
     if ((range.material == Material::ground && !ground) || range.material == Material::liquid) continue;
-    draw_range(range);
+    buffers.draw(range);
   }
 }
 
@@ -200,7 +179,7 @@ void Renderer::Implementation::draw_sky(const Eye& eye) const {
 }
 
 void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, const Extent& extent, float pixel) const {
-  glBindVertexArray(array.get());
+  buffers.bind();
   glEnable(GL_DEPTH_TEST);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, shadow.texture.get());
@@ -210,7 +189,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   glBindTexture(GL_TEXTURE_2D, shadow.texture.get());
   glBindSampler(2, plain_sampler.get());
   glActiveTexture(GL_TEXTURE3);
-  glBindTexture(GL_TEXTURE_2D, liquid_shadow.texture.get());
+  glBindTexture(GL_TEXTURE_2D, liquids.shadows());
   const Program& program = programs.surface;
   const float size = extent.radius;
   program.use();
@@ -218,7 +197,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("shadow_depth", 2);
   program.set("occlusion", 1);
   program.set("liquid_shadow", 3);
-  program.set("in_liquid", has_liquid() ? 1.f : 0.f);
+  program.set("in_liquid", buffers.has_liquid() ? 1.f : 0.f);
   program.set("view_projection", eye.view_projection);
   program.set("light", to_texture(sun.clip));
   program.set("eye", eye.camera.eye);
@@ -233,7 +212,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   // If the centre of a pixel is outside the triangle that is visible in it, its position is up to a pixel away from the
   // surface.
   program.set("bias", std::max(5 * size / shadow_size, 2 * pixel));
-  for (const Range& range : ranges) {
+  for (const Range& range : buffers.ranges()) {
     if (range.material == Material::liquid) continue;
     program.set("albedo", range.colour);
     program.set("material", static_cast<int>(range.material));
@@ -243,14 +222,14 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
 
 /// Draws backs and fronts separately: where two layers of cloth coincide, the front wins, without z-fighting.
 void Renderer::Implementation::draw_both_sides(const Range& range) const {
-  if (range.material != Material::cloth) return draw_range(range);
+  if (range.material != Material::cloth) return buffers.draw(range);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
-  draw_range(range);
+  buffers.draw(range);
   glCullFace(GL_FRONT);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.f, 4.f);
-  draw_range(range);
+  buffers.draw(range);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_CULL_FACE);
 }
@@ -278,6 +257,10 @@ std::vector<float> Renderer::Implementation::read_depths() const {
   return depths;
 }
 
+OpaquePicture Renderer::Implementation::opaque() const {
+  return {shadow.texture.get(), plain_sampler.get(), depth.texture.get(), sampled.framebuffer.get()};
+}
+
 std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scene) {
   check(scene);
   context.make_current();
@@ -295,10 +278,10 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
     const float sink = 0.002f * extent.radius;  // keeps objects that lie on the ground visible
     geometries.push_back(build_ground({centre.x, *scene.ground - sink, centre.z}, 30 * extent.radius, colour));
   }
-  upload(geometries);
+  buffers.upload(geometries);
   glEnable(GL_DEPTH_TEST);
   draw_shadows(sun.clip);
-  if (has_liquid()) draw_liquid_shadows(sun, extent.radius);
+  if (buffers.has_liquid()) liquids.draw_shadows(buffers, sun, extent.radius, opaque());
   draw_depth(eye);
   draw_occlusion(eye, 0.08f * extent.radius);
   glBindFramebuffer(GL_FRAMEBUFFER, sampled.framebuffer.get());
@@ -306,7 +289,7 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_sky(eye);
   draw_surfaces(eye, sun, extent, pixel);
-  draw_liquids(eye, sun, extent);
+  liquids.draw_surfaces(buffers, eye, sun, extent, opaque());
   std::vector<std::uint8_t> result = read_back();
   if (scene.smokes.empty()) return result;
   const SmokeView view{.eye = camera.eye,
