@@ -185,19 +185,33 @@ TEST_F(Picture, OfBallsIsThatOfSpheres) {
   EXPECT_NEAR(a, b, 0.03 * b);
 }
 
+/// A grey wall behind the place at which the camera looks.
+RenderScene grey_wall(const Camera& camera) {
+  RenderScene scene;
+  scene.ground.reset();
+  scene.camera = camera;
+  scene.extent = Extent{{}, 1};
+  scene.meshes.push_back(square(0.9f, {0, 0, -0.8f}, {0.8f, 0.8f, 0.8f}));
+  return scene;
+}
+
+/// An ellipsoid of blue liquid.
+RenderMesh blue_liquid(const Vec3f& half, const Vec3f& centre = {}, float clarity = 0) {
+  const TriangleMesh ball = sphere_mesh(4);
+  RenderMesh liquid{.positions = ball.positions,
+                    .triangles = ball.triangles,
+                    .colour = {0.1f, 0.3f, 0.6f},
+                    .is_liquid = true,
+                    .clarity = clarity};
+  for (Vec3f& p : liquid.positions) p = Vec3f{p.x * half.x, p.y * half.y, p.z * half.z} + centre;
+  return liquid;
+}
+
 TEST_F(Picture, OfALiquidIsClearWhereItIsThinAndColouredWhereItIsThick) {
-  RenderScene bare;
-  bare.ground.reset();
-  bare.camera = straight();
-  bare.extent = Extent{{}, 1};
-  bare.meshes.push_back(square(0.9f, {0, 0, -0.8f}, {0.8f, 0.8f, 0.8f}));
+  const RenderScene bare = grey_wall(straight());
   const auto with_ball = [&](float radius) {
     RenderScene scene = bare;
-    const TriangleMesh ball = sphere_mesh(4);
-    RenderMesh liquid{
-        .positions = ball.positions, .triangles = ball.triangles, .colour = {0.1f, 0.3f, 0.6f}, .is_liquid = true};
-    for (Vec3f& p : liquid.positions) p = {p.x * 0.6f, p.y * 0.6f, p.z * radius};
-    scene.meshes.push_back(liquid);
+    scene.meshes.push_back(blue_liquid({0.6f, 0.6f, radius}));
     return scene;
   };
   const auto middle = [&](const RenderScene& scene) { return at(renderer->draw(scene), width / 2, height / 2); };
@@ -211,29 +225,25 @@ TEST_F(Picture, OfALiquidIsClearWhereItIsThinAndColouredWhereItIsThick) {
 }
 
 TEST_F(Picture, OfALiquidHasItsShadowByItsClarity) {
-  RenderScene bare;
-  bare.ground.reset();
-  bare.camera = straight();
-  bare.extent = Extent{{}, 1};
-  bare.meshes.push_back(square(0.9f, {0, 0, -0.8f}, {0.8f, 0.8f, 0.8f}));
+  const RenderScene bare = grey_wall(straight());
+  const Vec3f toward_the_sun{-0.64f, 0.73f, -0.56f};  // of the wall's middle
+  const auto middle = [&](const RenderScene& scene) { return at(renderer->draw(scene), width / 2, height / 2); };
   const auto shaded = [&](float clarity) {
     RenderScene scene = bare;
-    const TriangleMesh ball = sphere_mesh(4);
-    RenderMesh liquid{.positions = ball.positions,
-                      .triangles = ball.triangles,
-                      .colour = {0.1f, 0.3f, 0.6f},
-                      .is_liquid = true,
-                      .clarity = clarity};
-    for (Vec3f& p : liquid.positions) p = p * 0.25f + Vec3f{-0.64f, 0.73f, -0.56f};  // in the sun of the picture's middle
-    scene.meshes.push_back(liquid);
-    return at(renderer->draw(scene), width / 2, height / 2);
+    scene.meshes.push_back(blue_liquid({0.25f, 0.25f, 0.25f}, toward_the_sun, clarity));
+    return middle(scene);
   };
-  const Pixel sunny = at(renderer->draw(bare), width / 2, height / 2), clear = shaded(100), usual = shaded(0),
-              dark = shaded(0.05f);
+  RenderScene opaque = bare;
+  opaque.colliders.push_back({Sphere{0.25f}, toward_the_sun, {}, {0.1f, 0.3f, 0.6f}});
+  const Pixel sunny = middle(bare), clear = shaded(100), tinted = shaded(1.5f), usual = shaded(0), dark = shaded(0.05f);
   EXPECT_LT(clear.r, sunny.r - 5);
   EXPECT_LT(usual.r, clear.r - 10);
   EXPECT_GT(usual.b - usual.r, clear.b - clear.r + 5) << "the light that is left has the liquid's colour";
-  EXPECT_LT(dark.r, usual.r - 10) << "what is left is light from the sky";
+  EXPECT_LT(dark.r, usual.r);
+  EXPECT_LT(dark.r, tinted.r - 20);
+  const Pixel shadow = middle(opaque);
+  EXPECT_NEAR(dark.r, shadow.r, 4) << "what absorbs all has the shadow of a solid";
+  EXPECT_NEAR(dark.b, shadow.b, 4);
 }
 
 TEST_F(Picture, LeavesOutAWallBetweenTheCameraAndWhatItHolds) {
