@@ -256,6 +256,16 @@ void refuse_unknown(const std::string& workload) {
               (near.empty() ? "" : "did you mean '" + near + "'? ") + "the workloads are " + list);
 }
 
+/// Only liquids are counted by particles; what others count by sides or rows has a lower limit.
+void refuse_large(const BenchOptions& options) {
+  constexpr int largest = 100000;
+  if (options.workload == "W5" || options.sizes.empty()) return;
+  const int size = *std::max_element(options.sizes.begin(), options.sizes.end());
+  if (size > largest)
+    throw Error({}, "--sizes: " + std::to_string(size) + " is more than " + std::to_string(largest),
+                "give a smaller size; only W5 takes more");
+}
+
 /// Measures a workload that has rows of its own, and returns them as JSON; nullopt for other workloads.
 std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload.rfind("bodies", 0) == 0) return bench_bodies(options);
@@ -276,6 +286,7 @@ std::optional<std::string> bench_by_name(const BenchOptions& options) {
 
 int bench(const BenchOptions& options) {
   refuse_unknown(options.workload);
+  refuse_large(options);
   std::unique_ptr<AtomicFile> file;
   if (!options.json.empty()) file = std::make_unique<AtomicFile>(options.json);
   if (const auto json = bench_by_name(options)) {

@@ -44,6 +44,7 @@ TEST_F(Command, UsageErrorsGiveTwo) {
   expect_refused("run small.json --zzz 3", 2, "--zzz; see pliant run --help");
   expect_refused("bench W1-bendin", 1, "did you mean 'W1-bending'? the workloads are ");
   expect_refused("bench defaul", 1, "did you mean 'default'? ");
+  expect_refused("bench bodies-pyramid --sizes 200000", 1, "is more than 100000; give a smaller size; only W5 takes more");
   expect_refused("render small.json", 2, "see pliant render --help");
   expect_refused("run", 2, "SCENE");
   expect_refused("run small.json --frames -1", 2, "frames");
