@@ -103,7 +103,7 @@ std::vector<Vec3f> places_in_box(const Filling& by, const JsonValue& fill) {
   return fill_box(low, high, by.spacing);
 }
 
-/// The places of a `fill`, shaken by its jitter.
+/// The places of a `fill`, moved by its jitter.
 std::vector<Vec3f> places_in(const Filling& by, const JsonValue& fill) {
   float jitter = 0;
   int seed = 0;
@@ -113,7 +113,7 @@ std::vector<Vec3f> places_in(const Filling& by, const JsonValue& fill) {
     by.document.fail_key(*given, "has no 'jitter' to draw", "give a 'jitter', or remove it");
   const Filling wider{by.document, by.folder, by.name, by.repairs, by.spacing * (1 + 2 * jitter)};
   const float most = jitter * by.spacing, way = std::sqrt(3.f) * most;
-  return shaken(fill.find("mesh") != nullptr ? places_in_mesh(wider, fill, way) : places_in_box(wider, fill), most, seed);
+  return jittered(fill.find("mesh") != nullptr ? places_in_mesh(wider, fill, way) : places_in_box(wider, fill), most, seed);
 }
 
 }  // namespace

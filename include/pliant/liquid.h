@@ -46,7 +46,7 @@ std::vector<Vec3f> fill_mesh(const TriangleMesh& mesh, float spacing, float clea
 /// Displaces each point along each axis by a random length up to `most` [m]; the same seed gives the same points. The columns of a lattice of
 /// grains stand on one another, and fall in layers; with a lattice 1.1 diameters apart and 0.05 diameters as `most` they do not, and none
 /// overlap. Throws an Error if `most` is negative or not finite.
-std::vector<Vec3f> shaken(std::vector<Vec3f> points, float most, int seed = 0);
+std::vector<Vec3f> jittered(std::vector<Vec3f> points, float most, int seed = 0);
 
 /// Makes a liquid of particles at given places, about a spacing apart. Each has the mass of a cube of that side, and touches colliders at
 /// half the spacing, without friction. Throws an Error that names an option that is out of range.

@@ -21,6 +21,7 @@
 #include "pliant/motion.h"
 #include "pliant/object.h"
 #include "pliant/queries.h"
+#include "pliant/random.h"
 #include "pliant/reference.h"
 #include "pliant/report.h"
 #include "pliant/rod.h"

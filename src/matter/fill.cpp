@@ -62,7 +62,7 @@ std::vector<Vec3f> fill_mesh(const TriangleMesh& mesh, float spacing, float clea
   return points;
 }
 
-std::vector<Vec3f> shaken(std::vector<Vec3f> points, float most, int seed) {
+std::vector<Vec3f> jittered(std::vector<Vec3f> points, float most, int seed) {
   if (!(most >= 0) || !std::isfinite(most))
     throw Error({.element = "displacement"}, "is " + std::to_string(most), "give a finite length of 0 or more [m]");
   Random random(seed);

@@ -62,8 +62,8 @@ TEST(FillMesh, RefusesWhatHasNoInside) {
   EXPECT_THROW((void)fill_mesh(wild, 0.1f), Error);
 }
 
-TEST(Shaken, MovesEachPointByUpToTheLengthAndDependsOnTheSeed) {
-  const std::vector<Vec3f> lattice = fill_box({0, 0, 0}, {1, 1, 1}, 0.1f), moved = shaken(lattice, 0.01f);
+TEST(Jittered, MovesEachPointByUpToTheLengthAndDependsOnTheSeed) {
+  const std::vector<Vec3f> lattice = fill_box({0, 0, 0}, {1, 1, 1}, 0.1f), moved = jittered(lattice, 0.01f);
   ASSERT_EQ(moved.size(), lattice.size());
   float most = 0;
   for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -72,10 +72,10 @@ TEST(Shaken, MovesEachPointByUpToTheLengthAndDependsOnTheSeed) {
   }
   EXPECT_LE(most, 0.01f + 1e-7f);
   EXPECT_GT(most, 0.0099f);
-  EXPECT_EQ(moved, shaken(lattice, 0.01f));
-  EXPECT_NE(moved, shaken(lattice, 0.01f, 1));
-  EXPECT_EQ(lattice, shaken(lattice, 0));
-  EXPECT_THROW(shaken(lattice, -1), Error);
+  EXPECT_EQ(moved, jittered(lattice, 0.01f));
+  EXPECT_NE(moved, jittered(lattice, 0.01f, 1));
+  EXPECT_EQ(lattice, jittered(lattice, 0));
+  EXPECT_THROW(jittered(lattice, -1), Error);
 }
 
 }  // namespace

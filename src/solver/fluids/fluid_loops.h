@@ -48,7 +48,7 @@ struct Loops {
       for (int k = 0; k < group.rows; ++k) {
         const auto other = Lanes::load(a.weighted, group.slots + k * neighbour_lanes + lane);
         const Vec3<R> d = own.position - other.position;
-        // Made again: to keep it would take twice the memory of the lists, and more time to move it.
+        // Made again: to keep it would take as much memory as the lists, which is slower where they exceed the cache.
         const R by = (own.w + other.w) * Kernel<R>(d, R(a.law.reach)).factor;
         sum = {sum.x + by * d.x, sum.y + by * d.y, sum.z + by * d.z};
       }
