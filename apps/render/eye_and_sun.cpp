@@ -28,10 +28,22 @@ Vec3f sun_direction(const ViewFrame& view) {
   return unit(Vec3f{0, 1.15f, 0} + level_back * 0.38f - level_right * 1.0f);
 }
 
+/// The part of a box within `reach` of a centre along each axis; all of it if there is none.
+Bounds near_part(const Bounds& box, const Vec3f& centre, float reach) {
+  Bounds result = box;
+  for (float Vec3f::*const axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
+    result.low.*axis = std::max(box.low.*axis, centre.*axis - reach);
+    result.high.*axis = std::min(box.high.*axis, centre.*axis + reach);
+    if (result.low.*axis >= result.high.*axis) return box;
+  }
+  return result;
+}
+
 }  // namespace
 
-Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries) {
+Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries, const Extent& extent) {
   constexpr float angular_radius = 0.03f;  // radius of the sun [rad], seven times the real one, as through thin cloud
+  constexpr float farthest = 4;            // radii of the extent: what flew farther away would make all shadows coarse
   Sun sun{.direction = sun_direction(view), .clip = {}};
   const ViewFrame frame = view_frame(-sun.direction);
   Bounds box;
@@ -44,6 +56,8 @@ Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries) {
       box.include(Vec3f{dot(frame.right, v.position), dot(frame.up, v.position), dot(frame.back, v.position)});
   }
   if (box.empty()) box.include(Vec3f{}, 1);
+  const Vec3f centre{dot(frame.right, extent.centre), dot(frame.up, extent.centre), dot(frame.back, extent.centre)};
+  box = near_part(box, centre, farthest * extent.radius);
   const float margin = 0.04f * std::max(box.radius(), 1e-4f);
   // The shadow map extends far along the rays, so that it contains the ground with its shadows.
   const Vec3f low = box.low - Vec3f{margin, margin, 150 * margin}, high = box.high + Vec3f{margin, margin, margin};

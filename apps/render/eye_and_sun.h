@@ -28,6 +28,7 @@ struct Sun {
   float softness = 0;  // radius of a shadow's soft edge over the distance of what casts it, in units of the shadow map
 };
 
-Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries);
+/// `extent` is that of what the picture shows; what is many times as far away casts no shadow.
+Sun make_sun(const ViewFrame& view, const std::vector<Geometry>& geometries, const Extent& extent);
 
 }  // namespace pliant::render

@@ -269,7 +269,7 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
   const Eye eye = make_eye(camera, width, height, extent);
   const float pixel = 2 * eye.half_height * length(camera.eye - extent.centre) / static_cast<float>(height);
   std::vector<Geometry> geometries = build_geometry(scene, extent.centre, extent.radius, 0.9f * pixel, camera.eye);
-  const Sun sun = make_sun(eye.frame, geometries);
+  const Sun sun = make_sun(eye.frame, geometries, extent);
   if (scene.ground) {
     Vec3f colour{0.60f, 0.60f, 0.59f};
     for (const RenderCollider& c : scene.colliders)

@@ -1,6 +1,7 @@
 // Makes the triangles of steep planes.
 #include "walls.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <variant>
@@ -46,6 +47,13 @@ void add_prism(Geometry& geometry, const std::vector<Vec3f>& front, const Vec3f&
   }
 }
 
+/// True if a plane that faces down lies below `height`.
+bool has_ceiling(const std::vector<RenderCollider>& colliders, float height) {
+  return std::any_of(colliders.begin(), colliders.end(), [&](const RenderCollider& collider) {
+    return std::holds_alternative<Plane>(collider.shape) && normal_of(collider).y < -0.5f && collider.position.y < height;
+  });
+}
+
 }  // namespace
 
 bool is_wall(const RenderCollider& collider) {
@@ -61,7 +69,7 @@ Geometry build_wall(const RenderCollider& wall, const std::vector<RenderCollider
   const Vec3f u = rotate(wall.rotation, {1, 0, 0}) * half, v = rotate(wall.rotation, {0, 0, 1}) * half;
   const Vec3f middle = around - normal * dot(normal, around - wall.position);
   std::vector<Vec3f> outline{middle - u - v, middle - u + v, middle + u + v, middle + u - v};
-  outline = clipped(outline, {0, -1, 0}, -(around.y + above * radius));
+  if (!has_ceiling(colliders, around.y + half)) outline = clipped(outline, {0, -1, 0}, -(around.y + above * radius));
   for (const RenderCollider& other : colliders) {
     if (!std::holds_alternative<Plane>(other.shape)) continue;
     const Vec3f facing = normal_of(other);

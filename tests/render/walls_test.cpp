@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/eye_and_sun.h"
 #include "render/geometry.h"
 #include "render/matrix.h"
 #include "render/walls.h"
@@ -45,6 +46,14 @@ TEST(Walls, EndWhereOtherPlanesCutThem) {
   EXPECT_NEAR(back.high.z, 0, tolerance);
 }
 
+TEST(Walls, ReachUpToACeiling) {
+  std::vector<RenderCollider> planes = tank();
+  planes.push_back(plane({0, 2.5f, 0}, {1, 0, 0, 0}));
+  EXPECT_NEAR(bounds_of(build_wall(planes[3], planes, {1, 0.5f, 0.5f}, 2)).high.y, 2.5f + 0.04f, 1e-5f);
+  planes.back().position.y = 20;  // too high for the picture
+  EXPECT_NEAR(bounds_of(build_wall(planes[3], planes, {1, 0.5f, 0.5f}, 2)).high.y, 0.5f + 0.55f * 2, 1e-5f);
+}
+
 TEST(Walls, FaceWhatTheyHold) {
   const std::vector<RenderCollider> planes = tank();
   for (std::size_t wall = 1; wall < planes.size(); ++wall) {
@@ -75,6 +84,27 @@ TEST(PointsOfInterest, LeaveOutDropsFarFromALiquid) {
   }
   scene.meshes[0].is_liquid = false;
   EXPECT_GT(bounds(points_of_interest(scene)).high.y, 20);
+}
+
+/// A box of 1 m about the origin.
+Geometry box_of_a_metre() {
+  Geometry box;
+  for (const float x : {-0.5f, 0.5f})
+    for (const float y : {-0.5f, 0.5f})
+      for (const float z : {-0.5f, 0.5f}) box.vertices.push_back({{x, y, z}, {0, 1, 0}});
+  return box;
+}
+
+TEST(Sun, KeepsSharpShadowsWhateverFliesAway) {
+  const ViewFrame view = view_frame({0, 0, -1});
+  const Extent extent{{}, 0.87f};
+  Geometry far_drop = box_of_a_metre();
+  for (Vertex& vertex : far_drop.vertices) vertex.position = vertex.position + Vec3f{3, -400, 2};
+  const Sun alone = make_sun(view, {box_of_a_metre()}, extent);
+  const Sun with_drop = make_sun(view, {box_of_a_metre(), far_drop}, extent);
+  EXPECT_LT(with_drop.depth, 4 * alone.depth);
+  const Sun of_drop = make_sun(view, {far_drop}, extent);
+  EXPECT_NEAR(of_drop.depth, alone.depth, 0.01f * alone.depth) << "what is seen alone has its shadow";
 }
 
 }  // namespace
