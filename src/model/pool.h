@@ -21,7 +21,7 @@ enum class Law : std::int32_t { compliant, damped, pbd };
 inline constexpr int batch_width = 16;
 inline constexpr int most_slots = 8, most_components = 6, most_rest_fields = 32;  ///< limits of a constraint type
 
-/// A range of batches of one pool that share no particle and are projected together.
+/// A range of batches of one pool that share no particle and are projected together. Ties of one body share that and nothing else.
 struct Segment {
   std::int32_t pool = 0;
   std::int32_t runs = 0;         ///< bit s: slot s is contiguous, so a batch stores four indices for it instead of sixteen
@@ -30,6 +30,7 @@ struct Segment {
   std::int32_t last_count =
       0;  ///< in the last batch: valid lanes (1..16), or groups of four (1..4) if a slot is contiguous; the rest is padding
   std::int64_t index_offset = 0;  ///< index of its first entry in Pool::indices
+  bool is_of_one_body = false;    ///< ties of one body (solver/tied_body.h)
 };
 
 struct Pool {

@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 
 #include "constraints/registry.h"
 #include "model/fill_pool.h"
+#include "model/tied_bodies.h"
 #include "topology/colouring.h"
 
 namespace pliant {
@@ -208,17 +210,38 @@ void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, 
   merge(schedules, out);
 }
 
+namespace {
+
+/// Appends the ties of bodies that have many, each as a segment, and returns the other members of the list.
+std::vector<int> append_tied_bodies(const ConstraintList& list, int pool, CompiledObject& out) {
+  const TiedBodies tied = find_tied_bodies(list, out.particles);
+  for (const std::vector<TiesOfBody>& colour : tied.colours) {
+    const int first = static_cast<int>(out.segments.size());
+    for (const TiesOfBody& members : colour) {
+      append_colour(list, {0, members}, std::numeric_limits<int>::max(), pool, out.pools[pool], out.segments);
+      out.segments.back().is_of_one_body = true;
+    }
+    out.phases.push_back({Driver::stencil, first, static_cast<int>(out.segments.size())});
+  }
+  return tied.singles;
+}
+
+}  // namespace
+
 void schedule_stencils(std::vector<ConstraintList>& lists, bool in_given_order, CompiledObject& out) {
   Colouring colouring(out.particles + static_cast<int>(out.frames.size()));
   for (std::size_t i = 0; i < lists.size(); ++i) {
-    if (lists[i].in_lanes) continue;
-    std::vector<int> members(static_cast<std::size_t>(lists[i].count()));
+    const ConstraintList& list = lists[i];
+    const int pool = static_cast<int>(i);
+    if (list.in_lanes) continue;
+    std::vector<int> members(static_cast<std::size_t>(list.count()));
     std::iota(members.begin(), members.end(), 0);
+    if (constraint_type(list.type).is_tie && !in_given_order) members = append_tied_bodies(list, pool, out);
     const std::vector<Colour> colours =
-        in_given_order ? one_by_one(members) : colouring.colour_singly(lists[i].stencils.own(), lists[i].size, members);
+        in_given_order ? one_by_one(members) : colouring.colour_singly(lists[i].stencils.own(), list.size, members);
     for (const Colour& colour : colours) {
       const int first = static_cast<int>(out.segments.size());
-      append_colour(lists[i], colour, batches_per_stencil_task, static_cast<int>(i), out.pools[i], out.segments);
+      append_colour(list, colour, batches_per_stencil_task, pool, out.pools[i], out.segments);
       out.phases.push_back({Driver::stencil, first, static_cast<int>(out.segments.size())});
     }
   }

@@ -3,6 +3,7 @@
 #include "constraints/registry.h"
 #include "math/quat.h"
 #include "solver/project.h"
+#include "solver/tied_body.h"
 #include "solver/visit.h"
 
 namespace pliant {
@@ -195,6 +196,7 @@ void rotate_frame(const Vec3f& theta, Record& orientation, Record& corrections) 
 
 void project_segment(const CompiledObject& object, const Segment& segment, const SweepArguments& points,
                      const FrameArguments& frames) {
+  if (segment.is_of_one_body) return project_tied_body(object, segment, points, frames);
   const Pool& pool = object.pools[segment.pool];
   const ConstraintDefinition& type = constraint_type(pool.type);
   float* all = points.multipliers != nullptr && pool.law != Law::pbd ? points.multipliers[segment.pool] : nullptr;

@@ -1,0 +1,186 @@
+#include "solver/tied_body.h"
+
+#include <cmath>
+
+#include "math/quat.h"
+#include "solver/project.h"
+#include "solver/stencil.h"
+#include "solver/visit.h"
+
+namespace pliant {
+
+namespace {
+
+constexpr int freedoms = 6;
+/// Smallest inverse mass of a tie's particle, as a share of the body's there: particles that are fixed would overdetermine the body.
+constexpr float least_yield = 1e-5f;
+
+Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
+
+/// The body at the start of the projection.
+struct Body {
+  const Record& position;
+  Vec3f displacement{}, motion{}, turned{};  ///< motion and rotation since the substep's start, in the world
+  Quatf orientation{};
+  float inverse_mass = 0;
+  Vec3f inverse_inertia{};
+
+  Body(const CompiledObject& object, const SweepArguments& a, const FrameArguments& f, const std::int32_t* number)
+      : position(a.positions[number[0]]) {
+    const std::int32_t frame = number[1] - object.particles;
+    const Record &d = a.displacements[number[0]], &r = a.remainders[number[0]], &q = f.orientations[frame];
+    displacement = xyz(d);
+    motion = {d.x - r.x, d.y - r.y, d.z - r.z};
+    turned = xyz(f.predicted[frame]) + xyz(f.corrections[frame]);
+    orientation = {q.x, q.y, q.z, q.w};
+    inverse_mass = position.w;
+    inverse_inertia = xyz(f.inverse_inertias[frame]);
+  }
+};
+
+/// One tie in the body's axes.
+struct Tie {
+  Vec3f arm{}, rhs{};   ///< [m]
+  float stiffness = 0;  ///< 1 / (w + a) [kg]
+  float inverse_mass = 0;
+};
+
+Tie tie_of(const ConstraintPlace& at, const std::int32_t* number, const SweepArguments& a, const Body& body,
+           const float* multipliers) {
+  const Pool& pool = at.pool;
+  const Record &p = a.positions[number[2]], &d = a.displacements[number[2]], &r = a.remainders[number[2]];
+  const Vec3f arm{at.value(0), at.value(1), at.value(2)}, outward = rotate(body.orientation, arm);
+  const Vec3f apart{((p.x - body.position.x) + d.x) - body.displacement.x,
+                    ((p.y - body.position.y) + d.y) - body.displacement.y,
+                    ((p.z - body.position.z) + d.z) - body.displacement.z};
+  const float softness = at.value(pool.fields);
+  const float compliance = pool.law == Law::pbd ? 0 : min(softness * a.inverse_h2, largest_compliance);
+  Vec3f rhs = outward - apart;
+  if (pool.law == Law::pbd) rhs = rhs * softness;
+  if (multipliers != nullptr && !a.first_pass)
+    rhs = rhs - Vec3f{multipliers[0], multipliers[batch_width], multipliers[2 * batch_width]} * compliance;
+  float damped = 1;
+  if (pool.law == Law::damped) {
+    const float gamma = min(softness * at.value(pool.fields + 1) * a.inverse_h, largest_compliance);
+    const Vec3f motion = Vec3f{d.x - r.x, d.y - r.y, d.z - r.z} - body.motion - cross(body.turned, outward);
+    rhs = rhs - motion * gamma;
+    damped = 1 + gamma;
+  }
+  const Vec3f& i = body.inverse_inertia;
+  const float of_body = body.inverse_mass + length_squared(arm) * max(i.x, max(i.y, i.z));
+  const float yield = max(max(p.w + compliance / damped, least_yield * of_body), smallest_denominator);
+  return {arm, rotate(conjugate(body.orientation), rhs * (1 / damped)), 1 / yield, p.w};
+}
+
+/// The symmetric system in the body's scaled motion.
+class System {
+ public:
+  explicit System(const Body& body)
+      : root_(std::sqrt(body.inverse_mass)),
+        roots_{std::sqrt(body.inverse_inertia.x), std::sqrt(body.inverse_inertia.y), std::sqrt(body.inverse_inertia.z)} {}
+
+  void add(const Tie& tie) {
+    const Vec3f &a = tie.arm, pull = tie.rhs * tie.stiffness;
+    const float s = tie.stiffness;
+    sum_ = sum_ + s;
+    moment_ += a * s;
+    squares_ += Vec3f{a.y * a.y + a.z * a.z, a.x * a.x + a.z * a.z, a.x * a.x + a.y * a.y} * s;
+    products_ += Vec3f{a.y * a.z, a.x * a.z, a.x * a.y} * s;
+    force_ += pull;
+    torque_ += cross(a, pull);
+  }
+
+  /// The body's motion in its own axes.
+  void solve(Vec3f& move, Vec3f& turn) {
+    fill();
+    factor_and_substitute();
+    move = Vec3f{x_[0], x_[1], x_[2]} * root_;
+    turn = {x_[3] * roots_.x, x_[4] * roots_.y, x_[5] * roots_.z};
+  }
+
+ private:
+  void fill() {
+    const float g[3] = {roots_.x, roots_.y, roots_.z};
+    const float square[3] = {squares_.x, squares_.y, squares_.z};
+    const float force[3] = {force_.x, force_.y, force_.z}, torque[3] = {torque_.x, torque_.y, torque_.z};
+    for (int i = 0; i < 3; ++i) {
+      m_[i][i] = 1 + root_ * root_ * sum_;
+      m_[3 + i][3 + i] = 1 + g[i] * g[i] * square[i];
+      x_[i] = -root_ * force[i];
+      x_[3 + i] = -g[i] * torque[i];
+    }
+    m_[4][3] = -g[1] * g[0] * products_.z;
+    m_[5][3] = -g[2] * g[0] * products_.y;
+    m_[5][4] = -g[2] * g[1] * products_.x;
+    // Rows of moment x d: the torque of a translation.
+    const float across[3][3] = {{0, -moment_.z, moment_.y}, {moment_.z, 0, -moment_.x}, {-moment_.y, moment_.x, 0}};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) m_[3 + i][j] = g[i] * root_ * across[i][j];
+  }
+
+  /// L D L^T; the diagonal is at least about 1.
+  void factor_and_substitute() {
+    for (int i = 0; i < freedoms; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        float left = m_[i][j];
+        for (int k = 0; k < j; ++k) left = left - m_[i][k] * m_[k][k] * m_[j][k];
+        m_[i][j] = i == j ? max(left, 1.f) : left / m_[j][j];
+      }
+      for (int j = 0; j < i; ++j) x_[i] = x_[i] - m_[i][j] * x_[j];
+    }
+    for (int i = 0; i < freedoms; ++i) x_[i] = x_[i] / m_[i][i];
+    for (int i = freedoms; i-- > 0;)
+      for (int j = i + 1; j < freedoms; ++j) x_[i] = x_[i] - m_[j][i] * x_[j];
+  }
+
+  float root_;
+  Vec3f roots_;
+  float sum_ = 0;
+  Vec3f moment_{}, squares_{}, products_{}, force_{}, torque_{};
+  float m_[freedoms][freedoms] = {}, x_[freedoms] = {};
+};
+
+void add(const Vec3f& move, Record& d) { d = {d.x + move.x, d.y + move.y, d.z + move.z, 0}; }
+
+/// Keeps the multipliers of one tie for the substep's next pass.
+void keep(const Vec3f& change, bool first_pass, float* multipliers) {
+  const float of[3] = {change.x, change.y, change.z};
+  for (int row = 0; row < 3; ++row) {
+    float& multiplier = multipliers[row * batch_width];
+    multiplier = (first_pass ? 0.f : multiplier) + of[row];
+  }
+}
+
+}  // namespace
+
+void project_tied_body(const CompiledObject& object, const Segment& segment, const SweepArguments& points,
+                       const FrameArguments& frames) {
+  const Pool& pool = object.pools[segment.pool];
+  float* all = points.multipliers != nullptr && pool.law != Law::pbd ? points.multipliers[segment.pool] : nullptr;
+  const char* skipped = points.skipped != nullptr ? points.skipped[segment.pool] : nullptr;
+  const std::int32_t* first = pool.indices.data() + segment.index_offset;
+  const std::int32_t of_body[2] = {particle_of(segment, first, 0, 0), particle_of(segment, first, 1, 0)};
+  const Body body(object, points, frames, of_body);
+  const auto for_ties = [&](const auto& visit) {
+    for_segment(object, segment, [&](const ConstraintPlace& at, const std::int32_t* number) {
+      if (skipped != nullptr && skipped[at.batch * batch_width + at.lane] != 0) return;
+      float* multipliers = all == nullptr ? nullptr : all + at.multiplier_place(0);
+      visit(tie_of(at, number, points, body, multipliers), number[2], multipliers);
+    });
+  };
+  System system(body);
+  for_ties([&](const Tie& tie, std::int32_t, float*) { system.add(tie); });
+  Vec3f move{}, turn{};
+  system.solve(move, turn);
+  for_ties([&](const Tie& tie, std::int32_t particle, float* multipliers) {
+    const Vec3f local = (tie.rhs + move + cross(turn, tie.arm)) * (tie.stiffness * points.relaxation);
+    const Vec3f change = rotate(body.orientation, local);
+    if (multipliers != nullptr) keep(change, points.first_pass, multipliers);
+    add(change * tie.inverse_mass, points.displacements[particle]);
+  });
+  const std::int32_t frame = of_body[1] - object.particles;
+  add(rotate(body.orientation, move * points.relaxation), points.displacements[of_body[0]]);
+  rotate_frame(rotate(body.orientation, turn * points.relaxation), frames.orientations[frame], frames.corrections[frame]);
+}
+
+}  // namespace pliant
