@@ -43,7 +43,7 @@ struct ConstraintGroup {
   std::optional<Plasticity> plasticity{};  ///< for types that have it; none: elastic
   /// By what the rest length of "distance", the longest one of "distance_limit", the rest volume of "tetrahedron_volume" or the rest stretch
   /// of "fibre" is multiplied: linear between keyframes, constant before the first and after the last. Their times increase. It changes
-  /// once a frame.
+  /// in each substep.
   std::vector<RestKeyframe> keyframes{};
   /// Force at which one of them breaks: World::step removes it and tells in Report::torn. Of "distance", "distance_limit",
   /// "point_on_triangle" and "point_in_tetrahedron" with a compliance, by which the force is known; 0: they hold [N]
@@ -77,7 +77,7 @@ struct Volume {
   /// surface up, in all by this times g V. The gas has no inertia. filled_with of pliant/gas.h sets it.
   float lift = 0;
   /// If there are any, the pressure follows them instead of `pressure`: linear between, constant before the first and after the last. Their
-  /// times increase. It changes once a frame.
+  /// times increase. It changes in each substep.
   std::vector<PressureKeyframe> keyframes{};
   /// The share of what the pressure is above 1 that leaks out in a second: exp(-leak t) of it is left at the World's time t, 0..1000 [1/s].
   float leak = 0;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "constraints/registry.h"
@@ -139,8 +140,18 @@ bool is_one_free_piece(const CompiledObject& object) {
   return true;
 }
 
-bool set_factor(CompiledObject& object, const ScaledGroup& group, float factor) {
+float factor_of(const ScaledGroup& group, const State& state, int object, double time) {
+  const RestFactor wanted{object, group.group, 0};
+  const auto is_before = [](const RestFactor& a, const RestFactor& b) {
+    return std::tie(a.block, a.group) < std::tie(b.block, b.group);
+  };
+  const auto held = std::lower_bound(state.rest_factors.begin(), state.rest_factors.end(), wanted, is_before);
+  return held == state.rest_factors.end() || is_before(wanted, *held) ? group.factor_at(time) : held->factor;
+}
+
+bool set_factor(CompiledObject& object, ScaledGroup& group, float factor) {
   bool changes = false;
+  group.now = factor;
   for (std::size_t i = 0; i < group.places.size(); ++i) {
     float& field = first_field(object, group.places[i]);
     const float scaled = group.rest[i] * factor;
@@ -148,6 +159,14 @@ bool set_factor(CompiledObject& object, const ScaledGroup& group, float factor) 
     field = scaled;
   }
   return changes;
+}
+
+void follow_keyframes(CompiledObject& object, const State& state, int number, double time) {
+  for (ScaledGroup& group : object.changing.scaled) {
+    const float factor = factor_of(group, state, number, time);
+    if (factor != group.now) set_factor(object, group, factor);
+  }
+  if (object.has_volume && object.volume.described.changes()) object.volume.target = object.volume.target_at(time);
 }
 
 void append_flowed(const CompiledObject& object, std::vector<float>& flowed) {

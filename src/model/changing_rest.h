@@ -31,6 +31,7 @@ struct ScaledGroup {
   std::vector<RestKeyframe> keyframes;
   std::vector<Place> places;
   std::vector<float> rest;  ///< rest field 0 of each at a factor of 1
+  float now = 1;            ///< the factor that the constraints have at present
 
   /// The factor of its keyframes at a time [s].
   float factor_at(double time) const;
@@ -57,8 +58,14 @@ ChangingRest compile_changing_rest(const std::vector<ChangingGroup>& groups, con
 /// True if the particles of an object without frames are free, and joined by its constraints, so that these cannot turn or move it.
 bool is_one_free_piece(const CompiledObject& object);
 
+/// The factor of a group of the object number `object` at a time [s]: the one that was set in the State, else that of its keyframes.
+float factor_of(const ScaledGroup& group, const State& state, int object, double time);
+
 /// Multiplies the rest data of a group by a factor. False if they had it.
-bool set_factor(CompiledObject& object, const ScaledGroup& group, float factor);
+bool set_factor(CompiledObject& object, ScaledGroup& group, float factor);
+
+/// Lets the rest data and the pressure of an object follow their keyframes to a time [s] within a frame.
+void follow_keyframes(CompiledObject& object, const State& state, int number, double time);
 
 /// The present rest data of all plastic constraints of an object, in the order of its pools, then the stretch of its plastic clusters.
 void append_flowed(const CompiledObject& object, std::vector<float>& flowed);

@@ -31,8 +31,8 @@ struct StepContext {
   std::span<const GroupFrame> groups{};     ///< groups with different numbers of substeps
   OverstretchMeter* meter = nullptr;        ///< fills Report::overstretch if the frame is completed; null: not measured
   SleepOptions sleep{};                     ///< Settings::sleep
-  /// The objects of `model`, whose rest data plastic flow changes; null: nothing flows.
-  std::vector<CompiledObject>* plastic = nullptr;
+  /// The objects of `model`, whose rest data and pressures substeps change; null: none has any that change.
+  std::vector<CompiledObject>* changing = nullptr;
 };
 
 /// Advances the State by `dt` seconds. Never throws; the report describes all problems.

@@ -23,11 +23,6 @@ const ScaledGroup* find_group(const CompiledObject& object, int group) {
   return found == object.changing.scaled.end() ? nullptr : &*found;
 }
 
-const RestFactor* held_factor(const State& state, const RestFactor& wanted) {
-  const auto at = std::lower_bound(state.rest_factors.begin(), state.rest_factors.end(), wanted, is_before);
-  return at == state.rest_factors.end() || is_before(wanted, *at) ? nullptr : &*at;
-}
-
 [[noreturn]] void refuse(const std::string& element, const std::string& problem) {
   throw Error({.element = element}, problem, "restore a state of this world");
 }
@@ -127,18 +122,16 @@ const FlowedData* find_whole(const FlowedRest& flowed, const KeyedCluster& part)
 void follow_rest_factors(WorldData& world, double time) {
   for (std::size_t o = 0; o < world.model.objects.size(); ++o) {
     CompiledObject& object = world.model.objects[o];
-    for (const ScaledGroup& group : object.changing.scaled) {
-      const RestFactor* held = held_factor(world.state, {static_cast<int>(o), group.group, 0});
-      if (set_factor(object, group, held != nullptr ? held->factor : group.factor_at(time)))
+    for (ScaledGroup& group : object.changing.scaled) {
+      if (set_factor(object, group, factor_of(group, world.state, static_cast<int>(o), time)))
         wake_bodies(world, static_cast<int>(o));
     }
   }
 }
 
 float rest_factor_of(const WorldData& world, int object, int group) {
-  if (const RestFactor* held = held_factor(world.state, {object, group, 0})) return held->factor;
   const ScaledGroup* scaled = find_group(world.model.objects[static_cast<std::size_t>(object)], group);
-  return scaled == nullptr ? 1 : scaled->factor_at(world.state.time);
+  return scaled == nullptr ? 1 : factor_of(*scaled, world.state, object, world.state.time);
 }
 
 void keep_flowed(WorldData& world) {
@@ -172,9 +165,10 @@ void take_rest_of_state(WorldData& world) {
   follow_rest_factors(world, world.state.time);
 }
 
-bool any_flows(const Model& model) {
+bool changes_in_substeps(const Model& model) {
   return std::any_of(model.objects.begin(), model.objects.end(), [](const CompiledObject& object) {
-    return !object.changing.plastic.empty() || !object.clusters.plastic.empty();
+    return !object.changing.plastic.empty() || !object.clusters.plastic.empty() || !object.changing.scaled.empty() ||
+           (object.has_volume && object.volume.described.changes());
   });
 }
 

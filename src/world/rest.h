@@ -22,8 +22,8 @@ void require_rest(const Model& model, const State& state);
 /// Gives all constraints the rest data of the State.
 void take_rest_of_state(WorldData& world);
 
-/// True if constraints of an object are plastic: then a step may change its compiled form.
-bool any_flows(const Model& model);
+/// True if rest data or pressures of an object may change in a step: then that changes its compiled form.
+bool changes_in_substeps(const Model& model);
 
 /// The rest data of a constraint at the start, and what flow has made of them.
 struct FlowedData {

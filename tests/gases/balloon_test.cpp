@@ -132,6 +132,21 @@ void run(World& world, int frames) {
   for (int i = 0; i < frames; ++i) ASSERT_TRUE(world.step(frame_time).ok());
 }
 
+/// Expects a ball that grows by `rate` m^3/s to do so at an even speed.
+void expect_speed(const World& world, double rate) {
+  const double radius = std::cbrt(3 * world.object(0).enclosed_volume() / (4 * 3.14159265));
+  const double wanted = rate / (4 * 3.14159265 * radius * radius);
+  double sum = 0, largest = 0;
+  const std::vector<Vec3f> velocities = world.object(0).velocities();
+  for (const Vec3f& v : velocities) {
+    const double speed = std::sqrt(static_cast<double>(dot(v, v)));
+    sum += speed;
+    largest = std::max(largest, speed);
+  }
+  EXPECT_NEAR(sum / static_cast<double>(velocities.size()), wanted, 0.2 * wanted);
+  EXPECT_LT(largest, 1.5 * wanted);
+}
+
 TEST(Balloon, FollowsTheKeyframesOfItsPressure) {
   Volume volume;
   volume.keyframes = {{0.5f, 1}, {1, 1.4f}, {2, 0.8f}};
@@ -141,6 +156,7 @@ TEST(Balloon, FollowsTheKeyframesOfItsPressure) {
   EXPECT_NEAR(world.object(0).enclosed_volume(), rest, 1e-3 * rest);
   run(world, 15);
   EXPECT_NEAR(world.object(0).enclosed_volume(), 1.2 * rest, 0.01 * rest);
+  expect_speed(world, 0.8 * rest);
   run(world, 15);
   EXPECT_NEAR(world.object(0).enclosed_volume(), 1.4 * rest, 0.01 * rest);
   World other = blown_up(volume);

@@ -77,6 +77,25 @@ TEST(Stitches, BringPanelsTogether) {
   EXPECT_NEAR(moment / mass, 0.05, 1e-6);  // nothing acts from outside
 }
 
+/// A thread that closes pulls at its own speed, at any number of substeps.
+TEST(Stitches, CloseAtTheSpeedAsked) {
+  for (const int substeps : {5, 40, 160}) {
+    Object object;
+    object.name = "points";
+    object.positions = {{0, 0, 0}, {1, 0, 0}};
+    object.masses = {0.001f, 0.001f};
+    const std::array<int, 2> pair{0, 1};
+    add_stitches(object, std::span(&pair, 1), {.closing_time = 1});
+    Scene scene = scene_of(object, false);
+    scene.settings.substeps = substeps;
+    World world(scene);
+    for (int frame = 1; frame <= 30; ++frame) {
+      run(world, 1);
+      EXPECT_NEAR(distance_of(world, pair), 1 - frame / 60., 3e-4) << substeps << " " << frame;
+    }
+  }
+}
+
 /// Contact keeps the seam open by what both sides keep apart.
 TEST(Stitches, HoldBesideContact) {
   Object object = panels(true);

@@ -12,7 +12,7 @@ std::vector<Substep> begin_frame(const StepContext& context, double dt);
 /// one uses, and if the frame may be stopped, all reach the same time at each quarter.
 bool may_run_side_by_side(const std::vector<Substep>& groups);
 
-/// Moves colliders to their poses at the substep's end.
+/// Moves colliders to their poses at the substep's end, and lets rest data and pressures follow their keyframes.
 void control(Substep& s);
 
 /// Adds wind and force fields to velocities.

@@ -91,8 +91,8 @@ void let_flow(const Substep& s, CompiledObject& object, int number) {
 }  // namespace
 
 void yield(Substep& s) {
-  if (s.context.plastic == nullptr) return;
-  for_objects(s, [&](int o) { let_flow(s, (*s.context.plastic)[static_cast<std::size_t>(o)], o); });
+  if (s.context.changing == nullptr) return;
+  for_objects(s, [&](int o) { let_flow(s, (*s.context.changing)[static_cast<std::size_t>(o)], o); });
 }
 
 }  // namespace pliant
