@@ -71,9 +71,11 @@ TEST(PointsOfInterest, LeaveOutDropsFarFromALiquid) {
   RenderScene scene;
   RenderMesh water;
   water.is_liquid = true;
-  for (int i = 0; i < 1000; ++i)
-    water.positions.push_back(
-        {0.1f * static_cast<float>(i % 10), 0.1f * static_cast<float>(i / 10 % 10), 0.1f * static_cast<float>(i / 100)});
+  for (int x = 0; x < 10; ++x)
+    for (int y = 0; y < 10; ++y)
+      for (int z = 0; z < 10; ++z)
+        water.positions.push_back(
+            {0.1f * static_cast<float>(x), 0.1f * static_cast<float>(y), 0.1f * static_cast<float>(z)});
   const Bounds still = bounds(water.positions);
   for (int i = 0; i < 5; ++i) water.positions.push_back({0.5f, 20 + static_cast<float>(i), -30});
   scene.meshes.push_back(water);

@@ -35,7 +35,7 @@ void DeepOverlaps::note(Substep& s, const ContactBodies& bodies, const BodyOverl
   const auto name = [&](int place) { return bodies.name(s.model, place); };
   s.report.warnings.push_back(
       name(deepest.a) + " and " + name(deepest.b) + " overlap by " + std::to_string(deepest.depth) +
-      " m: what lies on them is too heavy for " + std::to_string(s.planned) +
+      " m: the weight, motor or joint that presses them together is too strong for " + std::to_string(s.planned) +
       " substeps; contacts give way by 1.04 h^2 F / m, so twice the substeps bear four times the weight");
 }
 
