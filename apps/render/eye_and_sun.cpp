@@ -34,7 +34,7 @@ Bounds near_part(const Bounds& box, const Vec3f& centre, float reach) {
   for (float Vec3f::*const axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
     result.low.*axis = std::max(box.low.*axis, centre.*axis - reach);
     result.high.*axis = std::min(box.high.*axis, centre.*axis + reach);
-    if (result.low.*axis >= result.high.*axis) return box;
+    if (result.low.*axis > result.high.*axis) return box;
   }
   return result;
 }

@@ -26,7 +26,10 @@ float clarity_of(const Range& range, float size) { return range.clarity > 0 ? ra
 }  // namespace
 
 LiquidPasses::LiquidPasses(int width, int height) : width_(width), height_(height) {
-  shadow_ = colour_target(make_texture(GL_RGBA32F, shadow_size, shadow_size, GL_RGBA, GL_FLOAT, GL_LINEAR));
+  Texture shadow = make_texture(GL_RGBA32F, shadow_size, shadow_size, GL_RGBA, GL_FLOAT, GL_LINEAR);
+  for (const GLenum direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})  // no liquid outside: the border is zero
+    glTexParameteri(GL_TEXTURE_2D, direction, GL_CLAMP_TO_BORDER);
+  shadow_ = colour_target(std::move(shadow));
   thickness_ = colour_target(make_texture(GL_R32F, width, height, GL_RED, GL_FLOAT, GL_NEAREST));
   behind_ = colour_target(make_texture(GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, GL_LINEAR));
 }

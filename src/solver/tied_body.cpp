@@ -13,7 +13,7 @@ namespace {
 
 constexpr int freedoms = 6;
 /// Smallest inverse mass of a tie's particle, as a share of the body's there: particles that are fixed would overdetermine the body.
-constexpr float least_yield = 1e-5f;
+constexpr double least_yield = 1e-7;
 
 Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
 
@@ -38,12 +38,21 @@ struct Body {
   }
 };
 
-/// One tie in the body's axes.
+/// One tie in the body's axes. In double: between fixed particles the system's largest and smallest pivots are 1e7 and more apart.
 struct Tie {
-  Vec3f arm{}, rhs{};   ///< [m]
-  float stiffness = 0;  ///< 1 / (w + a) [kg]
+  Vec3d arm{}, rhs{};    ///< [m]
+  double stiffness = 0;  ///< 1 / (w + a) [kg]
   float inverse_mass = 0;
 };
+
+Vec3d wide(const Vec3f& v) { return convert<double>(v); }
+
+/// The inverse mass of a place of a body, summed over three directions.
+double mobility(const Body& body, const Vec3d& a) {
+  const Vec3d i = wide(body.inverse_inertia);
+  return 3 * static_cast<double>(body.inverse_mass) + i.x * (a.y * a.y + a.z * a.z) + i.y * (a.x * a.x + a.z * a.z) +
+         i.z * (a.x * a.x + a.y * a.y);
+}
 
 Tie tie_of(const ConstraintPlace& at, const std::int32_t* number, const SweepArguments& a, const Body& body,
            const float* multipliers) {
@@ -66,43 +75,44 @@ Tie tie_of(const ConstraintPlace& at, const std::int32_t* number, const SweepArg
     rhs = rhs - motion * gamma;
     damped = 1 + gamma;
   }
-  const Vec3f& i = body.inverse_inertia;
-  const float of_body = body.inverse_mass + length_squared(arm) * max(i.x, max(i.y, i.z));
-  const float yield = max(max(p.w + compliance / damped, least_yield * of_body), smallest_denominator);
-  return {arm, rotate(conjugate(body.orientation), rhs * (1 / damped)), 1 / yield, p.w};
+  const Vec3d place = wide(arm);
+  const double yield = static_cast<double>(p.w) + static_cast<double>(compliance) / static_cast<double>(damped);
+  const double least = max(least_yield * mobility(body, place), static_cast<double>(smallest_denominator));
+  return {place, wide(rotate(conjugate(body.orientation), rhs * (1 / damped))), 1 / max(yield, least), p.w};
 }
 
 /// The symmetric system in the body's scaled motion.
 class System {
  public:
-  explicit System(const Body& body)
-      : root_(std::sqrt(body.inverse_mass)),
-        roots_{std::sqrt(body.inverse_inertia.x), std::sqrt(body.inverse_inertia.y), std::sqrt(body.inverse_inertia.z)} {}
+  explicit System(const Body& body) : root_(std::sqrt(static_cast<double>(body.inverse_mass))) {
+    const Vec3d i = wide(body.inverse_inertia);
+    roots_ = {std::sqrt(i.x), std::sqrt(i.y), std::sqrt(i.z)};
+  }
 
   void add(const Tie& tie) {
-    const Vec3f &a = tie.arm, pull = tie.rhs * tie.stiffness;
-    const float s = tie.stiffness;
+    const Vec3d &a = tie.arm, pull = tie.rhs * tie.stiffness;
+    const double s = tie.stiffness;
     sum_ = sum_ + s;
     moment_ += a * s;
-    squares_ += Vec3f{a.y * a.y + a.z * a.z, a.x * a.x + a.z * a.z, a.x * a.x + a.y * a.y} * s;
-    products_ += Vec3f{a.y * a.z, a.x * a.z, a.x * a.y} * s;
+    squares_ += Vec3d{a.y * a.y + a.z * a.z, a.x * a.x + a.z * a.z, a.x * a.x + a.y * a.y} * s;
+    products_ += Vec3d{a.y * a.z, a.x * a.z, a.x * a.y} * s;
     force_ += pull;
     torque_ += cross(a, pull);
   }
 
   /// The body's motion in its own axes.
-  void solve(Vec3f& move, Vec3f& turn) {
+  void solve(Vec3d& move, Vec3d& turn) {
     fill();
     factor_and_substitute();
-    move = Vec3f{x_[0], x_[1], x_[2]} * root_;
+    move = Vec3d{x_[0], x_[1], x_[2]} * root_;
     turn = {x_[3] * roots_.x, x_[4] * roots_.y, x_[5] * roots_.z};
   }
 
  private:
   void fill() {
-    const float g[3] = {roots_.x, roots_.y, roots_.z};
-    const float square[3] = {squares_.x, squares_.y, squares_.z};
-    const float force[3] = {force_.x, force_.y, force_.z}, torque[3] = {torque_.x, torque_.y, torque_.z};
+    const double g[3] = {roots_.x, roots_.y, roots_.z};
+    const double square[3] = {squares_.x, squares_.y, squares_.z};
+    const double force[3] = {force_.x, force_.y, force_.z}, torque[3] = {torque_.x, torque_.y, torque_.z};
     for (int i = 0; i < 3; ++i) {
       m_[i][i] = 1 + root_ * root_ * sum_;
       m_[3 + i][3 + i] = 1 + g[i] * g[i] * square[i];
@@ -113,7 +123,7 @@ class System {
     m_[5][3] = -g[2] * g[0] * products_.y;
     m_[5][4] = -g[2] * g[1] * products_.x;
     // Rows of moment x d: the torque of a translation.
-    const float across[3][3] = {{0, -moment_.z, moment_.y}, {moment_.z, 0, -moment_.x}, {-moment_.y, moment_.x, 0}};
+    const double across[3][3] = {{0, -moment_.z, moment_.y}, {moment_.z, 0, -moment_.x}, {-moment_.y, moment_.x, 0}};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) m_[3 + i][j] = g[i] * root_ * across[i][j];
   }
@@ -122,9 +132,9 @@ class System {
   void factor_and_substitute() {
     for (int i = 0; i < freedoms; ++i) {
       for (int j = 0; j <= i; ++j) {
-        float left = m_[i][j];
+        double left = m_[i][j];
         for (int k = 0; k < j; ++k) left = left - m_[i][k] * m_[k][k] * m_[j][k];
-        m_[i][j] = i == j ? max(left, 1.f) : left / m_[j][j];
+        m_[i][j] = i == j ? max(left, 1.) : left / m_[j][j];
       }
       for (int j = 0; j < i; ++j) x_[i] = x_[i] - m_[i][j] * x_[j];
     }
@@ -133,11 +143,11 @@ class System {
       for (int j = i + 1; j < freedoms; ++j) x_[i] = x_[i] - m_[j][i] * x_[j];
   }
 
-  float root_;
-  Vec3f roots_;
-  float sum_ = 0;
-  Vec3f moment_{}, squares_{}, products_{}, force_{}, torque_{};
-  float m_[freedoms][freedoms] = {}, x_[freedoms] = {};
+  double root_;
+  Vec3d roots_;
+  double sum_ = 0;
+  Vec3d moment_{}, squares_{}, products_{}, force_{}, torque_{};
+  double m_[freedoms][freedoms] = {}, x_[freedoms] = {};
 };
 
 void add(const Vec3f& move, Record& d) { d = {d.x + move.x, d.y + move.y, d.z + move.z, 0}; }
@@ -170,17 +180,18 @@ void project_tied_body(const CompiledObject& object, const Segment& segment, con
   };
   System system(body);
   for_ties([&](const Tie& tie, std::int32_t, float*) { system.add(tie); });
-  Vec3f move{}, turn{};
+  Vec3d move{}, turn{};
   system.solve(move, turn);
   for_ties([&](const Tie& tie, std::int32_t particle, float* multipliers) {
-    const Vec3f local = (tie.rhs + move + cross(turn, tie.arm)) * (tie.stiffness * points.relaxation);
-    const Vec3f change = rotate(body.orientation, local);
+    const Vec3d local = (tie.rhs + move + cross(turn, tie.arm)) * tie.stiffness;
+    const Vec3f change = rotate(body.orientation, convert<float>(local) * points.relaxation);
     if (multipliers != nullptr) keep(change, points.first_pass, multipliers);
     add(change * tie.inverse_mass, points.displacements[particle]);
   });
   const std::int32_t frame = of_body[1] - object.particles;
-  add(rotate(body.orientation, move * points.relaxation), points.displacements[of_body[0]]);
-  rotate_frame(rotate(body.orientation, turn * points.relaxation), frames.orientations[frame], frames.corrections[frame]);
+  add(rotate(body.orientation, convert<float>(move) * points.relaxation), points.displacements[of_body[0]]);
+  rotate_frame(rotate(body.orientation, convert<float>(turn) * points.relaxation), frames.orientations[frame],
+               frames.corrections[frame]);
 }
 
 }  // namespace pliant

@@ -142,15 +142,57 @@ TEST(TiedBody, StaysBetweenFixedParticles) {
   EXPECT_LT(widest_gap(world, 60), 1e-6);
 }
 
-ConstraintList list_of(const std::vector<std::array<int, 2>>& body_and_particle) {
+/// A box of 1 kg and 0.2 m on a side that hangs from fixed particles at the middle of its upper face, turned by an angle about x.
+/// `length` is that of the line along x on which they lie [m].
+Object hung_at(int ties, float length, float angle) {
+  BodyOptions options;
+  options.mass = 1;
+  options.rotation = {std::sin(angle / 2), 0, 0, std::cos(angle / 2)};
+  options.position = {0, -0.1f * std::cos(angle), -0.1f * std::sin(angle)};
+  Object object = make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, options);
+  object.collides = false;
+  std::vector<int> all;
+  for (int i = 0; i < ties; ++i) {
+    all.push_back(static_cast<int>(object.positions.size()));
+    object.positions.push_back({length * (static_cast<float>(i) / static_cast<float>(ties - 1) - 0.5f), 0, 0});
+    object.masses.push_back(INFINITY);
+  }
+  attach(object, all, 0);
+  return object;
+}
+
+/// Ties on a line are a hinge, at one place a ball joint: what they leave free swings with the period of a compound pendulum, however many
+/// they are.
+TEST(TiedBody, SwingsAboutFixedParticlesAsAPendulum) {
+  constexpr double arm = 0.1, squared_radius = 0.2 * 0.2 / 6;  // of gyration about x
+  const double period = 2 * 3.14159265 * std::sqrt((squared_radius + arm * arm) / (9.81 * arm));
+  constexpr float angle = 0.1f;
+  for (const float length : {0.2f, 0.f})
+    for (const int ties : {3, 30, 300}) {
+      World world = world_of(hung_at(ties, length, angle), 80, {0, -9.81f, 0});
+      for (int frame = 0; frame < 24; ++frame) world.step(static_cast<float>(period / 48));
+      EXPECT_NEAR(world.object(0).positions()[0].z, 0.1f * std::sin(angle), 1e-4f) << ties << " on " << length << " m";
+      for (int frame = 0; frame < 24; ++frame) world.step(static_cast<float>(period / 48));
+      EXPECT_NEAR(world.object(0).positions()[0].z, -0.1f * std::sin(angle), 1e-4f) << ties << " on " << length << " m";
+    }
+}
+
+/// The numbers of body, frame and particle of each tie.
+ConstraintList list_with_frames(const std::vector<std::array<int, 3>>& ties) {
   ConstraintList list;
   list.type = find_constraint_type("body_anchor");
   list.size = 3;
-  for (const auto& [body, particle] : body_and_particle) {
-    for (const int number : {body, 100 + body, particle}) list.stencils.push_back(number);
+  for (const std::array<int, 3>& tie : ties) {
+    for (const int number : tie) list.stencils.push_back(number);
     list.response.push_back(0);
   }
   return list;
+}
+
+ConstraintList list_of(const std::vector<std::array<int, 2>>& body_and_particle) {
+  std::vector<std::array<int, 3>> ties;
+  for (const auto& [body, particle] : body_and_particle) ties.push_back({body, 100 + body, particle});
+  return list_with_frames(ties);
 }
 
 TEST(TiedBodies, AreThoseWithThreeTies) {
@@ -167,6 +209,22 @@ TEST(TiedBodies, ShareNoParticleInOneColour) {
   ASSERT_EQ(found.colours.size(), 2u);
   EXPECT_EQ(found.colours[0], (std::vector<TiesOfBody>{{0, 1, 2}, {6, 7, 8}}));
   EXPECT_EQ(found.colours[1], (std::vector<TiesOfBody>{{3, 4, 5}}));
+}
+
+/// A body may be tied to another one's centre.
+TEST(TiedBodies, ShareNoCentreInOneColour) {
+  const TiedBodies found = find_tied_bodies(list_of({{0, 5}, {0, 6}, {0, 1}, {1, 7}, {1, 8}, {1, 9}}), 20);
+  ASSERT_EQ(found.colours.size(), 2u);
+  EXPECT_EQ(found.colours[0], (std::vector<TiesOfBody>{{0, 1, 2}}));
+  EXPECT_EQ(found.colours[1], (std::vector<TiesOfBody>{{3, 4, 5}}));
+}
+
+TEST(TiedBodies, HaveOneFrame) {
+  const TiedBodies found = find_tied_bodies(
+      list_with_frames({{0, 100, 5}, {0, 101, 6}, {0, 100, 7}, {0, 101, 8}, {0, 100, 9}, {0, 101, 10}}), 20);
+  ASSERT_EQ(found.colours.size(), 2u);
+  EXPECT_EQ(found.colours[0], (std::vector<TiesOfBody>{{0, 2, 4}}));
+  EXPECT_EQ(found.colours[1], (std::vector<TiesOfBody>{{1, 3, 5}}));
 }
 
 TEST(TiedBodies, LeaveOutASecondTieOfAParticle) {
