@@ -62,26 +62,29 @@ struct Pivots {
   R inverse[most_of_block];
 };
 
-/// Factorises a block in place.
+/// Factorises a block in place, row after row: each row takes away what the rows before it leave in it.
 template <int width, class R>
 Pivots<R> factorise(R* m, int size) {
   Pivots<R> pivots;
-  R whole[width], row[width], scaled[width];
+  R whole[width], scaled[width][width];
   for (int i = 0; i < width; ++i) whole[i] = i < size ? std::max(m[i * width + i], -m[i * width + i]) : R(0);
   for (int k = 0; k < size; ++k) {
-    R* const at = m + k * width;
-    const R pivot = at[k];
-    const bool is_lost = !(std::max(pivot, -pivot) > least_pivot<R> * whole[k]);
-    pivots.inverse[k] = is_lost ? R(0) : R(1) / pivot;
-    for (int i = 0; i < width; ++i) {
-      row[i] = at[i] * pivots.inverse[k];
-      scaled[i] = is_lost ? R(0) : at[i];
-      const R term = row[i] * scaled[i];
-      whole[i] = std::max(whole[i], std::max(term, -term));
-      at[i] = row[i];
+    R row[width];
+    for (int i = 0; i < width; ++i) row[i] = m[k * width + i];
+    for (int j = 0; j < k; ++j) {
+      const R factor = m[j * width + k];
+      for (int i = 0; i < width; ++i) row[i] = row[i] - scaled[j][i] * factor;
     }
-    for (int j = k + 1; j < size; ++j)
-      for (int i = 0; i < width; ++i) m[j * width + i] = m[j * width + i] - scaled[i] * row[j];
+    const R pivot = row[k];
+    const bool is_lost = !(std::max(pivot, -pivot) > least_pivot<R> * whole[k]);
+    const R inverse = is_lost ? R(0) : R(1) / pivot;
+    pivots.inverse[k] = inverse;
+    for (int i = 0; i < width; ++i) {
+      const R before = is_lost ? R(0) : row[i], after = row[i] * inverse, term = after * before;
+      scaled[k][i] = before;
+      m[k * width + i] = after;
+      whole[i] = std::max(whole[i], std::max(term, -term));
+    }
   }
   return pivots;
 }
@@ -89,25 +92,36 @@ Pivots<R> factorise(R* m, int size) {
 /// Replaces right-hand sides, one a column, by their solutions, with the factors of a block.
 template <int columns, int width, class R>
 void solve_columns(const R* m, const Pivots<R>& pivots, int size, R* b) {
-  for (int i = 1; i < size; ++i)
+  for (int i = 1; i < size; ++i) {
+    R row[columns];
+    for (int c = 0; c < columns; ++c) row[c] = b[i * columns + c];
     for (int j = 0; j < i; ++j)
-      for (int c = 0; c < columns; ++c) b[i * columns + c] = b[i * columns + c] - m[j * width + i] * b[j * columns + c];
-  for (int i = 0; i < size; ++i)
-    for (int c = 0; c < columns; ++c) b[i * columns + c] = b[i * columns + c] * pivots.inverse[i];
-  for (int i = size - 1; i-- > 0;)
+      for (int c = 0; c < columns; ++c) row[c] = row[c] - m[j * width + i] * b[j * columns + c];
+    for (int c = 0; c < columns; ++c) b[i * columns + c] = row[c];
+  }
+  for (int i = size; i-- > 0;) {
+    R row[columns];
+    for (int c = 0; c < columns; ++c) row[c] = b[i * columns + c] * pivots.inverse[i];
     for (int j = i + 1; j < size; ++j)
-      for (int c = 0; c < columns; ++c) b[i * columns + c] = b[i * columns + c] - m[i * width + j] * b[j * columns + c];
+      for (int c = 0; c < columns; ++c) row[c] = row[c] - m[i * width + j] * b[j * columns + c];
+    for (int c = 0; c < columns; ++c) b[i * columns + c] = row[c];
+  }
 }
 
 /// Subtracts what eliminating a block leaves in its parent, given the coupling before and after it was solved.
 template <int width, class R>
 void reduce(const R* coupling, const R* solved, const R* x, int size, R* parent, R* parent_x, int parent_size) {
-  for (int c = 0; c < parent_size; ++c)
+  for (int c = 0; c < parent_size; ++c) {
+    R row[width], right = parent_x[c];
+    for (int d = 0; d < width; ++d) row[d] = parent[c * width + d];
     for (int r = 0; r < size; ++r) {
       const R factor = coupling[r * width + c];
-      parent_x[c] = parent_x[c] - factor * x[r];
-      for (int d = 0; d < width; ++d) parent[c * width + d] = parent[c * width + d] - factor * solved[r * width + d];
+      right = right - factor * x[r];
+      for (int d = 0; d < width; ++d) row[d] = row[d] - factor * solved[r * width + d];
     }
+    for (int d = 0; d < width; ++d) parent[c * width + d] = row[d];
+    parent_x[c] = right;
+  }
 }
 
 }  // namespace block_tree

@@ -25,6 +25,39 @@ using Gradient = std::array<Vec3d, 2>;
 
 Gradient gradient(const std::array<Vec3f, 2>& g) { return {convert<double>(g[0]), convert<double>(g[1])}; }
 
+const std::array<std::array<Vec3f, 2>, most_joint_rows>& gradients_of(const JointRows& rows, const JointEnds& ends,
+                                                                      int body) {
+  return ends.b == body ? rows.of_b : rows.of_a;
+}
+
+/// The gradients of a joint's rows for one of its bodies, a component a line, so that a compiler takes several rows at once. What is
+/// beyond the last row is zero, up to `stride`.
+struct Gradients {
+  double of[body_unknowns][most_of_block];
+
+  Gradients(const JointRows& joint, const JointEnds& ends, int body, int stride) {
+    const auto& g = gradients_of(joint, ends, body);
+    for (int r = 0; r < stride; ++r) {
+      const Gradient row = r < joint.rows ? gradient(g[at(r)]) : Gradient{};
+      of[0][r] = row[0].x, of[1][r] = row[0].y, of[2][r] = row[0].z;
+      of[3][r] = row[1].x, of[4][r] = row[1].y, of[5][r] = row[1].z;
+    }
+  }
+  Gradient operator[](int row) const {
+    return {Vec3d{of[0][row], of[1][row], of[2][row]}, Vec3d{of[3][row], of[4][row], of[5][row]}};
+  }
+};
+
+/// Subtracts the product of a gradient and each row from a line of `stride` numbers.
+void subtract_products(const Gradient& by, const Gradients& rows, int stride, double* line) {
+  const auto& g = rows.of;
+  for (int c = 0; c < stride; ++c) {
+    const double displacement = by[0].x * g[0][c] + by[0].y * g[1][c] + by[0].z * g[2][c];
+    const double rotation = by[1].x * g[3][c] + by[1].y * g[4][c] + by[1].z * g[5][c];
+    line[c] = line[c] - (displacement + rotation);
+  }
+}
+
 /// A symmetric matrix times a vector.
 Vec3d times(const Symmetric& m, const Vec3d& v) {
   const auto row = [&](std::size_t x, std::size_t y, std::size_t z) {
@@ -77,11 +110,6 @@ int root_of(std::vector<int>& above, int body) {
 float inverse_power_of_two(float x) {
   const auto exponent = (bits_as<std::uint32_t>(x) >> 23) & 0xff;
   return bits_as<float>((254 - std::min(exponent, 253u)) << 23);
-}
-
-const std::array<std::array<Vec3f, 2>, most_joint_rows>& gradients_of(const JointRows& rows, const JointEnds& ends,
-                                                                      int body) {
-  return ends.b == body ? rows.of_b : rows.of_a;
 }
 
 }  // namespace
@@ -189,10 +217,10 @@ void JointTree::shape_blocks(const std::vector<JointRows>& joints) {
     const int joint = node.is_body ? ground_[at(node.index)] : node.index;
     blocks.push_back({node.parent, (node.is_body ? body_unknowns : 0) + (joint < 0 ? 0 : joints[at(joint)].rows)});
   }
-  if (blocks == blocks_.blocks())
-    blocks_.set_to_zero();
+  if (blocks == blocks_->blocks())
+    blocks_->set_to_zero();
   else
-    blocks_.reset(std::move(blocks));
+    blocks_->reset(std::move(blocks));
 }
 
 /// The block of a joint: -J M^-1 J^T of its eliminated bodies, less compliance. If the body on the way to the parent is
@@ -201,47 +229,42 @@ void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, c
   const Node& node = nodes_[n];
   const JointEnds& ends = ends_[at(node.index)];
   const JointRows& rows = joints[at(node.index)];
-  const int stride = blocks_.stride();
-  double *const m = blocks_.diagonal(n), *const up = blocks_.to_parent(n);
+  const int stride = blocks_->stride();
+  double *const m = blocks_->diagonal(n), *const up = blocks_->to_parent(n);
   for (int r = 0; r < rows.rows; ++r) {
     m[r * stride + r] = static_cast<double>(-rows.compliance[at(r)]);
-    blocks_.x(n)[r] = static_cast<double>(-rows.value[at(r)]);
+    blocks_->x(n)[r] = static_cast<double>(-rows.value[at(r)]);
   }
   for (const int body : {ends.a, ends.b}) {
     if (body < 0) continue;
     const BodyMass& mass = masses[at(body)];
     const double inverse = 1 / static_cast<double>(mass.mass);
-    const auto& g = gradients_of(rows, ends, body);
+    const Gradients g(rows, ends, body, stride);
     const bool is_held = ends.a >= 0 && ends.b >= 0 && held_[at(body)] != 0;
     for (int r = 0; is_held && r < rows.rows; ++r) {
       const auto own = static_cast<double>(rows.compliance[at(r)]);
-      const Gradient of_row = gradient(g[at(r)]);
       if (own == 0)
-        m[r * stride + r] -= softness * inverse_mass(of_row, mass);
+        m[r * stride + r] -= softness * inverse_mass(g[r], mass);
       else
-        m[r * stride + r] -= std::max(0., least_compliance * product(accelerated(of_row, mass, inverse), of_row) - own);
+        m[r * stride + r] -= std::max(0., least_compliance * product(accelerated(g[r], mass, inverse), g[r]) - own);
     }
     if (!is_eliminated(body)) {
-      for (int r = 0; body == node.through && r < rows.rows; ++r) set_row(gradient(g[at(r)]), up + r * stride);
+      for (int r = 0; body == node.through && r < rows.rows; ++r) set_row(g[r], up + r * stride);
       continue;
     }
-    const Node* const parent = body == node.through ? &nodes_[at(node.parent)] : nullptr;
-    for (int r = 0; r < rows.rows; ++r) {
-      const Gradient moved = accelerated(gradient(g[at(r)]), mass, inverse);
-      for (int c = r; c < rows.rows; ++c) m[r * stride + c] = m[r * stride + c] - product(moved, gradient(g[at(c)]));
-      if (parent == nullptr) continue;
-      const JointRows& above = joints[at(parent->index)];
-      const auto& other = gradients_of(above, ends_[at(parent->index)], body);
-      for (int c = 0; c < above.rows; ++c) up[r * stride + c] = -product(moved, gradient(other[at(c)]));
-    }
+    for (int r = 0; r < rows.rows; ++r) subtract_products(accelerated(g[r], mass, inverse), g, stride, m + r * stride);
+    if (body != node.through) continue;
+    const int parent = nodes_[at(node.parent)].index;
+    const Gradients other(joints[at(parent)], ends_[at(parent)], body, stride);
+    for (int r = 0; r < rows.rows; ++r) subtract_products(accelerated(g[r], mass, inverse), other, stride, up + r * stride);
   }
 }
 
 /// The block of a body, followed by its joint with the ground, which has no pivot of its own.
 void JointTree::fill_body(std::size_t n, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints) {
   const Node& node = nodes_[n];
-  const int stride = blocks_.stride(), ground = ground_[at(node.index)];
-  double *const m = blocks_.diagonal(n), *const up = blocks_.to_parent(n);
+  const int stride = blocks_->stride(), ground = ground_[at(node.index)];
+  double *const m = blocks_->diagonal(n), *const up = blocks_->to_parent(n);
   set_inertia(masses[at(node.index)], m, stride);
   if (node.parent >= 0) {
     const int joint = nodes_[at(node.parent)].index;
@@ -261,7 +284,7 @@ void JointTree::fill_body(std::size_t n, const std::vector<BodyMass>& masses, co
     set_row(gradient(g[at(r)]), row);
     for (int c = 0; c < body_unknowns; ++c) m[c * stride + body_unknowns + r] = row[c];
     m[(body_unknowns + r) * stride + body_unknowns + r] = static_cast<double>(-rows.compliance[at(r)]);
-    blocks_.x(n)[body_unknowns + r] = static_cast<double>(-rows.value[at(r)]);
+    blocks_->x(n)[body_unknowns + r] = static_cast<double>(-rows.value[at(r)]);
   }
 }
 
@@ -278,8 +301,8 @@ void JointTree::move_eliminated(const std::vector<BodyMass>& masses, const std::
       Vec3d force{}, torque{};
       for (int r = 0; r < rows.rows; ++r) {
         const Gradient of_row = gradient(g[at(r)]);
-        force = force + of_row[0] * blocks_.x(n)[r];
-        torque = torque + of_row[1] * blocks_.x(n)[r];
+        force = force + of_row[0] * blocks_->x(n)[r];
+        torque = torque + of_row[1] * blocks_->x(n)[r];
       }
       const BodyMass& mass = masses[at(body)];
       moves[at(body)][0] -= force * (1 / static_cast<double>(mass.mass));
@@ -291,6 +314,8 @@ void JointTree::move_eliminated(const std::vector<BodyMass>& masses, const std::
 void JointTree::solve(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
                       std::vector<BodyCorrection>& corrections,
                       std::vector<std::array<float, most_joint_rows>>* multipliers) {
+  thread_local BlockTree<double> of_thread;
+  blocks_ = &of_thread;
   shape_blocks(joints);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     if (nodes_[n].is_body)
@@ -298,12 +323,12 @@ void JointTree::solve(const std::vector<BodyMass>& masses, const std::vector<Joi
     else
       fill_joint(n, masses, joints);
   }
-  blocks_.solve();
+  blocks_->solve();
   if (multipliers != nullptr) multipliers->assign(joints.size(), {});
   moves_.assign(masses.size(), {});
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
-    const double* x = blocks_.x(n);
+    const double* x = blocks_->x(n);
     if (node.is_body) moves_[at(node.index)] = {Vec3d{x[0], x[1], x[2]}, Vec3d{x[3], x[4], x[5]}};
     const int joint = node.is_body ? ground_[at(node.index)] : node.index;
     if (multipliers == nullptr || joint < 0) continue;

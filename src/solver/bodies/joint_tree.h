@@ -84,7 +84,7 @@ class JointTree {
   std::vector<int> ground_;                  ///< joint of each body with the ground; -1: none
   std::vector<char> held_;                   ///< [body] 1: its tree has two joints with the ground or more
   std::vector<int> loose_;
-  BlockTree<double> blocks_;
+  BlockTree<double>* blocks_ = nullptr;      ///< of the thread that solves: thousands of trees would not fit a cache
   std::vector<std::array<Vec3d, 2>> moves_;  ///< [body] displacement and rotation; scratch
 };
 
