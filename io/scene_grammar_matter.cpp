@@ -131,7 +131,7 @@ const Record& fill_record() {
        field("jitter", number("-", 0, 0.25), 0.f,
              "Displaces each particle along each axis by a random length up to this many spacings, and widens the lattice "
              "by twice as much, so "
-             "that none overlap. 0.05 lets grains fall in no order."),
+             "that none overlap. 0.05 lets grains that fall mix; a block that stands by itself needs 0.2 to collapse."),
        field("seed", integer(0, 2147483647), 0, "Of the jitter: the same seed gives the same places.")},
       {"min", "mesh"}};
   return result;
@@ -158,7 +158,7 @@ const Record& emitter_record() {
 const Record& drain_record() {
   static const Record result{
       "drain",
-      "A solid that takes away particles whose centre is in it when a frame begins.",
+      "A solid that takes away the particles of its own object whose centre is in it when a frame begins.",
       {field("name", string(), "drain", "Name."), either("plane", record(plane_record()), "A half-space."),
        either("sphere", record(sphere_record()), "A ball."), either("capsule", record(capsule_record()), "A capsule."),
        either("box", record(box_record()), "A box."), field("position", place(), Vec3f{}, "Position of its frame."),
@@ -178,7 +178,8 @@ std::vector<std::string> grain_names() { return names_of(grain_kinds()); }
 const Record& liquid_record() {
   static const Record result{
       "liquid",
-      "A liquid of particles. Liquids with the same spacing, speed of sound, groups and mask mix; others do not meet.",
+      "A liquid of particles. Liquids with the same spacing, speed of sound, groups and mask mix; others touch as spheres "
+      "do.",
       {field("fill", record(fill_record()), "none", "The box or mesh that it fills at the start."),
        field("positions", list(place(), 1), "none",
              "Instead of `fill`: positions of the particles at the start, about a spacing apart."),

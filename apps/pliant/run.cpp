@@ -40,6 +40,13 @@ std::string summary(const Tears& tears) {
          std::to_string(tears.first_frame) + "\n";
 }
 
+/// What emitters did not emit, as a line; empty if they emitted all.
+std::string summary(const FlowReport& flow) {
+  if (flow.refused == 0) return {};
+  return "emitters: " + counted(static_cast<std::size_t>(flow.refused), "particle") +
+         " refused, because as many were there as the capacity allows\n";
+}
+
 /// Throws an Error for files that cannot be written, or that would overwrite one another.
 void check_files(const RunOptions& options) {
   std::vector<std::string> files = options.out;
@@ -130,7 +137,7 @@ int run(const RunOptions& options) {
   if (!options.quiet) {
     for (const std::string& warning : report.warnings()) print("warning: " + one_line(warning) + "\n");
     if (const std::string advice = report.advice(world); !advice.empty()) print("warning: " + one_line(advice) + "\n");
-    print(summary(options, world, report) + summary(report.tears()));
+    print(summary(options, world, report) + summary(report.tears()) + summary(report.flow()));
     for (const auto& writer : writers) print_written(writer->written());
     print_written(gauges.written());
     if (report_file) print_written({{report_file->path(), report_file->size()}});

@@ -42,6 +42,7 @@ class RunReport {
   /// The last ones are of liquids that were compressed by more than 1 % on average, and of tetrahedra turned inside out.
   std::vector<std::string> warnings() const;
   const Tears& tears() const { return tears_; }
+  const FlowReport& flow() const { return flow_; }
 
  private:
   void add(const Compression& compression, std::int64_t frame);

@@ -36,6 +36,37 @@ std::string finding(const Scene& scene, const std::string& words) {
   return text;
 }
 
+/// A liquid of 5 x 5 x 5 particles from a height on.
+Object drop(const std::string& name, float height, float spacing) {
+  return make_liquid(fill_box({0, height, 0}, {5 * spacing, height + 5 * spacing, 5 * spacing}, spacing),
+                     {.name = name, .fluid = {.spacing = spacing}});
+}
+
+TEST(InspectScene, NamesParticlesThatStartWithinOneAnother) {
+  const auto doubt = [](float height) {
+    Scene scene;
+    scene.add(drop("water", 0, 0.01f));
+    scene.add(drop("oil", height, 0.012f));
+    return finding(scene, "let fills not overlap");
+  };
+  EXPECT_EQ(doubt(0.05f), "");
+  const std::string words = doubt(0.02f);
+  EXPECT_NE(words.find("starts within half the distance at rest of another one"), std::string::npos) << words;
+  EXPECT_NE(words.find("of 'water'"), std::string::npos) << words;
+}
+
+TEST(InspectScene, NamesEmittersThatShoot) {
+  const auto doubt = [](float flow) {
+    LiquidOptions options{.fluid = {.spacing = 0.01f}, .capacity = 1000};
+    options.flow.emitters.push_back({.radius = 0.02f, .flow = flow});
+    Scene scene;
+    scene.add(make_liquid({}, options));
+    return finding(scene, "m/s for its flow");
+  };
+  EXPECT_EQ(doubt(0.001f), "");
+  EXPECT_NE(doubt(1).find("a litre a second is 0.001"), std::string::npos) << doubt(1);
+}
+
 /// The check of a mesh names a fold, so that of a scene must too.
 TEST(InspectScene, NamesFoldsOfWhatCollidesWithItself) {
   TriangleMesh mesh = sheet(0);
