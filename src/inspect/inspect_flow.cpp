@@ -1,12 +1,11 @@
 // Warnings about liquids, gases and grains: particles that start within one another, and emitters that shoot.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
+#include "collision/neighbours/cell_order.h"
 #include "inspect/problems.h"
 
 namespace pliant {
@@ -42,48 +41,36 @@ std::vector<Place> places_of(const Scene& scene) {
   return all;
 }
 
-/// Places by cells, in which those that are too near each other are in the same cell or the next.
-class Cells {
- public:
-  explicit Cells(const std::vector<Place>& places) : places_(places) {
-    for (const Place& place : places) size_ = std::max(size_, crowded_share * place.distance);
-    for (std::size_t i = 0; i < places.size(); ++i) cells_[key(cell_of(places[i].at))].push_back(static_cast<int>(i));
-  }
+bool are_crowded(const Place& a, const Place& b) {
+  const float most = crowded_share * std::min(a.distance, b.distance);
+  return length_squared(a.at - b.at) < most * most;
+}
 
-  /// A place that is too near the one with this number, of a smaller number; -1: none.
-  int near(int number) const {
-    const Place& place = places_[static_cast<std::size_t>(number)];
-    const std::array<std::int64_t, 3> cell = cell_of(place.at);
-    for (std::int64_t x = -1; x <= 1; ++x)
-      for (std::int64_t y = -1; y <= 1; ++y)
-        for (std::int64_t z = -1; z <= 1; ++z) {
-          const auto found = cells_.find(key({cell[0] + x, cell[1] + y, cell[2] + z}));
-          if (found == cells_.end()) continue;
-          for (const int other : found->second)
-            if (other < number && are_crowded(place, places_[static_cast<std::size_t>(other)])) return other;
-        }
-    return -1;
+/// For each place, one of a smaller number that is too near it; -1: none.
+std::vector<int> find_crowded(const std::vector<Place>& places) {
+  std::vector<Record> points;
+  float reach = 0;
+  for (const auto& [at, distance, object, particle] : places) {
+    points.push_back({at.x, at.y, at.z, 0});
+    reach = std::max(reach, crowded_share * distance);
   }
-
- private:
-  static bool are_crowded(const Place& a, const Place& b) {
-    const float most = crowded_share * std::min(a.distance, b.distance);
-    return length_squared(a.at - b.at) < most * most;
+  std::vector<int> found(places.size(), -1);
+  if (places.empty()) return found;
+  Executor executor(1);
+  CellOrder order;
+  order.sort(executor, points, reach);
+  std::vector<SlotRange> ranges;
+  const Vec3f margin{reach, reach, reach};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    order.find(places[i].at - margin, places[i].at + margin, ranges);
+    for (const SlotRange& range : ranges)
+      for (std::int32_t slot = range.first; slot < range.last && found[i] < 0; ++slot) {
+        const auto other = static_cast<std::size_t>(order.points()[static_cast<std::size_t>(slot)]);
+        if (other < i && are_crowded(places[i], places[other])) found[i] = static_cast<int>(other);
+      }
   }
-  std::array<std::int64_t, 3> cell_of(const Vec3f& p) const {
-    const auto along = [&](float x) { return static_cast<std::int64_t>(std::floor(static_cast<double>(x / size_))); };
-    return {along(p.x), along(p.y), along(p.z)};
-  }
-  static std::uint64_t key(const std::array<std::int64_t, 3>& cell) {
-    std::uint64_t sum = 0;
-    for (const std::int64_t number : cell) sum = (sum ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
-    return sum;
-  }
-
-  const std::vector<Place>& places_;
-  float size_ = 0;
-  std::unordered_map<std::uint64_t, std::vector<int>> cells_;
-};
+  return found;
+}
 
 void doubt_emitters(Problems& problems, const Object& object) {
   for (std::size_t e = 0; e < object.flow.emitters.size(); ++e) {
@@ -101,14 +88,13 @@ void doubt_emitters(Problems& problems, const Object& object) {
 
 void doubt_flows(Problems& problems, const Scene& scene) {
   const std::vector<Place> places = places_of(scene);
-  const Cells cells(places);
+  const std::vector<int> near = find_crowded(places);
   std::vector<Tally> crowded(scene.objects.size());
   std::vector<int> other(scene.objects.size(), -1);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const int found = cells.near(static_cast<int>(i));
-    if (found < 0) continue;
+    if (near[i] < 0) continue;
     const auto object = static_cast<std::size_t>(places[i].object);
-    if (crowded[object].count == 0) other[object] = found;
+    if (crowded[object].count == 0) other[object] = near[i];
     crowded[object].add(places[i].particle);
   }
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
