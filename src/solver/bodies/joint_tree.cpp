@@ -30,33 +30,16 @@ const std::array<std::array<Vec3f, 2>, most_joint_rows>& gradients_of(const Join
   return ends.b == body ? rows.of_b : rows.of_a;
 }
 
-/// The gradients of a joint's rows for one of its bodies, a component a line, so that a compiler takes several rows at once. What is
-/// beyond the last row is zero, up to `stride`.
+/// The gradients of a joint's rows for one of its bodies. Each is needed for several products.
 struct Gradients {
-  double of[body_unknowns][most_of_block];
+  std::array<Gradient, most_joint_rows> of;
 
-  Gradients(const JointRows& joint, const JointEnds& ends, int body, int stride) {
+  Gradients(const JointRows& joint, const JointEnds& ends, int body) {
     const auto& g = gradients_of(joint, ends, body);
-    for (int r = 0; r < stride; ++r) {
-      const Gradient row = r < joint.rows ? gradient(g[at(r)]) : Gradient{};
-      of[0][r] = row[0].x, of[1][r] = row[0].y, of[2][r] = row[0].z;
-      of[3][r] = row[1].x, of[4][r] = row[1].y, of[5][r] = row[1].z;
-    }
+    for (int r = 0; r < joint.rows; ++r) of[at(r)] = gradient(g[at(r)]);
   }
-  Gradient operator[](int row) const {
-    return {Vec3d{of[0][row], of[1][row], of[2][row]}, Vec3d{of[3][row], of[4][row], of[5][row]}};
-  }
+  const Gradient& operator[](int row) const { return of[at(row)]; }
 };
-
-/// Subtracts the product of a gradient and each row from a line of `stride` numbers.
-void subtract_products(const Gradient& by, const Gradients& rows, int stride, double* line) {
-  const auto& g = rows.of;
-  for (int c = 0; c < stride; ++c) {
-    const double displacement = by[0].x * g[0][c] + by[0].y * g[1][c] + by[0].z * g[2][c];
-    const double rotation = by[1].x * g[3][c] + by[1].y * g[4][c] + by[1].z * g[5][c];
-    line[c] = line[c] - (displacement + rotation);
-  }
-}
 
 /// A symmetric matrix times a vector.
 Vec3d times(const Symmetric& m, const Vec3d& v) {
@@ -239,7 +222,7 @@ void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, c
     if (body < 0) continue;
     const BodyMass& mass = masses[at(body)];
     const double inverse = 1 / static_cast<double>(mass.mass);
-    const Gradients g(rows, ends, body, stride);
+    const Gradients g(rows, ends, body);
     const bool is_held = ends.a >= 0 && ends.b >= 0 && held_[at(body)] != 0;
     for (int r = 0; is_held && r < rows.rows; ++r) {
       const auto own = static_cast<double>(rows.compliance[at(r)]);
@@ -252,11 +235,17 @@ void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, c
       for (int r = 0; body == node.through && r < rows.rows; ++r) set_row(g[r], up + r * stride);
       continue;
     }
-    for (int r = 0; r < rows.rows; ++r) subtract_products(accelerated(g[r], mass, inverse), g, stride, m + r * stride);
+    std::array<Gradient, most_joint_rows> moved;
+    for (int r = 0; r < rows.rows; ++r) {
+      moved[at(r)] = accelerated(g[r], mass, inverse);
+      for (int c = r; c < rows.rows; ++c) m[r * stride + c] = m[r * stride + c] - product(moved[at(r)], g[c]);
+    }
     if (body != node.through) continue;
     const int parent = nodes_[at(node.parent)].index;
-    const Gradients other(joints[at(parent)], ends_[at(parent)], body, stride);
-    for (int r = 0; r < rows.rows; ++r) subtract_products(accelerated(g[r], mass, inverse), other, stride, up + r * stride);
+    const JointRows& above = joints[at(parent)];
+    const Gradients other(above, ends_[at(parent)], body);
+    for (int r = 0; r < rows.rows; ++r)
+      for (int c = 0; c < above.rows; ++c) up[r * stride + c] = -product(moved[at(r)], other[c]);
   }
 }
 
