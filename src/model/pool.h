@@ -30,7 +30,7 @@ struct Segment {
   std::int32_t last_count =
       0;  ///< in the last batch: valid lanes (1..16), or groups of four (1..4) if a slot is contiguous; the rest is padding
   std::int64_t index_offset = 0;  ///< index of its first entry in Pool::indices
-  bool is_of_one_body = false;    ///< ties of one body (solver/tied_body.h)
+  bool is_of_one_body = false;    ///< ties of one body (solver/bodies/tied_body.h)
 };
 
 struct Pool {

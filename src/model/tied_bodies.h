@@ -1,4 +1,4 @@
-// Bodies that many ties hold: the ties of one body are projected together (solver/tied_body.h).
+// Bodies that many ties hold: the ties of one body are projected together (solver/bodies/tied_body.h).
 #pragma once
 
 #include <vector>

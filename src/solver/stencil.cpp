@@ -2,8 +2,8 @@
 
 #include "constraints/registry.h"
 #include "math/quat.h"
+#include "solver/bodies/tied_body.h"
 #include "solver/project.h"
-#include "solver/tied_body.h"
 #include "solver/visit.h"
 
 namespace pliant {
@@ -92,13 +92,10 @@ float motion_along(const Pool& pool, const Work& work, int row) {
 /// Computes the matrix and the right-hand side for the law of the constraint's pool.
 void assemble(const ConstraintPlace& at, const float* multipliers, const SweepArguments& a, Work& work) {
   const Pool& pool = at.pool;
-  const float softness = at.value(pool.fields);
-  const float compliance = pool.law == Law::pbd ? 0 : min(softness * a.inverse_h2, largest_compliance);
-  const float gamma =
-      pool.law == Law::damped ? min(softness * at.value(pool.fields + 1) * a.inverse_h, largest_compliance) : 0;
+  const auto [compliance, gamma] = yielding_of(at, a);
   for (int i = 0; i < pool.components; ++i) {
     float& rhs = work.change[i];
-    rhs = pool.law == Law::pbd ? -(softness * work.arrays.c[i]) : -work.arrays.c[i];
+    rhs = pool.law == Law::pbd ? -(at.value(pool.fields) * work.arrays.c[i]) : -work.arrays.c[i];
     if (multipliers != nullptr && !a.first_pass) rhs = rhs - compliance * multipliers[i * batch_width];
     if (pool.law == Law::damped) rhs = rhs - gamma * motion_along(pool, work, i);
     for (int j = 0; j <= i; ++j) {
@@ -186,6 +183,15 @@ void apply(const CompiledObject& object, const SweepArguments& a, const FrameArg
 }
 
 }  // namespace
+
+Yielding yielding_of(const ConstraintPlace& at, const SweepArguments& a) {
+  const Law law = at.pool.law;
+  const float softness = at.value(at.pool.fields);
+  const float compliance = law == Law::pbd ? 0 : min(softness * a.inverse_h2, largest_compliance);
+  const float damping =
+      law == Law::damped ? min(softness * at.value(at.pool.fields + 1) * a.inverse_h, largest_compliance) : 0;
+  return {compliance, damping};
+}
 
 void rotate_frame(const Vec3f& theta, Record& orientation, Record& corrections) {
   const Quatf q = quaternion(orientation), spin = multiply(Quatf{theta.x, theta.y, theta.z, 0}, q);

@@ -1,5 +1,6 @@
 // The stencil driver projects all constraint types that have no SIMD lanes: types with frame slots, with several rows,
-// or registered by users. Constraints are projected one at a time, in colours that all threads share. The code is
+// or registered by users. Constraints are projected one at a time, but ties of one body together
+// (bodies/tied_body.h), in colours that all threads share. The code is
 // scalar, so every machine gives the same bits.
 //
 //   A = sum over slots of G W G^T             G: gradients by row, W: inverse mass, or inverse inertia in world axes
@@ -11,8 +12,16 @@
 #pragma once
 
 #include "solver/substep.h"
+#include "solver/visit.h"
 
 namespace pliant {
+
+/// What a constraint yields by in a substep: its compliance over h^2, and its damping.
+struct Yielding {
+  float compliance = 0;  ///< a of the laws above
+  float damping = 0;     ///< g of the laws above
+};
+Yielding yielding_of(const ConstraintPlace& at, const SweepArguments& a);
 
 /// Rotates a frame by a small rotation vector in world axes [rad], and adds it to the frame's corrections.
 void rotate_frame(const Vec3f& theta, Record& orientation, Record& corrections);

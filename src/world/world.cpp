@@ -131,7 +131,6 @@ Report World::step(float dt) {
   }
   const double start = data_->state.time;
   let_flow(*data_, static_cast<double>(dt), report.flow);
-  follow_pressures(*data_, data_->state.time + static_cast<double>(dt));
   follow_rest_factors(*data_, data_->state.time + static_cast<double>(dt));
   begin_control(*data_, dt);
   const Resting resting = begin_rest(*data_, static_cast<double>(dt));

@@ -1,8 +1,8 @@
-#include "solver/tied_body.h"
+#include "solver/bodies/tied_body.h"
 
 #include <cmath>
 
-#include "math/quat.h"
+#include "solver/bodies/body_math.h"
 #include "solver/project.h"
 #include "solver/stencil.h"
 #include "solver/visit.h"
@@ -15,7 +15,7 @@ constexpr int freedoms = 6;
 /// Smallest inverse mass of a tie's particle, as a share of the body's there: particles that are fixed would overdetermine the body.
 constexpr double least_yield = 1e-7;
 
-Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
+using bodies::quaternion, bodies::xyz;
 
 /// The body at the start of the projection.
 struct Body {
@@ -28,11 +28,10 @@ struct Body {
   Body(const CompiledObject& object, const SweepArguments& a, const FrameArguments& f, const std::int32_t* number)
       : position(a.positions[number[0]]) {
     const std::int32_t frame = number[1] - object.particles;
-    const Record &d = a.displacements[number[0]], &r = a.remainders[number[0]], &q = f.orientations[frame];
-    displacement = xyz(d);
-    motion = {d.x - r.x, d.y - r.y, d.z - r.z};
+    displacement = xyz(a.displacements[number[0]]);
+    motion = displacement - xyz(a.remainders[number[0]]);
     turned = xyz(f.predicted[frame]) + xyz(f.corrections[frame]);
-    orientation = {q.x, q.y, q.z, q.w};
+    orientation = quaternion(f.orientations[frame]);
     inverse_mass = position.w;
     inverse_inertia = xyz(f.inverse_inertias[frame]);
   }
@@ -62,19 +61,14 @@ Tie tie_of(const ConstraintPlace& at, const std::int32_t* number, const SweepArg
   const Vec3f apart{((p.x - body.position.x) + d.x) - body.displacement.x,
                     ((p.y - body.position.y) + d.y) - body.displacement.y,
                     ((p.z - body.position.z) + d.z) - body.displacement.z};
-  const float softness = at.value(pool.fields);
-  const float compliance = pool.law == Law::pbd ? 0 : min(softness * a.inverse_h2, largest_compliance);
+  const auto [compliance, gamma] = yielding_of(at, a);
   Vec3f rhs = outward - apart;
-  if (pool.law == Law::pbd) rhs = rhs * softness;
+  if (pool.law == Law::pbd) rhs = rhs * at.value(pool.fields);
   if (multipliers != nullptr && !a.first_pass)
     rhs = rhs - Vec3f{multipliers[0], multipliers[batch_width], multipliers[2 * batch_width]} * compliance;
-  float damped = 1;
-  if (pool.law == Law::damped) {
-    const float gamma = min(softness * at.value(pool.fields + 1) * a.inverse_h, largest_compliance);
-    const Vec3f motion = Vec3f{d.x - r.x, d.y - r.y, d.z - r.z} - body.motion - cross(body.turned, outward);
-    rhs = rhs - motion * gamma;
-    damped = 1 + gamma;
-  }
+  const Vec3f motion = xyz(d) - xyz(r) - body.motion - cross(body.turned, outward);
+  if (pool.law == Law::damped) rhs = rhs - motion * gamma;
+  const float damped = 1 + gamma;
   const Vec3d place = wide(arm);
   const double yield = static_cast<double>(p.w) + static_cast<double>(compliance) / static_cast<double>(damped);
   const double least = max(least_yield * mobility(body, place), static_cast<double>(smallest_denominator));
@@ -150,8 +144,6 @@ class System {
   double m_[freedoms][freedoms] = {}, x_[freedoms] = {};
 };
 
-void add(const Vec3f& move, Record& d) { d = {d.x + move.x, d.y + move.y, d.z + move.z, 0}; }
-
 /// Keeps the multipliers of one tie for the substep's next pass.
 void keep(const Vec3f& change, bool first_pass, float* multipliers) {
   const float of[3] = {change.x, change.y, change.z};
@@ -186,10 +178,12 @@ void project_tied_body(const CompiledObject& object, const Segment& segment, con
     const Vec3d local = (tie.rhs + move + cross(turn, tie.arm)) * tie.stiffness;
     const Vec3f change = rotate(body.orientation, convert<float>(local) * points.relaxation);
     if (multipliers != nullptr) keep(change, points.first_pass, multipliers);
-    add(change * tie.inverse_mass, points.displacements[particle]);
+    Record& d = points.displacements[particle];
+    d = bodies::plus(d, change * tie.inverse_mass);
   });
   const std::int32_t frame = of_body[1] - object.particles;
-  add(rotate(body.orientation, convert<float>(move) * points.relaxation), points.displacements[of_body[0]]);
+  Record& d = points.displacements[of_body[0]];
+  d = bodies::plus(d, rotate(body.orientation, convert<float>(move) * points.relaxation));
   rotate_frame(rotate(body.orientation, convert<float>(turn) * points.relaxation), frames.orientations[frame],
                frames.corrections[frame]);
 }
