@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "math/scalar.h"
 
 namespace pliant {
 
@@ -52,9 +55,19 @@ class BlockTree {
 
 namespace block_tree {
 
-/// A pivot below this share of the terms that made it is rounding: its unknown depends on earlier ones and becomes zero.
+/// The larger of two numbers; a if neither is.
 template <class R>
-constexpr R least_pivot = R(1e-6);
+PLIANT_HD R larger(const R& a, const R& b) {
+  return select(a < b, b, a);
+}
+
+/// A pivot below this share of the terms that made it is rounding: its unknown depends on earlier ones and becomes zero.
+constexpr double least_pivot = 1e-6;
+
+/// True if R is one number, so that compilers handle rows of a block by whole registers. Where R has lanes, what is left of the diagonal is
+/// not computed.
+template <class R>
+constexpr bool is_one_number = std::is_floating_point_v<R>;
 
 /// The factors L D L^T of a block: L^T above the diagonal of the matrix, and 1 / D, which is 0 where an unknown is lost.
 template <class R>
@@ -64,34 +77,33 @@ struct Pivots {
 
 /// Factorises a block in place, row after row: each row takes away what the rows before it leave in it.
 template <int width, class R>
-Pivots<R> factorise(R* m, int size) {
-  Pivots<R> pivots;
+PLIANT_HD void factorise(R* m, int size, Pivots<R>& pivots) {
   R whole[width], scaled[width][width];
-  for (int i = 0; i < width; ++i) whole[i] = i < size ? std::max(m[i * width + i], -m[i * width + i]) : R(0);
+  for (int i = 0; i < width; ++i) whole[i] = i < size ? larger(m[i * width + i], -m[i * width + i]) : R(0);
   for (int k = 0; k < size; ++k) {
+    const int from = is_one_number<R> ? 0 : k;
     R row[width];
-    for (int i = 0; i < width; ++i) row[i] = m[k * width + i];
+    for (int i = from; i < width; ++i) row[i] = m[k * width + i];
     for (int j = 0; j < k; ++j) {
       const R factor = m[j * width + k];
-      for (int i = 0; i < width; ++i) row[i] = row[i] - scaled[j][i] * factor;
+      for (int i = from; i < width; ++i) row[i] = row[i] - scaled[j][i] * factor;
     }
     const R pivot = row[k];
-    const bool is_lost = !(std::max(pivot, -pivot) > least_pivot<R> * whole[k]);
-    const R inverse = is_lost ? R(0) : R(1) / pivot;
+    const auto is_kept = larger(pivot, -pivot) > R(least_pivot) * whole[k];
+    const R inverse = select(is_kept, R(1) / pivot, R(0));
     pivots.inverse[k] = inverse;
-    for (int i = 0; i < width; ++i) {
-      const R before = is_lost ? R(0) : row[i], after = row[i] * inverse, term = after * before;
+    for (int i = from; i < width; ++i) {
+      const R before = select(is_kept, row[i], R(0)), after = row[i] * inverse, term = after * before;
       scaled[k][i] = before;
       m[k * width + i] = after;
-      whole[i] = std::max(whole[i], std::max(term, -term));
+      whole[i] = larger(whole[i], larger(term, -term));
     }
   }
-  return pivots;
 }
 
 /// Replaces right-hand sides, one a column, by their solutions, with the factors of a block.
 template <int columns, int width, class R>
-void solve_columns(const R* m, const Pivots<R>& pivots, int size, R* b) {
+PLIANT_HD void solve_columns(const R* m, const Pivots<R>& pivots, int size, R* b) {
   for (int i = 1; i < size; ++i) {
     R row[columns];
     for (int c = 0; c < columns; ++c) row[c] = b[i * columns + c];
@@ -108,20 +120,56 @@ void solve_columns(const R* m, const Pivots<R>& pivots, int size, R* b) {
   }
 }
 
+/// What eliminating a block leaves in its parent: the matrix and right-hand side of the parent.
+template <class R>
+struct Parent {
+  R *m, *x;
+  int size;
+};
+
 /// Subtracts what eliminating a block leaves in its parent, given the coupling before and after it was solved.
 template <int width, class R>
-void reduce(const R* coupling, const R* solved, const R* x, int size, R* parent, R* parent_x, int parent_size) {
-  for (int c = 0; c < parent_size; ++c) {
-    R row[width], right = parent_x[c];
-    for (int d = 0; d < width; ++d) row[d] = parent[c * width + d];
+PLIANT_HD void reduce(const R* coupling, const R* solved, const R* x, int size, const Parent<R>& parent) {
+  for (int c = 0; c < parent.size; ++c) {
+    const int from = is_one_number<R> ? 0 : c;
+    R row[width], right = parent.x[c];
+    for (int d = from; d < width; ++d) row[d] = parent.m[c * width + d];
     for (int r = 0; r < size; ++r) {
       const R factor = coupling[r * width + c];
       right = right - factor * x[r];
-      for (int d = 0; d < width; ++d) row[d] = row[d] - factor * solved[r * width + d];
+      for (int d = from; d < width; ++d) row[d] = row[d] - factor * solved[r * width + d];
     }
-    for (int d = 0; d < width; ++d) parent[c * width + d] = row[d];
-    parent_x[c] = right;
+    for (int d = from; d < width; ++d) parent.m[c * width + d] = row[d];
+    parent.x[c] = right;
   }
+}
+
+/// The numbers of a block.
+template <class R>
+struct Block {
+  R* m;          ///< its matrix
+  R* to_parent;  ///< rows of this block, columns of its parent
+  R* x;          ///< the right-hand side, then the solution
+};
+
+/// Eliminates a block of `size` unknowns. `parent.m` is null if it is a root.
+template <int width, class R>
+PLIANT_HD void eliminate(const Block<R>& block, int size, const Parent<R>& parent) {
+  Pivots<R> pivots;
+  factorise<width>(block.m, size, pivots);
+  solve_columns<1, width>(block.m, pivots, size, block.x);
+  if (parent.m == nullptr) return;
+  R coupling[most_of_block * width];
+  for (int i = 0; i < size * width; ++i) coupling[i] = block.to_parent[i];
+  solve_columns<width, width>(block.m, pivots, size, block.to_parent);
+  reduce<width>(coupling, block.to_parent, block.x, size, parent);
+}
+
+/// Completes the solution of an eliminated block by that of its parent.
+template <int width, class R>
+PLIANT_HD void substitute(const Block<R>& block, int size, const R* x_of_parent, int size_of_parent) {
+  for (int r = 0; r < size; ++r)
+    for (int c = 0; c < size_of_parent; ++c) block.x[r] = block.x[r] - block.to_parent[r * width + c] * x_of_parent[c];
 }
 
 }  // namespace block_tree
@@ -143,23 +191,18 @@ void BlockTree<R>::reset(std::vector<Block> blocks) {
 template <class R>
 template <int width>
 void BlockTree<R>::solve_rows() {
+  const auto numbers = [&](std::size_t n) { return block_tree::Block<R>{diagonal(n), to_parent(n), x(n)}; };
   for (std::size_t n = 0; n < blocks_.size(); ++n) {
-    const auto [parent, size] = blocks_[n];
-    const block_tree::Pivots<R> pivots = block_tree::factorise<width>(diagonal(n), size);
-    block_tree::solve_columns<1, width>(diagonal(n), pivots, size, x(n));
-    if (parent < 0) continue;
-    const auto above = static_cast<std::size_t>(parent);
-    R coupling[most_of_block * width];
-    std::copy_n(to_parent(n), size * width, coupling);
-    block_tree::solve_columns<width, width>(diagonal(n), pivots, size, to_parent(n));
-    block_tree::reduce<width>(coupling, to_parent(n), x(n), size, diagonal(above), x(above), blocks_[above].size);
+    const auto above = static_cast<std::size_t>(blocks_[n].parent);
+    const block_tree::Parent<R> parent = blocks_[n].parent < 0
+                                             ? block_tree::Parent<R>{nullptr, nullptr, 0}
+                                             : block_tree::Parent<R>{diagonal(above), x(above), blocks_[above].size};
+    block_tree::eliminate<width>(numbers(n), blocks_[n].size, parent);
   }
   for (std::size_t n = blocks_.size(); n-- > 0;) {
-    const auto [parent, size] = blocks_[n];
-    if (parent < 0) continue;
-    const auto above = static_cast<std::size_t>(parent);
-    for (int r = 0; r < size; ++r)
-      for (int c = 0; c < blocks_[above].size; ++c) x(n)[r] = x(n)[r] - to_parent(n)[r * width + c] * x(above)[c];
+    if (blocks_[n].parent < 0) continue;
+    const auto above = static_cast<std::size_t>(blocks_[n].parent);
+    block_tree::substitute<width>(numbers(n), blocks_[n].size, x(above), blocks_[above].size);
   }
 }
 

@@ -201,7 +201,7 @@ PLIANT_HD Part sqrt_part(const Part& a) {
 #elif PLIANT_X86_BITS == 128
   return (Part)_mm_sqrt_ps((__m128)a);
 #else
-  Part r;
+  Part r = a;
   for (int lane = 0; lane < part_width; ++lane) r[lane] = pliant::sqrt(a[lane]);
   return r;
 #endif

@@ -21,6 +21,7 @@ struct MultigridKernels;  // solver/sweeps/multigrid_kernels.h
 struct ContactKernels;    // solver/contact_kernels.h
 struct LengthKernels;     // solver/length_kernels.h
 struct ManifoldKernels;   // solver/bodies/manifold_kernels.h
+struct RodKernels;        // solver/bodies/rod_kernels.h
 struct MotionKernels;     // solver/motion_kernels.h
 struct FluidKernels;      // solver/fluids/fluid_kernels.h
 struct NeighbourKernels;  // collision/neighbours/neighbour_kernels.h
@@ -65,6 +66,7 @@ struct Kernels : StepKernels {
   const LengthKernels& lengths;
   const PairKernels& pairs;
   const ManifoldKernels& manifolds;
+  const RodKernels& rods;
   const MotionKernels& motions;
   const NeighbourKernels& neighbours;
   const FluidKernels& fluids;

@@ -1,19 +1,9 @@
 // Motion of frames and bodies in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
-#include "math/lane_bits.h"
-#include "math/wide.h"
 #include "solver/motion_loops.h"
+#include "solver/motion_wide.h"
 
 namespace pliant {
 inline namespace PLIANT_ISA {
-
-PLIANT_HD motion_formulas::RecordOf<Wide> load_records(const Record* base, const std::int32_t* index, const Wide&) {
-  const WideRecords r = from_registers(load_indexed(base, index));
-  return {r.position, r.w};
-}
-PLIANT_HD void store_records(Record* base, const std::int32_t* index, const motion_formulas::RecordOf<Wide>& r) {
-  store_indexed(base, index, to_registers({r.xyz, r.w}));
-}
-PLIANT_HD bool all_zero(const Wide& sum) { return lane_bits(sum == Wide(0.f)) == 0xffff; }
 
 namespace {
 struct ThisUnit {};

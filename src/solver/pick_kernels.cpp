@@ -6,6 +6,7 @@
 #include "math/runs_level.h"
 #include "pliant/error.h"
 #include "solver/bodies/manifold_kernels.h"
+#include "solver/bodies/rod_kernels.h"
 #include "solver/contact_kernels.h"
 #include "solver/fluids/fluid_kernels.h"
 #include "solver/fluids/tension_kernels.h"
@@ -20,16 +21,16 @@ namespace pliant {
 
 namespace {
 
-#define PLIANT_LEVEL_TABLE(suffix, isa, ...)                                             \
-  const Kernels& kernels_##suffix() {                                                    \
-    static const Kernels table{step_kernels_##suffix(),    isa,                          \
-                               chain_kernels_##suffix(),   multigrid_kernels_##suffix(), \
-                               contact_kernels_##suffix(), length_kernels_##suffix(),    \
-                               pair_kernels_##suffix(),    manifold_kernels_##suffix(),  \
-                               motion_kernels_##suffix(),  neighbour_kernels_##suffix(), \
-                               fluid_kernels_##suffix(),   viscosity_kernels_##suffix(), \
-                               tension_kernels_##suffix()};                              \
-    return table;                                                                        \
+#define PLIANT_LEVEL_TABLE(suffix, isa, ...)                                               \
+  const Kernels& kernels_##suffix() {                                                      \
+    static const Kernels table{step_kernels_##suffix(),      isa,                          \
+                               chain_kernels_##suffix(),     multigrid_kernels_##suffix(), \
+                               contact_kernels_##suffix(),   length_kernels_##suffix(),    \
+                               pair_kernels_##suffix(),      manifold_kernels_##suffix(),  \
+                               rod_kernels_##suffix(),       motion_kernels_##suffix(),    \
+                               neighbour_kernels_##suffix(), fluid_kernels_##suffix(),     \
+                               viscosity_kernels_##suffix(), tension_kernels_##suffix()};  \
+    return table;                                                                          \
   }
 PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_TABLE, )
 
@@ -49,13 +50,13 @@ std::string level_names() {
 }  // namespace
 
 const Kernels& kernels_sequential() {
-  static const Kernels table{step_kernels_sequential(),    "sequential",
-                             chain_kernels_sequential(),   multigrid_kernels_generic(),
-                             contact_kernels_sequential(), length_kernels_sequential(),
-                             pair_kernels_generic(),       manifold_kernels_sequential(),
-                             motion_kernels_sequential(),  neighbour_kernels_sequential(),
-                             fluid_kernels_sequential(),   viscosity_kernels_sequential(),
-                             tension_kernels_sequential()};
+  static const Kernels table{step_kernels_sequential(),      "sequential",
+                             chain_kernels_sequential(),     multigrid_kernels_generic(),
+                             contact_kernels_sequential(),   length_kernels_sequential(),
+                             pair_kernels_generic(),         manifold_kernels_sequential(),
+                             rod_kernels_sequential(),       motion_kernels_sequential(),
+                             neighbour_kernels_sequential(), fluid_kernels_sequential(),
+                             viscosity_kernels_sequential(), tension_kernels_sequential()};
   return table;
 }
 

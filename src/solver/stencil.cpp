@@ -2,6 +2,7 @@
 
 #include "constraints/registry.h"
 #include "math/quat.h"
+#include "solver/bodies/joint_formulas.h"
 #include "solver/bodies/tied_body.h"
 #include "solver/project.h"
 #include "solver/visit.h"
@@ -194,8 +195,7 @@ Yielding yielding_of(const ConstraintPlace& at, const SweepArguments& a) {
 }
 
 void rotate_frame(const Vec3f& theta, Record& orientation, Record& corrections) {
-  const Quatf q = quaternion(orientation), spin = multiply(Quatf{theta.x, theta.y, theta.z, 0}, q);
-  const Quatf now = normalise(Quatf{q.x + 0.5f * spin.x, q.y + 0.5f * spin.y, q.z + 0.5f * spin.z, q.w + 0.5f * spin.w});
+  const Quatf now = joint_formulas::turned(quaternion(orientation), theta);
   orientation = {now.x, now.y, now.z, now.w};
   corrections = {corrections.x + theta.x, corrections.y + theta.y, corrections.z + theta.z, 0};
 }

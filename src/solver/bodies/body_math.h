@@ -6,6 +6,7 @@
 
 #include "math/quat.h"
 #include "pliant/state.h"
+#include "solver/bodies/joint_formulas.h"
 
 namespace pliant::bodies {
 
@@ -21,8 +22,7 @@ inline Vec3f times(const std::array<float, 6>& m, const Vec3f& v) {
 
 /// Turns an orientation by a small rotation vector in world axes.
 inline void turn(const Vec3f& theta, Record& orientation) {
-  const Quatf q = quaternion(orientation), spin = multiply(Quatf{theta.x, theta.y, theta.z, 0}, q);
-  const Quatf now = normalise(Quatf{q.x + 0.5f * spin.x, q.y + 0.5f * spin.y, q.z + 0.5f * spin.z, q.w + 0.5f * spin.w});
+  const Quatf now = joint_formulas::turned(quaternion(orientation), theta);
   orientation = {now.x, now.y, now.z, now.w};
 }
 

@@ -7,6 +7,7 @@
 
 #include "constraints/registry.h"
 #include "solver/bodies/islands.h"
+#include "solver/bodies/rod_bundle.h"
 #include "solver/visit.h"
 
 namespace pliant {
@@ -202,6 +203,7 @@ void prepare_joints(const CompiledObject& object, ObjectJoints& joints) {
   // Where a motor drives against a stop, both are rows of one direction, and the solve leaves out the later one.
   for (const bool motors : {false, true}) add_bounded_parts(object, left_out, motors, joints.forests);
   mark_skipped(object, joints.forests, left_out, joints);
+  joints.bundles = bundle_rods(object, joints.forests);
 }
 
 }  // namespace pliant

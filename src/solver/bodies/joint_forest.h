@@ -56,6 +56,7 @@ struct JointForest {
   std::vector<JointEnds> ends;
   std::vector<Body> bodies;
   std::optional<JointTree> tree;
+  bool in_bundle = false;  ///< solved side by side with others (rod_bundle.h)
 
   std::vector<BodyMass> masses;
   std::vector<JointRows> rows;

@@ -5,6 +5,7 @@
 #include "math/quat.h"
 #include "solver/bodies/body_math.h"
 #include "solver/bodies/joint_forest_work.h"
+#include "solver/bodies/joint_formulas.h"
 #include "solver/project.h"
 
 namespace pliant {
@@ -111,23 +112,15 @@ void fill_part(JointWork& work, std::size_t j, const JointForest::Part& part, bo
 /// Of a body whose centre is pinned [kg]: it rotates, and does not move.
 constexpr float mass_of_held = 1e20f;
 
-/// The inertia of a body in world axes: xx, yy, zz, yz, zx, xy.
 BodyMass mass_of(const JointWork& work, const JointForest::Body& body) {
-  const Quatf q = quaternion(work.frames.orientations[body.frame]);
-  const Vec3f inverse = xyz(work.frames.inverse_inertias[body.frame]);
-  const Vec3f axes[3] = {rotate(q, Vec3f{1, 0, 0}), rotate(q, Vec3f{0, 1, 0}), rotate(q, Vec3f{0, 0, 1})};
-  const float moments[3] = {1 / inverse.x, 1 / inverse.y, 1 / inverse.z}, inverses[3] = {inverse.x, inverse.y, inverse.z};
-  BodyMass mass;
+  float inertia[6], inverse[6];
+  joint_formulas::turned_inertia(quaternion(work.frames.orientations[body.frame]),
+                                 xyz(work.frames.inverse_inertias[body.frame]), inertia, inverse);
   const float w = work.points.positions[body.point].w;
+  BodyMass mass;
   mass.mass = w > 0 ? 1 / w : mass_of_held;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3f& u = axes[k];
-    const float products[6] = {u.x * u.x, u.y * u.y, u.z * u.z, u.y * u.z, u.z * u.x, u.x * u.y};
-    for (std::size_t i = 0; i < 6; ++i) {
-      mass.inertia[i] = mass.inertia[i] + products[i] * moments[k];
-      mass.inverse[i] = mass.inverse[i] + products[i] * inverses[k];
-    }
-  }
+  std::copy_n(inertia, 6, mass.inertia.begin());
+  std::copy_n(inverse, 6, mass.inverse.begin());
   return mass;
 }
 
@@ -202,7 +195,7 @@ bool is_displaced(const JointWork& work, const JointForest::Joint& joint, const 
 }  // namespace
 
 bool is_open(JointWork& work, float share) {
-  constexpr float least = 1e-6f, share_of_soft = 1e-3f;
+  using joint_formulas::least_gap, joint_formulas::open_share_of_soft;
   for (const JointForest::Joint& joint : work.forest.joints) {
     if (!joint.in_tree) continue;
     const ConstraintPlace at = place_of(work, joint.parts.front());
@@ -213,10 +206,10 @@ bool is_open(JointWork& work, float share) {
     const float size =
         sqrt(length_squared(Vec3f{rest[0], rest[1], rest[2]})) + sqrt(length_squared(Vec3f{rest[3], rest[4], rest[5]}));
     if (at.value(at.pool.fields) > 0) {
-      if (is_displaced(work, joint, at, max(least, share_of_soft * size))) return true;
+      if (is_displaced(work, joint, at, max(least_gap, open_share_of_soft * size))) return true;
       continue;
     }
-    const float most = max(least, share * min(size, 1.f));
+    const float most = max(least_gap, share * min(size, 1.f));
     for (int r = 0; r < at.pool.components; ++r)
       if (abs(work.arrays.c[r]) > most) return true;
   }

@@ -4,6 +4,8 @@
 #include "math/quat.h"
 #include "solver/bodies/body_math.h"
 #include "solver/bodies/joint_forest_work.h"
+#include "solver/bodies/joint_formulas.h"
+#include "solver/bodies/rod_bundle.h"
 #include "solver/stencil.h"
 
 namespace pliant {
@@ -11,24 +13,6 @@ namespace pliant {
 namespace {
 
 using bodies::quaternion, bodies::times, bodies::xyz;
-
-/// Above this ratio of |joint force h^2| |arm| to a body's inertia, joints turn the body faster than substeps can follow:
-/// it is the square of the angle by which the oscillation advances in a substep.
-constexpr float largest_advance = 0.25f;
-
-/// Adds the stiffness against rotation that force f at arm r gives a body: (f.r + |f||r|) / 2 - (f r^T + r f^T) / 2, which
-/// is never negative. Returns |f||r|.
-float add_stiffness(const Vec3f& f, const Vec3f& r, Symmetric& sum) {
-  const float size = sqrt(length_squared(f) * length_squared(r)), half = (dot(f, r) + size) * 0.5f;
-  const float terms[6] = {half - f.x * r.x,
-                          half - f.y * r.y,
-                          half - f.z * r.z,
-                          (f.y * r.z + f.z * r.y) * -0.5f,
-                          (f.z * r.x + f.x * r.z) * -0.5f,
-                          (f.x * r.y + f.y * r.x) * -0.5f};
-  for (std::size_t i = 0; i < 6; ++i) sum[i] = sum[i] + terms[i];
-  return size;
-}
 
 /// Sets the forces by which the last solve's multipliers pull, in the order of the joints.
 void find_pulls(const JointForest& forest, std::vector<JointForest::Pull>& pulls) {
@@ -60,7 +44,8 @@ float find_stiffness(JointWork& work, const std::vector<JointForest::Pull>& pull
       const std::int32_t frame = joint.slots[2 * static_cast<std::size_t>(side) + 1];
       const auto b = static_cast<std::size_t>(body);
       const Vec3f arm = rotate(quaternion(work.frames.orientations[frame]), anchor);
-      forest.sizes[b] = forest.sizes[b] + add_stiffness(pulls[j][static_cast<std::size_t>(side)], arm, forest.stiffness[b]);
+      forest.sizes[b] = forest.sizes[b] + joint_formulas::add_stiffness(pulls[j][static_cast<std::size_t>(side)], arm,
+                                                                        forest.stiffness[b].data());
     }
   }
   float largest = 0;
@@ -175,12 +160,16 @@ struct ForestTask {
 /// Small forests share a task, up to this many joints.
 constexpr std::size_t joints_of_task = 64;
 
-std::vector<ForestTask> tasks_of(const Substep& s) {
+std::vector<ForestTask> tasks_of(const Substep& s, Bundled bundled) {
   std::vector<ForestTask> tasks;
   for_objects(s, [&](int o) {
     const auto& forests = s.work.joints[static_cast<std::size_t>(o)].forests;
     std::size_t joints = joints_of_task;
     for (std::size_t i = 0; i < forests.size(); ++i) {
+      if (bundled == Bundled::left_out && forests[i].in_bundle) {
+        joints = joints_of_task;
+        continue;
+      }
       if (joints >= joints_of_task) {
         tasks.push_back({o, i, 0});
         joints = 0;
@@ -192,16 +181,10 @@ std::vector<ForestTask> tasks_of(const Substep& s) {
   return tasks;
 }
 
-/// Contact moves one body of a tree at a time, so a joint is open by what an impact gives it in a substep, and a solve is linear. Gaps above
-/// this share of a joint's arms are closed.
-constexpr float closed = 2e-5f;
-/// Each round leaves a gap of the order of the square of the last one over the length of a body.
-constexpr int most_closing_rounds = 3;
-
 }  // namespace
 
-void for_trees(Substep& s, bool first_pass, FunctionRef<void(JointWork&)> body) {
-  const std::vector<ForestTask> tasks = tasks_of(s);
+void for_trees(Substep& s, bool first_pass, Bundled bundled, FunctionRef<void(JointWork&)> body) {
+  const std::vector<ForestTask> tasks = tasks_of(s, bundled);
   if (tasks.empty()) return;
   for_tasks(s, "solve: joints", static_cast<int>(tasks.size()), [&](int number) {
     const ForestTask& task = tasks[static_cast<std::size_t>(number)];
@@ -215,13 +198,15 @@ void for_trees(Substep& s, bool first_pass, FunctionRef<void(JointWork&)> body) 
 }
 
 void solve_joint_trees(Substep& s, bool first_pass) {
-  for_trees(s, first_pass, [&](JointWork& work) { solve_object(s, work); });
+  for_trees(s, first_pass, Bundled::left_out, [&](JointWork& work) { solve_object(s, work); });
+  solve_rod_bundles(s, first_pass);
 }
 
 void close_joint_trees(Substep& s) {
-  for_trees(s, false, [&](JointWork& work) {
-    for (int round = 0; round < most_closing_rounds && is_open(work, closed); ++round) solve_object(s, work);
+  for_trees(s, false, Bundled::left_out, [&](JointWork& work) {
+    for (int round = 0; round < most_closing_rounds && is_open(work, closed_share); ++round) solve_object(s, work);
   });
+  close_rod_bundles(s);
 }
 
 }  // namespace pliant

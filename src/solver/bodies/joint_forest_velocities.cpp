@@ -113,7 +113,7 @@ bool has_fast_joints(Substep& s) {
 
 void hold_joint_velocities(Substep& s) {
   const bool is_settled = s.is_last() || ends_quarter(s);
-  for_trees(s, false, [&](JointWork& work) {
+  for_trees(s, false, Bundled::included, [&](JointWork& work) {
     if (!work.forest.is_fast) return;
     const Vec3f missing = is_settled ? Vec3f{} : gravity_for(s, s.work.gravity[work.number].settled);
     hold(work, {s.state.velocities.data() + s.model.first[work.number],

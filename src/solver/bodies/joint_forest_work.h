@@ -8,6 +8,16 @@
 
 namespace pliant {
 
+/// Above this ratio of |joint force h^2| |arm| to a body's inertia, joints turn the body faster than substeps can follow:
+/// it is the square of the angle by which the oscillation advances in a substep.
+constexpr float largest_advance = 0.25f;
+
+/// Contact moves one body of a tree at a time, so a joint is open by what an impact gives it in a substep, and a solve is linear. Gaps above
+/// this share of a joint's arms are closed.
+constexpr float closed_share = 2e-5f;
+/// Each round leaves a gap of the order of the square of the last one over the length of a body.
+constexpr int most_closing_rounds = 3;
+
 /// The arrays of an object, and one constraint at a time.
 struct JointWork {
   const CompiledObject& object;
@@ -19,8 +29,9 @@ struct JointWork {
   float bounds[3 * most_components] = {};  ///< of each row: low, high, speed
 };
 
-/// Calls a function for the forests of each object that takes part.
-void for_trees(Substep& s, bool first_pass, FunctionRef<void(JointWork&)> body);
+/// Calls a function for the forests of each object that takes part; those in bundles of rods may be left out.
+enum class Bundled { left_out, included };
+void for_trees(Substep& s, bool first_pass, Bundled bundled, FunctionRef<void(JointWork&)> body);
 
 /// Where a constraint of a joint is stored.
 ConstraintPlace place_of(const JointWork& work, const JointForest::Part& part);

@@ -19,11 +19,12 @@ constexpr double softness = 1e-4;
 constexpr double least_compliance = 2e-6;
 
 using bodies::at;
-/// For displacement and rotation. In double: along a chain whose joints hold angles, the smallest eigenvalues of the system fall with the
-/// fourth power of its length, below a float's rounding of the largest at a hundred links.
-using Gradient = std::array<Vec3d, 2>;
+using namespace joint_tree_formulas;
+/// In double: along a chain whose joints hold angles, the smallest eigenvalues of the system fall with the fourth power of its length, below a
+/// float's rounding of the largest at a hundred links.
+using RowGradient = Gradient<double>;
 
-Gradient gradient(const std::array<Vec3f, 2>& g) { return {convert<double>(g[0]), convert<double>(g[1])}; }
+RowGradient gradient(const std::array<Vec3f, 2>& g) { return {convert<double>(g[0]), convert<double>(g[1])}; }
 
 const std::array<std::array<Vec3f, 2>, most_joint_rows>& gradients_of(const JointRows& rows, const JointEnds& ends,
                                                                       int body) {
@@ -32,38 +33,33 @@ const std::array<std::array<Vec3f, 2>, most_joint_rows>& gradients_of(const Join
 
 /// The gradients of a joint's rows for one of its bodies. Each is needed for several products.
 struct Gradients {
-  std::array<Gradient, most_joint_rows> of;
+  std::array<RowGradient, most_joint_rows> of;
 
   Gradients(const JointRows& joint, const JointEnds& ends, int body) {
     const auto& g = gradients_of(joint, ends, body);
     for (int r = 0; r < joint.rows; ++r) of[at(r)] = gradient(g[at(r)]);
   }
-  const Gradient& operator[](int row) const { return of[at(row)]; }
+  const RowGradient& operator[](int row) const { return of[at(row)]; }
 };
 
-/// A symmetric matrix times a vector.
-Vec3d times(const Symmetric& m, const Vec3d& v) {
-  const auto row = [&](std::size_t x, std::size_t y, std::size_t z) {
-    return Vec3d{static_cast<double>(m[x]), static_cast<double>(m[y]), static_cast<double>(m[z])};
-  };
-  return {dot(row(0, 5, 4), v), dot(row(5, 1, 3), v), dot(row(4, 3, 2), v)};
+/// What a body yields by, in double.
+InverseMass<double> inverse_of(const BodyMass& body) {
+  InverseMass<double> of{};
+  of.mass = 1 / static_cast<double>(body.mass);
+  std::copy(body.inverse.begin(), body.inverse.end(), of.inertia);
+  return of;
 }
 
 /// The inverse mass that one body gives a row, with the mean of its inertia.
-double inverse_mass(const Gradient& gradient, const BodyMass& body) {
+double inverse_mass(const RowGradient& gradient, const BodyMass& body) {
   const auto inertia = static_cast<double>((body.inertia[0] + body.inertia[1] + body.inertia[2]) / 3);
-  return length_squared(gradient[0]) / static_cast<double>(body.mass) + length_squared(gradient[1]) / inertia;
+  return length_squared(gradient.displacement) / static_cast<double>(body.mass) +
+         length_squared(gradient.rotation) / inertia;
 }
 
-/// M^-1 times a gradient.
-Gradient accelerated(const Gradient& g, const BodyMass& body, double inverse) {
-  return {g[0] * inverse, times(body.inverse, g[1])};
-}
-
-double product(const Gradient& a, const Gradient& b) { return dot(a[0], b[0]) + dot(a[1], b[1]); }
-
-void set_row(const Gradient& g, double* row) {
-  const double six[body_unknowns] = {g[0].x, g[0].y, g[0].z, g[1].x, g[1].y, g[1].z};
+void set_row(const RowGradient& g, double* row) {
+  const Vec3d &d = g.displacement, &r = g.rotation;
+  const double six[body_unknowns] = {d.x, d.y, d.z, r.x, r.y, r.z};
   std::copy_n(six, body_unknowns, row);
 }
 
@@ -112,6 +108,11 @@ JointTree::JointTree(int bodies, const std::vector<JointEnds>& joints, const std
     : ends_(joints), joints_of_(static_cast<std::size_t>(bodies)) {
   find_loose(bodies, centre_is_held);
   order();
+}
+
+bool JointTree::is_plain() const {
+  return std::none_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.is_body; }) &&
+         std::all_of(held_.begin(), held_.end(), [](char held) { return held == 0; });
 }
 
 void JointTree::find_loose(int bodies, const std::vector<char>& centre_is_held) {
@@ -221,7 +222,7 @@ void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, c
   for (const int body : {ends.a, ends.b}) {
     if (body < 0) continue;
     const BodyMass& mass = masses[at(body)];
-    const double inverse = 1 / static_cast<double>(mass.mass);
+    const InverseMass<double> inverse = inverse_of(mass);
     const Gradients g(rows, ends, body);
     const bool is_held = ends.a >= 0 && ends.b >= 0 && held_[at(body)] != 0;
     for (int r = 0; is_held && r < rows.rows; ++r) {
@@ -229,23 +230,18 @@ void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, c
       if (own == 0)
         m[r * stride + r] -= softness * inverse_mass(g[r], mass);
       else
-        m[r * stride + r] -= std::max(0., least_compliance * product(accelerated(g[r], mass, inverse), g[r]) - own);
+        m[r * stride + r] -= std::max(0., least_compliance * product(accelerated(g[r], inverse), g[r]) - own);
     }
     if (!is_eliminated(body)) {
       for (int r = 0; body == node.through && r < rows.rows; ++r) set_row(g[r], up + r * stride);
       continue;
     }
-    std::array<Gradient, most_joint_rows> moved;
-    for (int r = 0; r < rows.rows; ++r) {
-      moved[at(r)] = accelerated(g[r], mass, inverse);
-      for (int c = r; c < rows.rows; ++c) m[r * stride + c] = m[r * stride + c] - product(moved[at(r)], g[c]);
-    }
+    std::array<RowGradient, most_joint_rows> moved;
+    subtract_body(g.of.data(), inverse, rows.rows, m, stride, moved.data());
     if (body != node.through) continue;
     const int parent = nodes_[at(node.parent)].index;
     const JointRows& above = joints[at(parent)];
-    const Gradients other(above, ends_[at(parent)], body);
-    for (int r = 0; r < rows.rows; ++r)
-      for (int c = 0; c < above.rows; ++c) up[r * stride + c] = -product(moved[at(r)], other[c]);
+    couple(moved.data(), rows.rows, Gradients(above, ends_[at(parent)], body).of.data(), above.rows, up, stride);
   }
 }
 
@@ -278,24 +274,15 @@ void JointTree::fill_body(std::size_t n, const std::vector<BodyMass>& masses, co
 }
 
 /// The bodies that are no blocks: d = -M^-1 J^T lambda of their joints.
-void JointTree::move_eliminated(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
-                                std::vector<std::array<Vec3d, 2>>& moves) {
+void JointTree::move_eliminated(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     if (nodes_[n].is_body) continue;
     const JointEnds& ends = ends_[at(nodes_[n].index)];
     const JointRows& rows = joints[at(nodes_[n].index)];
     for (const int body : {ends.a, ends.b}) {
       if (body < 0 || !is_eliminated(body)) continue;
-      const auto& g = gradients_of(rows, ends, body);
-      Vec3d force{}, torque{};
-      for (int r = 0; r < rows.rows; ++r) {
-        const Gradient of_row = gradient(g[at(r)]);
-        force = force + of_row[0] * blocks_->x(n)[r];
-        torque = torque + of_row[1] * blocks_->x(n)[r];
-      }
-      const BodyMass& mass = masses[at(body)];
-      moves[at(body)][0] -= force * (1 / static_cast<double>(mass.mass));
-      moves[at(body)][1] -= times(mass.inverse, torque);
+      const Gradients g(rows, ends, body);
+      move_body(g.of.data(), blocks_->x(n), rows.rows, inverse_of(masses[at(body)]), moves_[at(body)]);
     }
   }
 }
@@ -318,16 +305,16 @@ void JointTree::solve(const std::vector<BodyMass>& masses, const std::vector<Joi
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
     const double* x = blocks_->x(n);
-    if (node.is_body) moves_[at(node.index)] = {Vec3d{x[0], x[1], x[2]}, Vec3d{x[3], x[4], x[5]}};
+    if (node.is_body) moves_[at(node.index)] = {{x[0], x[1], x[2]}, {x[3], x[4], x[5]}};
     const int joint = node.is_body ? ground_[at(node.index)] : node.index;
     if (multipliers == nullptr || joint < 0) continue;
     const double* const first = x + (node.is_body ? body_unknowns : 0);
     for (int r = 0; r < joints[at(joint)].rows; ++r) (*multipliers)[at(joint)][at(r)] = static_cast<float>(first[r]);
   }
-  move_eliminated(masses, joints, moves_);
+  move_eliminated(masses, joints);
   corrections.clear();
-  for (const auto& [displacement, rotation] : moves_)
-    corrections.push_back({convert<float>(displacement), convert<float>(rotation)});
+  for (const RowGradient& move : moves_)
+    corrections.push_back({convert<float>(move.displacement), convert<float>(move.rotation)});
 }
 
 }  // namespace pliant

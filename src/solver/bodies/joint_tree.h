@@ -6,6 +6,7 @@
 
 #include "math/block_tree.h"
 #include "math/vector.h"
+#include "solver/bodies/joint_tree_formulas.h"
 
 namespace pliant {
 
@@ -44,20 +45,6 @@ struct BodyCorrection {
 
 class JointTree {
  public:
-  /// Joints that close a loop are loose; so are further joints of a body that has one with the ground, and joints of a body with
-  /// itself. `centre_is_held` by body: its mass is so large that it only rotates; empty: none.
-  JointTree(int bodies, const std::vector<JointEnds>& joints, const std::vector<char>& centre_is_held = {});
-
-  /// Joints that are left out, in ascending order.
-  const std::vector<int>& loose() const { return loose_; }
-
-  /// Solves M d + J^T lambda = 0, J d - compliance lambda = -value for all joints that are not loose. `corrections` are by body,
-  /// zero where none acts; `multipliers` by joint, if not null.
-  void solve(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
-             std::vector<BodyCorrection>& corrections,
-             std::vector<std::array<float, most_joint_rows>>* multipliers = nullptr);
-
- private:
   /// A joint, or a body with three joints or more; its joint with the ground is part of its block. Other bodies are eliminated
   /// beforehand, since the inverse of their mass is known. That couples their two joints.
   struct Node {
@@ -67,6 +54,25 @@ class JointTree {
     int through = -1;  ///< the body that is shared with the parent, or the body itself; -1: a root
   };
 
+  /// Joints that close a loop are loose; so are further joints of a body that has one with the ground, and joints of a body with
+  /// itself. `centre_is_held` by body: its mass is so large that it only rotates; empty: none.
+  JointTree(int bodies, const std::vector<JointEnds>& joints, const std::vector<char>& centre_is_held = {});
+
+  /// Joints that are left out, in ascending order.
+  const std::vector<int>& loose() const { return loose_; }
+
+  /// The blocks, children before their parents.
+  const std::vector<Node>& nodes() const { return nodes_; }
+  /// True if no block is a body's, and no tree has two joints with the ground.
+  bool is_plain() const;
+
+  /// Solves M d + J^T lambda = 0, J d - compliance lambda = -value for all joints that are not loose. `corrections` are by body,
+  /// zero where none acts; `multipliers` by joint, if not null.
+  void solve(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
+             std::vector<BodyCorrection>& corrections,
+             std::vector<std::array<float, most_joint_rows>>* multipliers = nullptr);
+
+ private:
   void find_loose(int bodies, const std::vector<char>& centre_is_held);
   void order();
   void order_tree(int root);
@@ -75,8 +81,7 @@ class JointTree {
   void shape_blocks(const std::vector<JointRows>& joints);
   void fill_joint(std::size_t node, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints);
   void fill_body(std::size_t node, const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints);
-  void move_eliminated(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
-                       std::vector<std::array<Vec3d, 2>>& moves);
+  void move_eliminated(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints);
 
   std::vector<JointEnds> ends_;
   std::vector<Node> nodes_;
@@ -84,8 +89,8 @@ class JointTree {
   std::vector<int> ground_;                  ///< joint of each body with the ground; -1: none
   std::vector<char> held_;                   ///< [body] 1: its tree has two joints with the ground or more
   std::vector<int> loose_;
-  BlockTree<double>* blocks_ = nullptr;      ///< of the thread that solves: thousands of trees would not fit a cache
-  std::vector<std::array<Vec3d, 2>> moves_;  ///< [body] displacement and rotation; scratch
+  BlockTree<double>* blocks_ = nullptr;  ///< of the thread that solves: thousands of trees would not fit a cache
+  std::vector<joint_tree_formulas::Gradient<double>> moves_;  ///< [body] displacement and rotation; scratch
 };
 
 }  // namespace pliant

@@ -5,6 +5,7 @@
 // directions. So bodies are read and written once for all four points.
 #pragma once
 
+#include "math/rows.h"
 #include "math/scalar.h"
 #include "math/vector.h"
 #include "solver/bodies/manifold_passes.h"
@@ -17,9 +18,6 @@ namespace pliant::manifold_formulas {
 constexpr float tiny = 1e-30f;
 /// Passes over the points of a manifold that bounces: with one, a box dropped flat rises 7 to 9 % less high than it should.
 constexpr int passes_of_impact = 4;
-
-PLIANT_HD void load_row(const float* from, float& to) { to = *from; }
-PLIANT_HD void store_row(float* to, float from) { *to = from; }
 
 template <class R>
 PLIANT_HD R get(const float* row) {

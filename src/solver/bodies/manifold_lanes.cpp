@@ -1,18 +1,11 @@
 // Contacts of bodies in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
 #include "math/lane_bits.h"
-#include "math/wide.h"
+#include "math/wide_rows.h"
 #include "solver/bodies/manifold_formulas.h"
 #include "solver/bodies/manifold_kernels.h"
 
 namespace pliant {
 inline namespace PLIANT_ISA {
-
-// Part by part: g++ copies a whole Wide in pieces of 16 bytes, and loads of 32 bytes wait for such stores.
-PLIANT_HD void load_row(const float* from,
-                        Wide& to){PLIANT_EACH_PART(std::memcpy(&to.part[i], from + part_width * i, sizeof(Part)))} PLIANT_HD
-    void store_row(float* to, const Wide& from) {
-  PLIANT_EACH_PART(std::memcpy(to + part_width * i, &from.part[i], sizeof(Part)))
-}
 
 namespace {
 

@@ -7,6 +7,7 @@
 namespace pliant {
 
 struct JointForest;
+struct RodBundle;
 
 struct ObjectJoints {
   std::vector<int> broken;  ///< indices in CompiledObject::joints, ascending
@@ -18,6 +19,7 @@ struct ObjectJoints {
       is_skipped;  ///< as is_broken, also of joints in `forests` and of bodies that sleep: the stencil driver leaves them out
   std::vector<const char*> skipped;  ///< pointers to the same; null: none of the pool. Empty: none at all
   std::vector<JointForest> forests;  ///< joints that are solved directly, those of connected bodies in one
+  std::vector<RodBundle> bundles;    ///< those of the forests that are rods of equal shape
 
   ObjectJoints();
   ~ObjectJoints();

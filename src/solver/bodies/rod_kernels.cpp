@@ -1,0 +1,13 @@
+#include "solver/bodies/rod_kernels.h"
+
+#include "solver/bodies/rod_loops.h"
+
+namespace pliant {
+
+namespace {
+struct ThisUnit {};
+}  // namespace
+
+const RodKernels& rod_kernels_sequential() { return rod_formulas::Loops<float, double, 1, 1, ThisUnit>::table; }
+
+}  // namespace pliant

@@ -1,0 +1,159 @@
+// Rods of equal shape are solved side by side (solver/bodies/rod_bundle.h). A rod must move to the bit as it does alone.
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pliant/error.h"
+#include "pliant/random.h"
+#include "rods/rod_support.h"
+#include "solver/bodies/joint_load.h"
+#include "solver/bodies/rod_bundle.h"
+#include "solver/workspace.h"
+
+namespace pliant {
+namespace {
+
+using namespace testing_support;
+
+constexpr int segments = 6;
+
+/// How rods differ from one another besides length, radius, stiffness, direction and motion.
+struct Variety {
+  float damping = 0;       ///< of every rod
+  bool some_free = false;  ///< every third rod is held nowhere
+  float least_modulus = 1e6f;
+};
+
+/// The same rods as objects of their own, and as one object.
+struct Rods {
+  std::vector<Object> alone;
+  Object together;
+
+  explicit Rods(int count, const Variety& variety = {}) {
+    Random random(7);
+    together.name = "together";
+    for (int i = 0; i < count; ++i) {
+      const Vec3f from{0.5f * static_cast<float>(i), 0.3f, 0};
+      const Vec3f to = from + Vec3f{random.between(0.1f, 0.2f), random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f)};
+      RodMaterial material = material_of(double(random.between(variety.least_modulus, 1e8f)), 1e6, 1200);
+      material.damping = variety.damping;
+      RodOptions options = clamped_rod(material, random.between(0.002f, 0.003f));
+      if (variety.some_free && i % 3 == 2) options.start = {};
+      options.name = "rod " + std::to_string(i);
+      options.velocity = {random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)};
+      Object one;
+      one.name = options.name;
+      for (Object* object : {&one, &together}) {
+        add_rod(*object, line(from, to, segments), options);
+        object->self_collision = false;
+      }
+      alone.push_back(std::move(one));
+    }
+  }
+};
+
+/// Positions and orientations of all objects after so many frames.
+struct Outcome {
+  std::vector<Vec3f> positions;
+  std::vector<Quatf> orientations;
+
+  Outcome(Scene scene, const std::vector<Object>& objects, int frames) {
+    for (const Object& object : objects) scene.add(object);
+    World world(scene);
+    for (int frame = 0; frame < frames; ++frame) {
+      const Report report = world.step(frame_time);
+      EXPECT_TRUE(report.ok()) << report.explain();
+    }
+    for (int o = 0; o < static_cast<int>(objects.size()); ++o) {
+      const std::vector<Vec3f> x = world.object(o).positions();
+      const std::vector<Quatf> q = world.object(o).orientations();
+      for (const ObjectBody& body : objects[static_cast<std::size_t>(o)].bodies) {
+        if (body.name.find("rod") == std::string::npos) continue;  // what holds rods in the world is one body of an object
+        positions.push_back(x[static_cast<std::size_t>(body.particle)]);
+        orientations.push_back(q[static_cast<std::size_t>(body.frame)]);
+      }
+    }
+  }
+  bool operator==(const Outcome&) const = default;
+};
+
+Scene plain_scene(int iterations = 1) {
+  Scene scene;
+  scene.settings.substeps = 8;
+  scene.settings.iterations = iterations;
+  scene.settings.threads = 1;
+  return scene;
+}
+
+void expect_as_alone(const Rods& rods, const Scene& scene, int frames = 40) {
+  const Outcome alone(scene, rods.alone, frames), together(scene, {rods.together}, frames);
+  ASSERT_EQ(together.positions.size(), rods.alone.size() * segments);
+  EXPECT_TRUE(alone == together);
+}
+
+TEST(RodBundle, MovesRodsAsAlone) { expect_as_alone(Rods(21), plain_scene()); }
+
+TEST(RodBundle, MovesDampedRodsAsAlone) { expect_as_alone(Rods(21, {0.004f, false, 1e6f}), plain_scene()); }
+
+TEST(RodBundle, MovesRodsThatAreHeldNowhereAsAlone) { expect_as_alone(Rods(33, {0, true, 1e6f}), plain_scene()); }
+
+TEST(RodBundle, MovesRodsAsAloneInSeveralIterations) { expect_as_alone(Rods(20, {0.004f, false, 1e6f}), plain_scene(3)); }
+
+/// Limp rods in few substeps turn faster than these can follow, so joints are solved with their stiffness.
+TEST(RodBundle, MovesRodsThatJointsPullHardAsAlone) {
+  Scene scene = plain_scene();
+  scene.settings.substeps = 2;
+  expect_as_alone(Rods(21, {0.004f, true, 1e4f}), scene);
+}
+
+/// Contact opens joints, which are then closed again.
+TEST(RodBundle, MovesRodsThatFallToTheGroundAsAlone) {
+  Scene scene = plain_scene();
+  Collider ground;
+  ground.position = {0, 0.25f, 0};
+  scene.colliders.push_back(ground);
+  expect_as_alone(Rods(21, {0.004f, true, 1e6f}), scene, 60);
+}
+
+TEST(RodBundle, GivesTheSameBitsAtAllLevels) {
+  const Rods rods(21, {0.004f, true, 1e5f});
+  Scene scene = plain_scene();
+  const Outcome any(scene, {rods.together}, 40);
+  for (const char* isa : {"sequential", "generic", "x86-64-v2", "x86-64-v3", "x86-64-v4"}) {
+    scene.settings.isa = isa;
+    try {
+      EXPECT_TRUE(Outcome(scene, {rods.together}, 40) == any) << isa;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("cannot run"), std::string::npos) << error.what();
+    }
+  }
+}
+
+std::vector<int> sizes_of_bundles(const Object& object, const std::vector<int>& broken = {}) {
+  const CompiledObject compiled = compile(object, {});
+  ObjectJoints joints;
+  set_broken(compiled, broken, joints);
+  std::vector<int> sizes;
+  for (const RodBundle& bundle : joints.bundles) sizes.push_back(bundle.rods);
+  std::sort(sizes.begin(), sizes.end());
+  return sizes;
+}
+
+TEST(RodBundle, HasUpToSixteenRodsAndLeavesOutFewOfAKind) {
+  EXPECT_EQ(sizes_of_bundles(Rods(37).together), (std::vector<int>{5, 16, 16}));
+  EXPECT_EQ(sizes_of_bundles(Rods(35).together), (std::vector<int>{16, 16}));
+  EXPECT_EQ(sizes_of_bundles(Rods(3).together), std::vector<int>{});
+}
+
+TEST(RodBundle, LeavesOutARodThatBreaks) {
+  const Object object = Rods(20).together;
+  const auto joint = std::find_if(object.joints.begin(), object.joints.end(),
+                                  [](const ObjectJoint& its) { return its.name == "rod 5 2-3"; });
+  ASSERT_NE(joint, object.joints.end());
+  EXPECT_EQ(sizes_of_bundles(object), (std::vector<int>{4, 16}));
+  EXPECT_EQ(sizes_of_bundles(object, {static_cast<int>(joint - object.joints.begin())}), std::vector<int>{16});
+}
+
+}  // namespace
+}  // namespace pliant
