@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -20,6 +21,7 @@
 #include "pliant/edit.h"
 #include "pliant/error.h"
 #include "pliant/soft_body.h"
+#include "topology/sort_by_first.h"
 
 namespace pliant {
 
@@ -279,7 +281,10 @@ std::vector<InnerFace> inner_faces(const std::vector<std::array<int, 4>>& tetrah
       sides.emplace_back(face, t);
     }
   }
-  std::sort(sides.begin(), sides.end());
+  const auto first = [](const std::pair<Face, int>& side) { return side.first[0]; };
+  int particles = 0;
+  for (const auto& side : sides) particles = std::max(particles, first(side) + 1);
+  sort_by_first(sides, static_cast<std::size_t>(particles), first, std::less<>());
   std::vector<InnerFace> found;
   for (std::size_t i = 1; i < sides.size(); ++i)
     if (sides[i].first == sides[i - 1].first) found.push_back({sides[i].first, sides[i - 1].second, sides[i].second});

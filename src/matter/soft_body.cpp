@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "matter/fibres.h"
 #include "matter/strain_limit.h"
 #include "pliant/error.h"
+#include "topology/sort_by_first.h"
 
 namespace pliant {
 
@@ -132,7 +134,13 @@ std::vector<Face> sorted_faces(const std::vector<Tetrahedron>& tetrahedra) {
       std::sort(sorted.begin(), sorted.end());
       all.push_back({sorted, t, f});
     }
-  std::stable_sort(all.begin(), all.end(), [](const Face& a, const Face& b) { return a.sorted < b.sorted; });
+  int particles = 0;
+  for (const Face& face : all) particles = std::max(particles, face.sorted[0] + 1);
+  sort_by_first(
+      all, static_cast<std::size_t>(particles), [](const Face& face) { return face.sorted[0]; },
+      [](const Face& a, const Face& b) {
+        return std::tie(a.sorted, a.tetrahedron, a.number) < std::tie(b.sorted, b.tetrahedron, b.number);
+      });
   return all;
 }
 

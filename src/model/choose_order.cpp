@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 
 #include "topology/colouring.h"
 #include "topology/lockstep.h"
 #include "topology/numbering.h"
+#include "topology/sort_by_first.h"
 
 namespace pliant {
 
@@ -22,23 +24,6 @@ constexpr std::size_t fewest_to_choose_for = 64;
 constexpr int most_to_judge_by = 1 << 14;
 
 using Links = std::vector<std::array<int, 2>>;
-
-/// Sorts pairs, by a counting sort of their first particles, and removes those that are there already.
-void keep_one_of_each(Links& links, std::size_t particles) {
-  std::vector<std::size_t> begin(particles + 1, 0);
-  for (const auto& link : links) ++begin[static_cast<std::size_t>(link[0]) + 1];
-  for (std::size_t i = 0; i < particles; ++i) begin[i + 1] += begin[i];
-  std::vector<int> others(links.size());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (const auto& link : links) others[next[static_cast<std::size_t>(link[0])]++] = link[1];
-  links.clear();
-  for (std::size_t i = 0; i < particles; ++i) {
-    const auto first = others.begin() + static_cast<std::ptrdiff_t>(begin[i]);
-    const auto last = others.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]);
-    std::sort(first, last);
-    std::for_each(first, std::unique(first, last), [&](int other) { links.push_back({static_cast<int>(i), other}); });
-  }
-}
 
 /// The pairs of particles that share a constraint, each once: tetrahedra share their edges. If there are two-particle
 /// constraints, only those count: they are the mesh on which larger stencils are built.
@@ -58,7 +43,9 @@ Links links_of(const std::vector<ConstraintList>& lists, std::size_t particles) 
       }
     }
   }
-  keep_one_of_each(links, particles);
+  sort_by_first(
+      links, particles, [](const auto& link) { return link[0]; }, std::less<>());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
   return links;
 }
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <iterator>
 #include <utility>
 
 #include "constraints/registry.h"
 #include "constraints/tetrahedron_shear.h"
 #include "constraints/tetrahedron_volume.h"
 #include "constraints/volume_around_edge.h"
+#include "topology/sort_by_first.h"
 
 namespace pliant {
 
@@ -40,7 +43,10 @@ Shear shear_of(const std::vector<ConstraintList>& lists) {
   for (const ConstraintList& list : lists)
     if (list.type == type && list.law != Law::pbd)
       for (int i = 0; i < list.count(); ++i) out.emplace_back(sorted(corners_of(list, i)), list.response[at(i)]);
-  std::sort(out.begin(), out.end());
+  const auto first = [](const Shear::value_type& one) { return one.first[0]; };
+  int particles = 0;
+  for (const auto& one : out) particles = std::max(particles, first(one) + 1);
+  sort_by_first(out, at(particles), first, std::less<>());
   return out;
 }
 
@@ -82,11 +88,16 @@ class Fans {
  public:
   /// Tetrahedra of the list with 1 in `joins`.
   Fans(const ConstraintList& list, std::vector<char> joins) : is_free_(std::move(joins)) {
+    edges_.reserve(6 * at(list.count()));
+    int particles = 0;
     for (int i = 0; i < list.count(); ++i)
       if (is_free_[at(i)] != 0) add_edges(corners_of(list, i), i, edges_);
-    std::sort(edges_.begin(), edges_.end(), [](const AtEdge& one, const AtEdge& other) {
-      return std::array{one.a, one.b, one.tetrahedron} < std::array{other.a, other.b, other.tetrahedron};
-    });
+    for (const AtEdge& edge : edges_) particles = std::max(particles, edge.a + 1);
+    sort_by_first(
+        edges_, at(particles), [](const AtEdge& edge) { return edge.a; },
+        [](const AtEdge& one, const AtEdge& other) {
+          return std::array{one.a, one.b, one.tetrahedron} < std::array{other.a, other.b, other.tetrahedron};
+        });
     for (std::size_t wanted = most_around; wanted >= 2; --wanted) take(wanted);
   }
 
@@ -98,7 +109,7 @@ class Fans {
     for (std::size_t first = 0, last = 0; first < edges_.size(); first = last) {
       while (last < edges_.size() && edges_[last].a == edges_[first].a && edges_[last].b == edges_[first].b) ++last;
       while (last - first >= wanted) {
-        Fan fan = largest_at(first, last);
+        Fan fan = largest_at(first, last, wanted);
         if (fan.tetrahedra.size() < wanted) break;
         for (const int tetrahedron : fan.tetrahedra) is_free_[at(tetrahedron)] = 0;
         fans_.push_back(std::move(fan));
@@ -106,12 +117,15 @@ class Fans {
     }
   }
 
-  /// The largest fan of free tetrahedra among those of an edge, [first, last).
-  Fan largest_at(std::size_t first, std::size_t last) const {
-    std::vector<AtEdge> free;
-    for (std::size_t i = first; i < last; ++i)
-      if (is_free_[at(edges_[i].tetrahedron)] != 0) free.push_back(edges_[i]);
+  /// The largest fan of free tetrahedra among those of an edge, [first, last); an empty one if fewer than `wanted` are free.
+  Fan largest_at(std::size_t first, std::size_t last, std::size_t wanted) const {
+    const auto is_free = [&](const AtEdge& edge) { return is_free_[at(edge.tetrahedron)] != 0; };
+    const auto from = edges_.begin() + static_cast<std::ptrdiff_t>(first),
+               to = edges_.begin() + static_cast<std::ptrdiff_t>(last);
     Fan best;
+    if (static_cast<std::size_t>(std::count_if(from, to, is_free)) < wanted) return best;
+    std::vector<AtEdge> free;
+    std::copy_if(from, to, std::back_inserter(free), is_free);
     const auto follows = [&](const AtEdge& one) {
       return std::any_of(free.begin(), free.end(), [&](const AtEdge& other) { return other.to == one.from; });
     };
