@@ -65,16 +65,19 @@ PLIANT_HD WideDouble select(const WideDoubleMask& mask, const WideDouble& a, con
 }
 
 /// Eight consecutive floats as doubles.
-PLIANT_HD void load_row(const float* from, WideDouble& to){PLIANT_EACH_PART({
-  HalfPart half;
-  std::memcpy(&half, from + part_width / 2 * i, sizeof half);
-  to.part[i] = __builtin_convertvector(half, DoublePart);
-})}  /// Eight doubles as consecutive floats, rounded to nearest.
+PLIANT_HD void load_row(const float* from, WideDouble& to) {
+  PLIANT_EACH_PART({
+    HalfPart half;
+    std::memcpy(&half, from + part_width / 2 * i, sizeof half);
+    to.part[i] = __builtin_convertvector(half, DoublePart);
+  });
+}
+/// Eight doubles as consecutive floats, rounded to nearest.
 PLIANT_HD void store_row(float* to, const WideDouble& from) {
   PLIANT_EACH_PART({
     const HalfPart half = __builtin_convertvector(from.part[i], HalfPart);
     std::memcpy(to + part_width / 2 * i, &half, sizeof half);
-  })
+  });
 }
 
 }  // namespace PLIANT_ISA

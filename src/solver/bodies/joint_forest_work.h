@@ -29,8 +29,10 @@ struct JointWork {
   float bounds[3 * most_components] = {};  ///< of each row: low, high, speed
 };
 
-/// Calls a function for the forests of each object that takes part; those in bundles of rods may be left out.
+/// Forests that are in bundles of rods.
 enum class Bundled { left_out, included };
+
+/// Calls a function for the forests of each object that takes part.
 void for_trees(Substep& s, bool first_pass, Bundled bundled, FunctionRef<void(JointWork&)> body);
 
 /// Where a constraint of a joint is stored.

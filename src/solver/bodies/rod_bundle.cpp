@@ -202,7 +202,7 @@ class RodSolver {
 
   /// The rods whose joints pulled hard in the last substep, and do so now.
   RodBits pulled_hard() {
-    if (!view_.points.first_pass || s_.number == 0 || !bundle_.has_pulls) return 0;
+    if (!view_.points.first_pass || s_.number == 0) return 0;
     const float scale = view_.points.h * view_.points.h * bundle_.inverse_h2_of_pulls;
     for (RodJoint& joint : bundle_.joints)
       for (auto& of_end : joint.pull)
@@ -229,7 +229,6 @@ class RodSolver {
             const float sum = (view_.points.first_pass ? 0.f : kept) + view_.of_joints[j].pull[end][axis][lane];
             kept = (which >> lane & 1) != 0 ? sum : kept;
           }
-    bundle_.has_pulls = true;
     bundle_.inverse_h2_of_pulls = view_.points.inverse_h2;
   }
 
@@ -288,9 +287,9 @@ std::vector<RodBundle> bundle_rods(const CompiledObject& object, std::vector<Joi
   std::vector<std::size_t> forest_of;
   for (std::size_t f = 0; f < forests.size(); ++f) {
     if (!is_rod(object, forests[f])) continue;
-    alike[OrderedRod(object, forests[f]).shape()].push_back(rods.size());
     rods.emplace_back(object, forests[f]);
     forest_of.push_back(f);
+    alike[rods.back().shape()].push_back(rods.size() - 1);
   }
   std::vector<RodBundle> bundles;
   for (const auto& [shape, members] : alike)

@@ -33,8 +33,8 @@ struct RodNode {
 struct alignas(64) RodJoint {
   RodIndices slots[4];  ///< point and frame of a, then of b; frames count from the object's first one
   RodIndices places;    ///< 16 batch + lane in its pool
-  RodLanes pull[2]
-               [3];  ///< the force on bodies a and b, times h^2 [kg m], of the last substep or of this one's passes so far
+  /// The force on bodies a and b, times h^2 [kg m], of the last substep or of this one's passes so far.
+  RodLanes pull[2][3];
 };
 
 struct alignas(64) RodBody {
@@ -65,7 +65,7 @@ struct RodBundleView {
   const RodBody* places = nullptr;
   RodJointScratch* of_joints = nullptr;
   RodBodyScratch* of_bodies = nullptr;
-  void* blocks = nullptr;  ///< room for rod_block + 6 doubles a joint and lane
+  void* blocks = nullptr;  ///< room for rod_block numbers a joint and 6 a body, each eight doubles, on a cache line
   SweepArguments points{};
   FrameArguments frames{};
 };

@@ -16,6 +16,7 @@
 namespace pliant::rod_formulas {
 
 using namespace joint_tree_formulas;
+using block_tree::is_one_number;
 
 /// `Unit` is a type of an unnamed namespace, so that the linker never mixes the code of two levels.
 template <class F, class D, int lanes, int double_lanes, class Unit>
@@ -203,7 +204,7 @@ struct Loops {
     const RodJointScratch& rows = v.of_joints[j];
     const block_tree::Block<D> to = block(v, j);
     for (int r = 0; r < rod_rows; ++r) {
-      for (int c = r + 1; c < rod_rows; ++c) to.m[r * rod_rows + c] = D(0);
+      for (int c = is_one_number<D> ? 0 : r + 1; c < rod_rows; ++c) to.m[r * rod_rows + c] = D(0);
       to.m[r * rod_rows + r] = -get<D>(rows.compliance[r] + l);
       to.x[r] = -get<D>(rows.value[r] + l);
     }
