@@ -137,9 +137,25 @@ void fields(A& a, Is<WorldLayout::Slot> auto& of) {
   a(number, generation);
 }
 template <class A>
+void fields(A& a, Is<KeptSchedule::Colour> auto& of) {
+  auto& [type, law, tile, runs, is_added, constraints] = of;
+  a(type, law, tile, runs, is_added, constraints);
+}
+template <class A>
+void fields(A& a, Is<KeptSchedule::Fan> auto& of) {
+  auto& [edge_a, edge_b, ring_size, count, ring, tetrahedra] = of;
+  a(edge_a, edge_b, ring_size, count, ring, tetrahedra);
+}
+template <class A>
+void fields(A& a, Is<KeptSchedule> auto& of) {
+  auto& [order, tile_ends, first_added, colours, fans] = of;
+  a(order, tile_ends, first_added, colours, fans);
+}
+template <class A>
 void fields(A& a, Is<WorldLayout> auto& of) {
-  auto& [objects, colliders, mesh_colliders, blocks, first_frames, sweeps, sweep_is_open, substeps_are_open] = of;
-  a(objects, colliders, mesh_colliders, blocks, first_frames, sweeps, sweep_is_open, substeps_are_open);
+  auto& [objects, colliders, mesh_colliders, blocks, first_frames, sweeps, schedules, sweep_is_open, substeps_are_open] =
+      of;
+  a(objects, colliders, mesh_colliders, blocks, first_frames, sweeps, schedules, sweep_is_open, substeps_are_open);
 }
 template <class A>
 void fields(A& a, Is<Fluid> auto& of) {

@@ -8,6 +8,7 @@
 
 #include "pliant/edit.h"
 #include "pliant/handles.h"
+#include "pliant/kept_schedule.h"
 #include "pliant/measurements.h"
 #include "pliant/report.h"
 #include "pliant/scene.h"
@@ -26,6 +27,7 @@ struct WorldLayout {
   std::vector<StateBlock> blocks;                        ///< block of each object or mesh collider
   std::vector<int> first_frames;                         ///< first frame of each object in a State
   std::vector<Sweep> sweeps;                             ///< sweep of each object
+  std::vector<KeptSchedule> schedules;                   ///< of each object; unused where its description decides
   /// True if the settings left them open: objects added later then get their own choice.
   bool sweep_is_open = false, substeps_are_open = false;
 };
@@ -83,8 +85,9 @@ class World {
 
   /// Changes an object that moves: its id stays valid, and every particle with an origin keeps position and velocity
   /// exactly. Pass a changed copy of the description with which it was added, or of description() if it tears. Returns for
-  /// each old particle the first new index, or -1. The cost is that of compiling the object. Throws an Error if the
-  /// description cannot be simulated or `from` does not fit.
+  /// each old particle the first new index, or -1. If the old particles of a large object are the first of the new ones, as after tears, cuts and
+  /// stitches, only constraints with other particles than before are scheduled again; otherwise the cost is that of compiling the object.
+  /// Throws an Error if the description cannot be simulated or `from` does not fit.
   std::vector<int> edit(ObjectId object, const Edit& edit);
 
   /// True if the id refers to an existing object or collider.

@@ -60,8 +60,9 @@ void add_whole_object_phases(CompiledObject& out) {
                    [](const ObjectPhase& a, const ObjectPhase& b) { return a.driver < b.driver; });
 }
 
-/// Compiles an object. `given_away` is that object if its constraints may be moved out of it, else null.
-CompiledObject compile(const Object& object, Object* given_away, const CompileOptions& options) {
+/// Compiles an object. `given_away` is that object if its constraints may be moved out of it, else null. `kept`: null if it is scheduled
+/// for the first time.
+CompiledObject compile(const Object& object, Object* given_away, const CompileOptions& options, const KeptSchedule* kept) {
   CompiledObject out;
   out.name = object.name;
   out.sweep = options.sweep;
@@ -77,12 +78,15 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   const std::vector<ChangingGroup> changing = find_changing_groups(object);  // likewise
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)
                                                             : gather_constraints(object, options.passes);
-  join_volumes(lists);
+  out.fans = join_volumes(lists, kept);
   const bool in_given_order = options.sweep == Sweep::natural;
   if (solves_chains(options.sweep)) split_off_chains(lists, held_by_targets(object, static_cast<double>(options.gravity)));
   std::vector<int> tile;
   const int largest_tile = in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
-  number_particles(positions, lists, largest_tile, tile, out);
+  if (kept != nullptr)
+    number_as_before(*kept, tile, out);
+  else
+    number_particles(positions, lists, largest_tile, tile, out);
   fill_frames(object, out.frames);
   out.bodies = compile_bodies(object, out.place, out.particles);
   for (const DrivenFrame& driven : out.bodies.driven) {  // nothing else turns them
@@ -90,7 +94,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
     out.frames.angular_velocities[static_cast<std::size_t>(driven.frame)] = {};
   }
   fill_kinematics(object, out);
-  schedule(lists, tile, in_given_order, has_tethers(options) || options.sweep == Sweep::multigrid, out);
+  schedule(lists, tile, in_given_order, has_tethers(options) || options.sweep == Sweep::multigrid, kept, out);
   fill_particles(object, positions, out);
   append_chains(lists, options.chain_softness, out);
   schedule_stencils(lists, in_given_order, out);
@@ -157,11 +161,13 @@ void fill_carrier(const MeshCollider& collider, CompiledObject& out) {
 
 }  // namespace
 
-CompiledObject compile(const Object& object, const CompileOptions& options) { return compile(object, nullptr, options); }
+CompiledObject compile(const Object& object, const CompileOptions& options, const KeptSchedule* kept) {
+  return compile(object, nullptr, options, kept);
+}
 
 CompiledObject compile(Object&& object, const CompileOptions& options) {
   const bool is_surface = !object.triangles.empty() && object.bodies.empty();  // else constraints are read again
-  return compile(object, is_surface ? &object : nullptr, options);
+  return compile(object, is_surface ? &object : nullptr, options, nullptr);
 }
 
 CompiledObject compile(const MeshCollider& collider) {

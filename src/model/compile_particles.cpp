@@ -5,6 +5,7 @@
 
 #include "math/quat.h"
 #include "model/choose_order.h"
+#include "model/keep_schedule.h"
 #include "topology/tiles.h"
 
 namespace pliant {
@@ -72,10 +73,10 @@ void fill_kinematics(const Object& object, CompiledObject& out) {
                    [](const Kinematic& a, const Kinematic& b) { return a.particle < b.particle; });
 }
 
-void number_particles(const std::vector<Vec3f>& positions, const std::vector<ConstraintList>& lists, int largest_tile,
-                      std::vector<int>& tile, CompiledObject& out) {
-  tile = cut_into_tiles(positions, largest_tile);
-  out.order = choose_order(positions, tile, lists);
+namespace {
+
+/// Fills the places and tiles of an object from its order, and the tile of each particle.
+void fill_tiles(const std::vector<int>& tile, CompiledObject& out) {
   out.place.resize(out.order.size());
   for (int storage = 0; storage < static_cast<int>(out.order.size()); ++storage) out.place[out.order[storage]] = storage;
   for (int storage = 0; storage < static_cast<int>(out.order.size()); ++storage) {
@@ -83,6 +84,29 @@ void number_particles(const std::vector<Vec3f>& positions, const std::vector<Con
     if (t >= out.tiles.size()) out.tiles.push_back({storage, storage, 0, 0});
     out.tiles[t].last_particle = storage + 1;
   }
+}
+
+}  // namespace
+
+void number_particles(const std::vector<Vec3f>& positions, const std::vector<ConstraintList>& lists, int largest_tile,
+                      std::vector<int>& tile, CompiledObject& out) {
+  tile = cut_into_tiles(positions, largest_tile);
+  out.order = choose_order(positions, tile, lists);
+  fill_tiles(tile, out);
+}
+
+void number_as_before(const KeptSchedule& kept, std::vector<int>& tile, CompiledObject& out) {
+  require_fits(kept, static_cast<std::size_t>(out.particles), out.name);
+  out.order = kept.order;
+  tile.resize(out.order.size());
+  int storage = 0, number = 0;
+  for (const int end : kept.tile_ends) {
+    for (; storage < end; ++storage) tile[out.order[storage]] = number;
+    ++number;
+  }
+  fill_tiles(tile, out);
+  out.additions.are_used = true;
+  out.additions.first_particle = kept.first_added;
 }
 
 }  // namespace pliant

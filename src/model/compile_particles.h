@@ -14,6 +14,8 @@ std::vector<Vec3f> all_positions(const Object& object);
 /// Cuts particles into tiles and numbers them tile by tile. `tile` becomes the tile of each particle, by the user's index.
 void number_particles(const std::vector<Vec3f>& positions, const std::vector<ConstraintList>& lists, int largest_tile,
                       std::vector<int>& tile, CompiledObject& out);
+/// Numbers particles as an earlier schedule does. Throws an Error if that is not one of so many particles.
+void number_as_before(const KeptSchedule& kept, std::vector<int>& tile, CompiledObject& out);
 
 // After number_particles:
 void fill_particles(const Object& object, const std::vector<Vec3f>& positions, CompiledObject& out);

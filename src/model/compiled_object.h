@@ -18,6 +18,7 @@
 #include "model/object_sets.h"
 #include "model/phase.h"
 #include "model/pool.h"
+#include "pliant/kept_schedule.h"
 #include "pliant/scene.h"
 #include "pliant/state.h"
 
@@ -93,6 +94,13 @@ struct LengthRange {
   std::int64_t constraints = 0;  ///< with a rest length above zero, a multiplier, and a free particle
 };
 
+/// What edits added to an object whose schedule was kept (model/keep_schedule.h).
+struct Additions {
+  bool are_used = false;       ///< true: the schedule was kept
+  int first_particle = 0;      ///< in storage; as many as there are particles if none were added
+  std::vector<char> segments;  ///< 1 for each segment of constraints that were coloured by an edit; may be shorter than all
+};
+
 /// The output of compile(). It has over thirty members, because each stage of a step reads a few of them.
 struct CompiledObject {
   std::string name;
@@ -132,6 +140,8 @@ struct CompiledObject {
   float emitted_jitter = 0;          ///< by how much it is off its place along each axis, at most [m]
   bool has_volume = false;
   CompiledVolume volume;
+  std::vector<KeptSchedule::Fan> fans;  ///< of tetrahedra whose volumes are joined, by number of their constraint
+  Additions additions;
   bool self_collision = false, collides = false, is_collider = false;
   int own_substeps = 0;  ///< own_substeps() of model/object_sets.h; 0: a collider
   SubstepRule substep_rule = SubstepRule::any;
@@ -161,8 +171,9 @@ struct CompileOptions {
 CompiledObject compile(const MeshCollider& collider);
 
 /// Compiles an object for which inspect() reports nothing grave. Throws an Error that names an unknown constraint type,
-/// or a constraint group whose particles or rest data have the wrong size.
-CompiledObject compile(const Object& object, const CompileOptions& options);
+/// or a constraint group whose particles or rest data have the wrong size. With a schedule that an edit left
+/// (model/keep_schedule.h) it makes only what is missing; throws an Error if that does not fit.
+CompiledObject compile(const Object& object, const CompileOptions& options, const KeptSchedule* kept = nullptr);
 /// Compiles an object with less memory: its constraints may be moved out of it.
 CompiledObject compile(Object&& object, const CompileOptions& options);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "constraints/registry.h"
@@ -37,12 +38,18 @@ Corners sorted(Corners corners) {
 /// The compliance in shear of each tetrahedron that has one, by sorted corners.
 using Shear = std::vector<std::pair<Corners, float>>;
 
-Shear shear_of(const std::vector<ConstraintList>& lists) {
+/// `is_near`: 1 for particles of tetrahedra that may be joined.
+Shear shear_of(const std::vector<ConstraintList>& lists, const std::vector<char>& is_near) {
   const int type = find_constraint_type(TetrahedronShear::name);
+  const auto has_near = [&](int particle) { return at(particle) < is_near.size() && is_near[at(particle)] != 0; };
   Shear out;
-  for (const ConstraintList& list : lists)
-    if (list.type == type && list.law != Law::pbd)
-      for (int i = 0; i < list.count(); ++i) out.emplace_back(sorted(corners_of(list, i)), list.response[at(i)]);
+  for (const ConstraintList& list : lists) {
+    if (list.type != type || list.law == Law::pbd) continue;
+    for (int i = 0; i < list.count(); ++i) {
+      const Corners corners = corners_of(list, i);
+      if (std::all_of(corners.begin(), corners.end(), has_near)) out.emplace_back(sorted(corners), list.response[at(i)]);
+    }
+  }
   const auto first = [](const Shear::value_type& one) { return one.first[0]; };
   int particles = 0;
   for (const auto& one : out) particles = std::max(particles, first(one) + 1);
@@ -76,12 +83,8 @@ void add_edges(const Corners& c, int tetrahedron, std::vector<AtEdge>& out) {
   }
 }
 
-/// Tetrahedra one after another around an edge.
-struct Fan {
-  int a = 0, b = 0;
-  std::vector<int> ring, tetrahedra;
-  bool closes = false;
-};
+/// Tetrahedra one after another around an edge, by their index in a list.
+using Fan = KeptSchedule::Fan;
 
 /// Divides tetrahedra among edges, largest fans first.
 class Fans {
@@ -109,10 +112,10 @@ class Fans {
     for (std::size_t first = 0, last = 0; first < edges_.size(); first = last) {
       while (last < edges_.size() && edges_[last].a == edges_[first].a && edges_[last].b == edges_[first].b) ++last;
       while (last - first >= wanted) {
-        Fan fan = largest_at(first, last, wanted);
-        if (fan.tetrahedra.size() < wanted) break;
-        for (const int tetrahedron : fan.tetrahedra) is_free_[at(tetrahedron)] = 0;
-        fans_.push_back(std::move(fan));
+        const Fan fan = largest_at(first, last, wanted);
+        if (at(fan.count) < wanted) break;
+        for (int i = 0; i < fan.count; ++i) is_free_[at(fan.tetrahedra[at(i)])] = 0;
+        fans_.push_back(fan);
       }
     }
   }
@@ -132,21 +135,22 @@ class Fans {
     const bool is_ring = std::all_of(free.begin(), free.end(), follows);
     for (const AtEdge& start : free) {
       if (!is_ring && follows(start)) continue;
-      Fan fan = fan_from(start, free);
-      if (fan.tetrahedra.size() > best.tetrahedra.size()) best = std::move(fan);
+      const Fan fan = fan_from(start, free);
+      if (fan.count > best.count) best = fan;
       if (is_ring) break;
     }
     return best;
   }
 
   static Fan fan_from(const AtEdge& start, const std::vector<AtEdge>& free) {
-    Fan fan{start.a, start.b, {start.from}, {}, false};
-    for (const AtEdge* next = &start; next != nullptr && !fan.closes;) {
-      fan.closes = next->to == start.from;
-      const bool is_in_ring = std::find(fan.ring.begin(), fan.ring.end(), next->to) != fan.ring.end();
-      if (!fan.closes && (is_in_ring || fan.ring.size() == most_around)) break;
-      fan.tetrahedra.push_back(next->tetrahedron);
-      if (!fan.closes) fan.ring.push_back(next->to);
+    Fan fan{start.a, start.b, 1, 0, {start.from}, {}};
+    for (const AtEdge* next = &start; next != nullptr && !fan.closes();) {
+      const bool closes = next->to == start.from;
+      const auto end = fan.ring.begin() + fan.ring_size;
+      const bool is_in_ring = std::find(fan.ring.begin(), end, next->to) != end;
+      if (!closes && (is_in_ring || at(fan.ring_size) == most_around)) break;
+      fan.tetrahedra[at(fan.count++)] = next->tetrahedron;
+      if (!closes) fan.ring[at(fan.ring_size++)] = next->to;
       const int from = next->to;
       const auto found = std::find_if(free.begin(), free.end(), [&](const AtEdge& other) { return other.from == from; });
       next = found != free.end() ? &*found : nullptr;
@@ -163,29 +167,28 @@ class Fans {
 void add_fan(const Fan& fan, const ConstraintList& from, int origin, ConstraintList& to) {
   double volume = 0, stiffness = 0, damping = 0;
   bool is_rigid = false;
-  for (const int i : fan.tetrahedra) {
-    const double compliance = static_cast<double>(from.response[at(i)]);
-    volume += static_cast<double>(from.rest[at(i)]);
-    damping += static_cast<double>(from.damping[at(i)]);
+  for (int t = 0; t < fan.count; ++t) {
+    const std::size_t i = at(fan.tetrahedra[at(t)]);
+    const double compliance = static_cast<double>(from.response[i]);
+    volume += static_cast<double>(from.rest[i]);
+    damping += static_cast<double>(from.damping[i]);
     is_rigid = is_rigid || !(compliance > 0);
     stiffness += is_rigid ? 0 : 1 / compliance;
   }
-  for (std::size_t i = 0; i < most_around; ++i) to.stencils.push_back(i < fan.ring.size() ? fan.ring[i] : fan.a);
+  for (int i = 0; i < static_cast<int>(most_around); ++i)
+    to.stencils.push_back(i < fan.ring_size ? fan.ring[at(i)] : fan.a);
   to.stencils.push_back(fan.a);
   to.stencils.push_back(fan.b);
   to.rest.push_back(static_cast<float>(volume));
-  to.rest.push_back(static_cast<float>(fan.ring.size()));
-  to.rest.push_back(fan.closes ? 1.f : 0.f);
+  to.rest.push_back(static_cast<float>(fan.ring_size));
+  to.rest.push_back(fan.closes() ? 1.f : 0.f);
   to.response.push_back(is_rigid ? 0.f : static_cast<float>(1 / stiffness));
   to.damping.push_back(static_cast<float>(damping));
   to.origin.push_back(origin);
 }
 
 /// The tetrahedra of a list that no fan has.
-ConstraintList left_over(const ConstraintList& list, const std::vector<Fan>& fans) {
-  std::vector<char> is_taken(at(list.count()), 0);
-  for (const Fan& fan : fans)
-    for (const int i : fan.tetrahedra) is_taken[at(i)] = 1;
+ConstraintList left_over(const ConstraintList& list, const std::vector<char>& is_taken) {
   ConstraintList out = list.empty();
   for (int i = 0; i < list.count(); ++i) {
     if (is_taken[at(i)] != 0) continue;
@@ -207,38 +210,115 @@ ConstraintList fans_like(const ConstraintList& volumes) {
   return out;
 }
 
-std::vector<char> which_join(const Shear& shear, const ConstraintList& volumes) {
-  std::vector<char> joins;
-  joins.reserve(at(volumes.count()));
-  for (int i = 0; i < volumes.count(); ++i)
-    joins.push_back(volumes.rest[at(i)] > 0 && is_nearly_incompressible(shear, volumes, i) ? 1 : 0);
-  return joins;
+/// The tetrahedra of a list, what an earlier schedule says of them, and the fans that they form.
+class Joining {
+ public:
+  explicit Joining(const ConstraintList& list) : list_(list), is_settled_(at(list.count())), is_taken_(at(list.count())) {
+    static_assert(std::tuple_size_v<decltype(Fan::ring)> == most_around);
+    for (int i = 0; i < list.count(); ++i) {
+      const auto origin = at(list.origin[at(i)]);
+      if (origin >= index_of_.size()) index_of_.resize(std::max(2 * origin, at(list.count())), -1);
+      index_of_[origin] = i;
+    }
+  }
+
+  /// Takes a fan of an earlier schedule, with its number. False if it is not one of free tetrahedra of this list.
+  bool keep(Fan fan, int number) {
+    if (fan.count < 1 || fan.count > static_cast<int>(most_around) || fan.ring_size > static_cast<int>(most_around) ||
+        (fan.ring_size != fan.count && fan.ring_size != fan.count + 1))
+      return false;
+    for (int t = 0; t < fan.count; ++t) {
+      int& tetrahedron = fan.tetrahedra[at(t)];
+      tetrahedron = index_of(tetrahedron);
+      if (tetrahedron < 0 || is_taken_[at(tetrahedron)] != 0) return false;
+      Corners corners{fan.a, fan.b, fan.ring[at(t)], fan.ring[at((t + 1) % fan.ring_size)]};
+      if (sorted(corners) != sorted(corners_of(list_, tetrahedron))) return false;
+    }
+    take(fan, number);
+    return true;
+  }
+
+  /// A tetrahedron that has its own constraint in an earlier schedule keeps it.
+  void settle(int origin) {
+    const int i = index_of(origin);
+    if (i >= 0) is_settled_[at(i)] = 1;
+  }
+
+  /// Joins those that are left to fans with numbers from `number` on.
+  void join(const std::vector<ConstraintList>& lists, int number) {
+    std::vector<char> joins(at(list_.count())), is_near;
+    for (int i = 0; i < list_.count(); ++i) {
+      joins[at(i)] = is_taken_[at(i)] == 0 && is_settled_[at(i)] == 0 && list_.rest[at(i)] > 0 ? 1 : 0;
+      for (const int corner : corners_of(list_, i)) {
+        if (joins[at(i)] == 0) continue;
+        if (at(corner) >= is_near.size()) is_near.resize(2 * at(corner) + 1);
+        is_near[at(corner)] = 1;
+      }
+    }
+    const Shear shear = shear_of(lists, is_near);
+    for (int i = 0; i < list_.count(); ++i)
+      if (joins[at(i)] != 0 && !is_nearly_incompressible(shear, list_, i)) joins[at(i)] = 0;
+    const Fans fans(list_, std::move(joins));
+    for (const Fan& fan : fans.all()) take(fan, number++);
+  }
+
+  /// Each with its number.
+  const std::vector<std::pair<Fan, int>>& fans() const { return fans_; }
+  const std::vector<char>& taken() const { return is_taken_; }
+
+ private:
+  int index_of(int origin) const { return origin >= 0 && at(origin) < index_of_.size() ? index_of_[at(origin)] : -1; }
+  void take(const Fan& fan, int number) {
+    for (int t = 0; t < fan.count; ++t) is_taken_[at(fan.tetrahedra[at(t)])] = 1;
+    fans_.emplace_back(fan, number);
+  }
+
+  const ConstraintList& list_;
+  std::vector<int> index_of_;                ///< by number among the constraints of the type
+  std::vector<char> is_settled_, is_taken_;  ///< by index in the list
+  std::vector<std::pair<Fan, int>> fans_;
+};
+
+/// A fan whose tetrahedra are numbered as the constraints of the type are.
+Fan by_number(Fan fan, const ConstraintList& list) {
+  for (int t = 0; t < fan.count; ++t) fan.tetrahedra[at(t)] = static_cast<int>(list.origin[at(fan.tetrahedra[at(t)])]);
+  return fan;
+}
+
+/// Replaces the tetrahedra of a list that are joined, and appends the list of their fans.
+void join_list(ConstraintList& list, const std::vector<ConstraintList>& lists, const KeptSchedule* kept,
+               std::vector<Fan>& fans, std::vector<ConstraintList>& joined) {
+  Joining joining(list);
+  for (std::size_t i = 0; kept != nullptr && i < kept->fans.size(); ++i)
+    if (fans[i].count == 0 && joining.keep(kept->fans[i], static_cast<int>(i))) fans[i] = kept->fans[i];
+  for (std::size_t c = 0; kept != nullptr && c < kept->colours.size(); ++c)
+    if (kept->colours[c].type == list.type && kept->colours[c].law == static_cast<int>(list.law))
+      for (const int origin : kept->colours[c].constraints) joining.settle(origin);
+  joining.join(lists, static_cast<int>(fans.size()));
+  if (joining.fans().empty()) return;
+  joined.push_back(fans_like(list));
+  for (const auto& [fan, number] : joining.fans()) {
+    add_fan(fan, list, number, joined.back());
+    if (at(number) == fans.size()) fans.push_back(by_number(fan, list));
+  }
+  list = left_over(list, joining.taken());
 }
 
 }  // namespace
 
-void join_volumes(std::vector<ConstraintList>& lists) {
+std::vector<KeptSchedule::Fan> join_volumes(std::vector<ConstraintList>& lists, const KeptSchedule* kept) {
   const int type = find_constraint_type(TetrahedronVolume::name);
-  const auto may_join = [type](const ConstraintList& list) {
-    return list.type == type && list.law != Law::pbd && !list.changes;
-  };
-  if (std::none_of(lists.begin(), lists.end(), may_join)) return;
-  const Shear shear = shear_of(lists);
+  std::vector<Fan> fans(kept != nullptr ? kept->fans.size() : 0);
   std::vector<ConstraintList> joined;
-  int origin = 0;
-  for (ConstraintList& list : lists) {
-    if (!may_join(list)) continue;
-    const Fans fans(list, which_join(shear, list));
-    if (fans.all().empty()) continue;
-    joined.push_back(fans_like(list));
-    for (const Fan& fan : fans.all()) add_fan(fan, list, origin++, joined.back());
-    list = left_over(list, fans.all());
-  }
+  for (ConstraintList& list : lists)
+    if (list.type == type && list.law != Law::pbd && !list.changes) join_list(list, lists, kept, fans, joined);
+  if (joined.empty()) return fans;
   std::erase_if(lists, [](const ConstraintList& list) { return list.count() == 0; });
   for (ConstraintList& list : joined) lists.push_back(std::move(list));
   std::stable_sort(lists.begin(), lists.end(), [](const ConstraintList& one, const ConstraintList& other) {
     return std::pair{one.type, one.law} < std::pair{other.type, other.law};
   });
+  return fans;
 }
 
 }  // namespace pliant

@@ -9,6 +9,7 @@
 
 #include "constraints/registry.h"
 #include "model/fill_pool.h"
+#include "model/keep_schedule.h"
 #include "model/tied_bodies.h"
 #include "topology/colouring.h"
 
@@ -129,6 +130,7 @@ std::vector<Colour> one_by_one(const std::vector<int>& members) {
 /// The segments of one constraint list: tile by tile, then inter-tile constraints by colour.
 struct ListSchedule {
   std::vector<Segment> segments;
+  std::vector<char> are_added;            ///< 1 for each segment that was coloured after an edit
   std::vector<int> tile_end, colour_end;  ///< one past the last segment of each tile; of each inter-tile colour
 };
 
@@ -140,25 +142,42 @@ void reserve(const ConstraintList& list, Pool& pool) {
   pool.origin.reserve(lanes);
 }
 
-ListSchedule schedule_list(ConstraintList& list, const std::vector<int>& tile_of, int tiles, bool in_given_order,
-                           int number, Colouring& colouring, Pool& pool) {
-  ListSchedule out;
-  const ByTile split = split_by_tile(list, tile_of, tiles);
-  reserve(list, pool);
-  for (int t = 0; t <= tiles; ++t) {
-    const bool inter_tile = t == tiles;
-    const std::vector<int> members = split.of(t);
-    const std::vector<Colour> colours =
-        in_given_order ? one_by_one(members) : colouring.colour(list.stencils.own(), list.size, members);
-    for (const Colour& colour : colours) {
-      append_colour(list, colour, inter_tile ? batches_per_inter_tile_task : 1 << 30, number, pool, out.segments);
-      if (inter_tile) out.colour_end.push_back(static_cast<int>(out.segments.size()));
+/// What all lists of an object are scheduled with.
+struct Scheduler {
+  const std::vector<int>& tile_of;  ///< of each particle, by its place in storage
+  int tiles = 0;
+  bool in_given_order = false;
+  const KeptSchedule* kept = nullptr;
+  Colouring colouring;
+
+  ListSchedule schedule(ConstraintList& list, int number, Pool& pool) {
+    ListSchedule out;
+    const ByTile split = split_by_tile(list, tile_of, tiles);
+    KeptColours colours;
+    if (kept != nullptr) colours = keep_colours(*kept, list, tile_of, tiles);
+    reserve(list, pool);
+    for (int t = 0; t <= tiles; ++t) {
+      std::vector<int> members = split.of(t);
+      const int largest = t == tiles ? batches_per_inter_tile_task : 1 << 30;
+      const auto append = [&](const std::vector<Colour>& all, bool are_added) {
+        for (const Colour& colour : all) {
+          append_colour(list, colour, largest, number, pool, out.segments);
+          out.are_added.resize(out.segments.size(), are_added ? 1 : 0);
+          if (t == tiles) out.colour_end.push_back(static_cast<int>(out.segments.size()));
+        }
+      };
+      if (kept != nullptr) {
+        append(colours.of_tile[static_cast<std::size_t>(t)], false);
+        std::erase_if(members, [&](int member) { return colours.is_kept[static_cast<std::size_t>(member)] != 0; });
+      }
+      append(in_given_order ? one_by_one(members) : colouring.colour(list.stencils.own(), list.size, members),
+             kept != nullptr);
+      if (t < tiles) out.tile_end.push_back(static_cast<int>(out.segments.size()));
     }
-    if (!inter_tile) out.tile_end.push_back(static_cast<int>(out.segments.size()));
+    if (pool.indices.capacity() > 2 * pool.indices.size()) pool.indices.shrink_to_fit();  // most slots are contiguous
+    return out;
   }
-  if (pool.indices.capacity() > 2 * pool.indices.size()) pool.indices.shrink_to_fit();  // most slots are contiguous
-  return out;
-}
+};
 
 /// Merges the segments of all lists: tile by tile, then inter-tile colour by colour; within each, in the order of the
 /// lists.
@@ -167,6 +186,8 @@ void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
   const auto append_to = [&](std::size_t i, int end) {
     const auto first = schedules[i].segments.begin();
     out.segments.insert(out.segments.end(), first + next[i], first + end);
+    const auto added = schedules[i].are_added.begin();
+    if (out.additions.are_used) out.additions.segments.insert(out.additions.segments.end(), added + next[i], added + end);
     next[i] = end;
   };
   for (std::size_t t = 0; t < out.tiles.size(); ++t) {
@@ -193,18 +214,16 @@ bool is_needed_later(const ConstraintList& list, bool keeps_lengths) {
 }  // namespace
 
 void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, bool in_given_order, bool keeps_lengths,
-              CompiledObject& out) {
+              const KeptSchedule* kept, CompiledObject& out) {
   std::vector<int> tile_of(tile.size());  // tile of each particle, by storage index
   for (std::size_t storage = 0; storage < tile.size(); ++storage) tile_of[storage] = tile[out.order[storage]];
   std::vector<ListSchedule> schedules(lists.size());
-  Colouring colouring(out.particles);
+  Scheduler scheduler{tile_of, static_cast<int>(out.tiles.size()), in_given_order, kept, Colouring(out.particles)};
   for (std::size_t i = 0; i < lists.size(); ++i) {
     ConstraintList& list = lists[i];
     renumber(list, out.place);
     out.pools.push_back(make_pool(list));
-    if (!list.chained && list.in_lanes)
-      schedules[i] = schedule_list(list, tile_of, static_cast<int>(out.tiles.size()), in_given_order, static_cast<int>(i),
-                                   colouring, out.pools[i]);
+    if (!list.chained && list.in_lanes) schedules[i] = scheduler.schedule(list, static_cast<int>(i), out.pools[i]);
     if (!is_needed_later(list, keeps_lengths)) list = list.empty();
   }
   merge(schedules, out);

@@ -10,9 +10,9 @@ namespace pliant {
 
 /// Schedules one list after another, and frees each that no later step of compile() reads, to limit the peak of memory. `tile` is that
 /// of each particle, by the user's index. With `in_given_order`, each constraint has a colour of its own; with `keeps_lengths`, lists of distance
-/// constraints stay.
+/// constraints stay. Constraints that have a place in `kept` (null: there is none) stay there, others get new colours.
 void schedule(std::vector<ConstraintList>& lists, const std::vector<int>& tile, bool in_given_order, bool keeps_lengths,
-              CompiledObject& out);
+              const KeptSchedule* kept, CompiledObject& out);
 
 /// Schedules the constraints that are projected one at a time, list by list, in colours over the whole object. Frames
 /// have indices after all particles.

@@ -5,6 +5,7 @@
 
 #include "inspect/inspect_scene.h"
 #include "matter/advice_settings.h"
+#include "model/keep_schedule.h"
 #include "model/layout.h"
 #include "pliant/error.h"
 #include "world/groups.h"
@@ -87,7 +88,8 @@ WorldData::WorldData(const Scene& scene, const WorldLayout& layout)
   if (open.substeps) given.substeps = 0;
   open.departs = departures(scene, given, scene.settings);
   const std::size_t count = layout.blocks.size();
-  if (layout.first_frames.size() != count || layout.sweeps.size() != count) refuse("its columns differ in length");
+  if (layout.first_frames.size() != count || layout.sweeps.size() != count || layout.schedules.size() != count)
+    refuse("its columns differ in length");
   std::vector<char> taken(count, 0), taken_colliders(scene.colliders.size(), 0);
   const std::vector<int> of_objects = numbers_in(layout.objects, scene.objects.size(), taken),
                          of_meshes = numbers_in(layout.mesh_colliders, scene.mesh_colliders.size(), taken),
@@ -97,7 +99,9 @@ WorldData::WorldData(const Scene& scene, const WorldLayout& layout)
   std::vector<CompiledObject> objects(count);
   for (std::size_t i = 0; i < of_objects.size(); ++i) {
     if (layout.sweeps[of_objects[i]] == Sweep::automatic) refuse("an object has no sweep");
-    objects[of_objects[i]] = compile(scene.objects[i], compile_options(*this, layout.sweeps[of_objects[i]]));
+    const KeptSchedule& kept = layout.schedules[of_objects[i]];
+    objects[of_objects[i]] =
+        compile(scene.objects[i], compile_options(*this, layout.sweeps[of_objects[i]]), kept.is_used() ? &kept : nullptr);
   }
   for (std::size_t i = 0; i < of_meshes.size(); ++i) {
     objects[of_meshes[i]] = compile(scene.mesh_colliders[i]);
@@ -134,10 +138,19 @@ World::World(const Scene& scene, const WorldLayout& layout) {
 }
 
 WorldLayout World::layout() const {
-  WorldLayout layout{data_->ids.objects.layout(), data_->ids.colliders.layout(), data_->ids.mesh_colliders.layout(),
-                     data_->state.blocks,         data_->model.first_frame,      {},
-                     data_->open.sweep,           data_->open.substeps};
-  for (const CompiledObject& object : data_->model.objects) layout.sweeps.push_back(object.sweep);
+  WorldLayout layout{data_->ids.objects.layout(),
+                     data_->ids.colliders.layout(),
+                     data_->ids.mesh_colliders.layout(),
+                     data_->state.blocks,
+                     data_->model.first_frame,
+                     {},
+                     {},
+                     data_->open.sweep,
+                     data_->open.substeps};
+  for (const CompiledObject& object : data_->model.objects) {
+    layout.sweeps.push_back(object.sweep);
+    layout.schedules.push_back(object.additions.are_used ? schedule_of(object) : KeptSchedule{});
+  }
   return layout;
 }
 

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "inspect/inspect_scene.h"
 #include "matter/advice_settings.h"
 #include "matter/surroundings.h"
+#include "model/keep_schedule.h"
 #include "model/object_sets.h"
 #include "pliant/error.h"
 #include "solver/sweeps/sweep.h"
@@ -161,7 +163,10 @@ std::vector<int> edit_object(WorldData& world, ObjectId object, const Edit& edit
   const Sweep sweep = edit.object.sweep == Sweep::automatic ? old.sweep : edit.object.sweep;
   require_accelerable(world, sweep, edit.object.name);
   world.overstretch.forget_object(object.slot);
-  replace_object(world, number, compile(edit.object, compile_options(world, sweep)), edit.from);
+  const std::optional<KeptSchedule> kept =
+      sweep == old.sweep ? follow_edit(old, edit.object, edit.from) : std::optional<KeptSchedule>{};
+  const KeptSchedule* const to_keep = kept ? &*kept : nullptr;
+  replace_object(world, number, compile(edit.object, compile_options(world, sweep), to_keep), edit.from);
   keep_description(world, object.slot, &edit.object);
   return news;
 }
