@@ -37,6 +37,18 @@ class Column {
     ++size_;
   }
 
+  /// Appends a number `count` times.
+  void append(T value, std::size_t count) {
+    if (count == 0) return;
+    if (size_ == 0) same_ = value;
+    if (own_.empty() && given_ == nullptr && is_same(value)) {
+      size_ += count;
+      return;
+    }
+    own().insert(own_.end(), count, value);
+    size_ += count;
+  }
+
   /// Appends an array, which must outlive the column and stay unchanged. The first one appended is not copied.
   void append(const std::vector<T>& values) {
     if (values.empty()) return;
@@ -96,6 +108,12 @@ class Ordinals {
     if (runs_.empty() || runs_.back().second + static_cast<int>(size_ - runs_.back().first) != value)
       runs_.emplace_back(size_, value);
     ++size_;
+  }
+  /// Appends `count` consecutive numbers.
+  void append(int first, std::size_t count) {
+    if (count == 0) return;
+    push_back(first);
+    size_ += count - 1;
   }
 
   std::size_t size() const { return size_; }

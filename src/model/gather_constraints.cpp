@@ -14,7 +14,7 @@ namespace pliant {
 namespace {
 
 /// Computes the rest data of one constraint from the initial positions and orientations.
-void measure(const ConstraintDefinition& type, const Object& object, const int* stencil, Column<float>& rest) {
+void measure(const ConstraintDefinition& type, const Object& object, const int* stencil, float* rest) {
   double slots[4 * most_slots], fields[most_rest_fields];
   for (std::size_t slot = 0; slot < type.slots.size(); ++slot) {
     double* to = slots + 4 * slot;
@@ -28,7 +28,7 @@ void measure(const ConstraintDefinition& type, const Object& object, const int* 
     }
   }
   type.measure(slots, fields);
-  for (std::size_t i = 0; i < type.rest_fields.size(); ++i) rest.push_back(static_cast<float>(fields[i]));
+  for (std::size_t i = 0; i < type.rest_fields.size(); ++i) rest[i] = static_cast<float>(fields[i]);
 }
 
 Law law_of(const Stiffness& stiffness) {
@@ -123,6 +123,14 @@ class Gatherer {
     }
   }
 
+  /// The rest data of a group, from the initial positions.
+  std::vector<float> measured(const ConstraintGroup& group, const ConstraintDefinition& type, std::size_t count) const {
+    const std::size_t size = type.slots.size(), fields = type.rest_fields.size();
+    std::vector<float> rest(count * fields);
+    for (std::size_t i = 0; i < count; ++i) measure(type, object_, &group.particles[i * size], &rest[i * fields]);
+    return rest;
+  }
+
   void add_group(const ConstraintGroup& group, ConstraintGroup* given_away, int type) {
     const ConstraintDefinition& definition = constraint_type(type);
     require_sizes(group, definition);
@@ -132,14 +140,16 @@ class Gatherer {
     list.rest.append(group.rest);
     const bool has_own = !group.compliances.empty();
     const bool as_given = has_own && group.stiffness.kind == Stiffness::Kind::compliance;
-    if (as_given) list.response.append(group.compliances);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (group.rest.empty() && list.fields > 0) measure(definition, object_, &group.particles[i * size], list.rest);
-      if (!as_given)
-        list.response.push_back(response(group.stiffness, has_own ? group.compliances[i] : group.stiffness.value));
-      list.damping.push_back(group.stiffness.damping);
-      list.origin.push_back(next_origin_[type]++);
-    }
+    if (as_given)
+      list.response.append(group.compliances);
+    else if (has_own)
+      for (const float compliance : group.compliances) list.response.push_back(response(group.stiffness, compliance));
+    else
+      list.response.append(response(group.stiffness, group.stiffness.value), count);
+    if (group.rest.empty() && list.fields > 0) list.rest.append(measured(group, definition, count));
+    list.damping.append(group.stiffness.damping, count);
+    list.origin.append(next_origin_[type], count);
+    next_origin_[type] += static_cast<int>(count);
     append_stencils(group, given_away, definition, list);  // last, because this may move the stencils
   }
 

@@ -63,36 +63,44 @@ ByTile split_by_tile(ConstraintList& list, const std::vector<int>& tile_of, int 
   return split;
 }
 
-/// The constraint in a lane of a batch. With groups of four, lane 4 l + j has member l of group j (see math/wide.h).
+/// The constraints in the lanes of a batch. With groups of four, lane 4 l + j has member l of group j (see math/wide.h).
 /// Lanes beyond the last constraint repeat the first one; they are read, but never written.
-int member_in_lane(const Colour& colour, int batch, int lane, bool& valid) {
-  const int position = colour.runs != 0 ? batch * batch_width + 4 * (lane % 4) + lane / 4 : batch * batch_width + lane;
-  valid = position < static_cast<int>(colour.members.size());
-  return colour.members[valid ? position : batch * batch_width];
-}
+struct BatchMembers {
+  std::array<int, batch_width> member{};
+  std::array<bool, batch_width> is_valid{};
+
+  BatchMembers(const Colour& colour, int batch) {
+    const auto first = static_cast<std::size_t>(batch) * batch_width;
+    for (std::size_t lane = 0; lane < batch_width; ++lane) {
+      const std::size_t position = first + (colour.runs != 0 ? 4 * (lane % 4) + lane / 4 : lane);
+      is_valid[lane] = position < colour.members.size();
+      member[lane] = colour.members[is_valid[lane] ? position : first];
+    }
+  }
+};
 
 void append_batch(const ConstraintList& list, const std::vector<Row>& rows, const Colour& colour, int batch, Pool& pool) {
+  const BatchMembers members(colour, batch);
   const std::size_t block = pool.blocks.size();
   pool.blocks.resize(block + pool.block_floats);
-  bool valid = true;
-  for (int lane = 0; lane < batch_width; ++lane) {
-    const int member = member_in_lane(colour, batch, lane, valid);
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      if (pool.row_offset[row] >= 0) pool.blocks[block + pool.row_offset[row] + lane] = rows[row].at(member);
-    }
-    pool.origin.push_back(valid ? list.origin[member] : -1);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (pool.row_offset[row] < 0) continue;
+    float* const to = &pool.blocks[block + pool.row_offset[row]];
+    for (std::size_t lane = 0; lane < batch_width; ++lane) to[lane] = rows[row].at(members.member[lane]);
   }
+  for (std::size_t lane = 0; lane < batch_width; ++lane)
+    pool.origin.push_back(members.is_valid[lane] ? list.origin[static_cast<std::size_t>(members.member[lane])] : -1);
   for (int slot = 0; slot < list.size; ++slot) {
-    for (int lane = 0; lane < ((colour.runs >> slot & 1) != 0 ? 4 : batch_width); ++lane) {
-      const int member = member_in_lane(colour, batch, lane, valid);
-      pool.indices.push_back(list.stencils[static_cast<std::size_t>(member) * list.size + slot]);
-    }
+    const std::size_t lanes = (colour.runs >> slot & 1) != 0 ? 4 : batch_width;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      pool.indices.push_back(list.stencils[static_cast<std::size_t>(members.member[lane]) * list.size + slot]);
   }
   ++pool.batches;
 }
 
 /// Appends batches [first, last) of a colour to a pool, and returns them as a segment.
-Segment append_segment(const ConstraintList& list, const Colour& colour, int first, int last, int pool_number, Pool& pool) {
+Segment append_segment(const ConstraintList& list, const std::vector<Row>& rows, const Colour& colour, int first, int last,
+                       int pool_number, Pool& pool) {
   const int count = static_cast<int>(colour.members.size());
   Segment segment;
   segment.pool = pool_number;
@@ -102,7 +110,6 @@ Segment append_segment(const ConstraintList& list, const Colour& colour, int fir
   const int in_last = std::min(batch_width, count - (last - 1) * batch_width);
   segment.last_count = colour.runs != 0 ? in_last / 4 : in_last;
   segment.index_offset = static_cast<std::int64_t>(pool.indices.size());
-  const std::vector<Row> rows = rows_of(list);
   for (int batch = first; batch < last; ++batch) append_batch(list, rows, colour, batch, pool);
   return segment;
 }
@@ -112,9 +119,10 @@ Segment append_segment(const ConstraintList& list, const Colour& colour, int fir
 void append_colour(const ConstraintList& list, const Colour& colour, int largest, int pool_number, Pool& pool,
                    std::vector<Segment>& segments) {
   const int batches = (static_cast<int>(colour.members.size()) + batch_width - 1) / batch_width;
+  const std::vector<Row> rows = rows_of(list);
   for (int first = 0; first < batches;) {
     const int last = first + std::min(batches - first, largest);
-    segments.push_back(append_segment(list, colour, first, last, pool_number, pool));
+    segments.push_back(append_segment(list, rows, colour, first, last, pool_number, pool));
     first = last;
   }
 }
