@@ -68,7 +68,7 @@ std::optional<Edit> break_constraints(const Object& object, std::span<const Vec3
       if (force(c) > static_cast<double>(group.break_force)) broken.insert({g, c});
   }
   if (broken.empty()) return {};
-  return unchanged(without_constraints(object, broken));
+  return edit_to(without_constraints(object, broken));
 }
 
 }  // namespace pliant

@@ -28,17 +28,20 @@ double area_of(const Object& object, int t) {
 class Cut {
  public:
   Cut(const Object& object, const std::set<Edge>& edges, const std::vector<char>& whole)
-      : object_(object), edges_(edges), around_(triangles_around(object)) {
+      : object_(object), edges_(edges), is_split_(object.positions.size()) {
     std::set<int> ends;
-    for (const auto& [a, b] : edges_) ends.insert({a, b});
-    for (const int p : ends)
-      if (whole.empty() || whole[static_cast<std::size_t>(p)] == 0) split(p);
+    for (const auto& [a, b] : edges_)
+      for (const int p : {a, b})
+        if (whole.empty() || whole[static_cast<std::size_t>(p)] == 0) ends.insert(p);
+    std::vector<char> at(object.positions.size());
+    for (const int p : ends) at[static_cast<std::size_t>(p)] = 1;
+    around_ = Around(object.triangles, at);
+    for (const int p : ends) split(p);
   }
 
   Edit make() {
-    Edit edit{object_, {}};
+    Edit edit = edit_to(object_);
     edit.object.skin.reset();
-    for (int p = 0; p < particles(); ++p) edit.from.push_back(p);
     edit.from.insert(edit.from.end(), origins_.begin(), origins_.end());
     share_masses(edit.object);
     for (const int origin : origins_) {
@@ -46,22 +49,17 @@ class Cut {
       edit.object.positions.push_back(object_.positions[at]);
       if (!object_.velocities.empty()) edit.object.velocities.push_back(object_.velocities[at]);
     }
-    for (std::size_t t = 0; t < object_.triangles.size(); ++t)
-      for (int& corner : edit.object.triangles[t]) corner = copy(corner, static_cast<int>(t));
-    for (ConstraintGroup& group : edit.object.constraints) group = split(group);
-    for (std::size_t i = 0; i < origins_.size(); ++i) {
-      hold_like(origins_[i], particles() + static_cast<int>(i), edit.object);
+    for (const auto& [place, copy] : copies_) {
+      std::array<int, 3>& corners = edit.object.triangles[static_cast<std::size_t>(place.second)];
+      std::replace(corners.begin(), corners.end(), place.first, copy);
     }
+    split_constraints(edit.object.constraints);
+    hold_like(origins_, particles(), edit.object);
     return edit;
   }
 
  private:
-  int particles() const { return static_cast<int>(around_.size()); }
-
-  bool is_split(int p) const {
-    const auto found = copies_.lower_bound({p, -1});
-    return found != copies_.end() && found->first.first == p;
-  }
+  int particles() const { return static_cast<int>(object_.positions.size()); }
 
   /// The copy of particle p that triangle t uses; p itself if it uses no copy.
   int copy(int p, int t) const {
@@ -71,7 +69,7 @@ class Cut {
 
   /// Splits a particle by its fans of triangles: the first fan keeps it.
   void split(int p) {
-    const std::vector<int>& around = around_[static_cast<std::size_t>(p)];
+    const std::span<const int> around = around_[p];
     std::set<int> left(around.begin(), around.end());
     for (bool first = true; !left.empty(); first = false) {
       std::vector<int> fan{*left.begin()};
@@ -88,6 +86,7 @@ class Cut {
       }
       if (first) continue;
       origins_.push_back(p);
+      is_split_[static_cast<std::size_t>(p)] = 1;
       for (const int t : fan) copies_[{p, t}] = particles() + static_cast<int>(origins_.size()) - 1;
     }
   }
@@ -106,7 +105,7 @@ class Cut {
     for (std::size_t i = 0; i < origins_.size(); ++i) {
       const auto origin = static_cast<std::size_t>(origins_[i]);
       double whole = 0, part = 0;
-      for (const int t : around_[origin]) {
+      for (const int t : around_[origins_[i]]) {
         whole += area_of(object_, t);
         if (copy(origins_[i], t) == particles() + static_cast<int>(i)) part += area_of(object_, t);
       }
@@ -118,36 +117,44 @@ class Cut {
     }
   }
 
-  /// Distributes a group's constraints: those on one side of the cut follow it, edges on the cut are doubled, others
-  /// are removed.
-  ConstraintGroup split(const ConstraintGroup& group) const {
-    const ConstraintType& type = type_of(group, object_);
-    const int slots = type.stencil_size;
-    ConstraintGroup out = empty_like(group);
-    for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
-      const std::vector<int> stencil = stencil_of(group, slots, c), points = points_of(type, stencil, object_);
-      if (std::none_of(points.begin(), points.end(), [&](int p) { return is_split(p); })) {
-        append(group, c, stencil, 1, out);
-        continue;
-      }
-      const std::vector<int> triangles = triangles_of(points, object_, around_);
-      if (triangles.empty()) {
-        append_for_copies(group, c, stencil, out);
-        continue;
-      }
-      std::map<std::vector<int>, double> sides;  // area of the triangles on each side; key: stencil on that side
-      double whole = 0;
-      for (const int t : triangles) {
-        std::vector<int> side = copies(points, t, triangles);
-        for (std::size_t slot = 0; slot < side.size(); ++slot)
-          if (side[slot] < 0) side[slot] = stencil[slot];
-        sides[side] += area_of(object_, t);
-        whole += area_of(object_, t);
-      }
-      if (sides.size() > 1 && slots > 2) continue;
-      for (const auto& [side, area] : sides) append(group, c, side, sides.size() > 1 && area > 0 ? whole / area : 1, out);
+  /// Distributes the constraints on particles that split. Other particles of these are looked up in their triangles too.
+  void split_constraints(std::vector<ConstraintGroup>& groups) {
+    std::vector<std::vector<int>> reached;  // of each group
+    std::vector<char> at(object_.positions.size());
+    for (const ConstraintGroup& group : groups) {
+      const ConstraintType& type = type_of(group, object_);
+      reached.push_back(constraints_at(group, is_split_, object_));
+      for (const int c : reached.back())
+        for (const int p : points_of(type, stencil_of(group, type.stencil_size, c), object_))
+          if (p >= 0) at[static_cast<std::size_t>(p)] = 1;
     }
-    return out;
+    around_ = Around(object_.triangles, at);
+    for (std::size_t g = 0; g < groups.size(); ++g) groups[g] = split(groups[g], reached[g]);
+  }
+
+  ConstraintGroup split(const ConstraintGroup& group, const std::vector<int>& reached) const {
+    const ConstraintType& type = type_of(group, object_);
+    return rewritten(group, type.stencil_size, reached, [&](int c, ConstraintGroup& out) { split(group, type, c, out); });
+  }
+
+  /// A constraint on one side of the cut follows it, an edge on the cut is doubled, others are removed.
+  void split(const ConstraintGroup& group, const ConstraintType& type, int number, ConstraintGroup& out) const {
+    const int slots = type.stencil_size;
+    const std::vector<int> stencil = stencil_of(group, slots, number), points = points_of(type, stencil, object_),
+                           triangles = triangles_of(points, object_, around_);
+    if (triangles.empty()) return append_for_copies(group, number, stencil, out);
+    std::map<std::vector<int>, double> sides;  // area of the triangles on each side; key: stencil on that side
+    double whole = 0;
+    for (const int t : triangles) {
+      std::vector<int> side = copies(points, t, triangles);
+      for (std::size_t slot = 0; slot < side.size(); ++slot)
+        if (side[slot] < 0) side[slot] = stencil[slot];
+      sides[side] += area_of(object_, t);
+      whole += area_of(object_, t);
+    }
+    if (sides.size() > 1 && slots > 2) return;
+    for (const auto& [side, area] : sides)
+      append(group, number, side, sides.size() > 1 && area > 0 ? whole / area : 1, out);
   }
 
   /// Appends a constraint that belongs to no triangle. What ties a particle to a body also ties its copies.
@@ -181,32 +188,27 @@ class Cut {
 
   const Object& object_;
   const std::set<Edge>& edges_;
-  Around around_;
+  Around around_;                              ///< at the particles that are looked up
+  std::vector<char> is_split_;                 ///< by particle
   std::map<std::pair<int, int>, int> copies_;  ///< copy that a triangle uses of a particle; key: particle and triangle
   std::vector<int> origins_;                   ///< original particle of each copy
 };
 
 }  // namespace
 
-Around triangles_around(const Object& object, const std::vector<char>* present) {
-  Around around(object.positions.size());
-  for (std::size_t t = 0; t < object.triangles.size(); ++t) {
-    if (present != nullptr && (*present)[t] == 0) continue;
-    for (const int corner : object.triangles[t]) {
-      if (corner < 0 || corner >= static_cast<int>(around.size()))
+void require_triangles(const Object& object) {
+  for (std::size_t t = 0; t < object.triangles.size(); ++t)
+    for (const int corner : object.triangles[t])
+      if (corner < 0 || corner >= static_cast<int>(object.positions.size()))
         throw Error({.object = object.name, .element = "triangle " + std::to_string(t)},
                     "uses a particle that does not exist", "particles count from 0");
-      around[static_cast<std::size_t>(corner)].push_back(static_cast<int>(t));
-    }
-  }
-  return around;
 }
 
 std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& object, const Around& around) {
   std::set<int> found;
   for (const int particle : stencil) {
     if (particle < 0) continue;
-    for (const int t : around[static_cast<std::size_t>(particle)]) {
+    for (const int t : around[particle]) {
       const std::array<int, 3>& corners = object.triangles[static_cast<std::size_t>(t)];
       const auto inside =
           std::count_if(stencil.begin(), stencil.end(), [&](int other) { return has_corner(corners, other); });
@@ -217,18 +219,24 @@ std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& obj
 }
 
 std::set<Edge> edges_between(const Object& object, std::span<const int> part) {
-  std::map<Edge, int> part_of;
+  require_triangles(object);
+  const std::vector<char> meet = where_parts_meet(object.triangles, part, object.positions.size());
+  const auto is_between = [&](const Edge& edge) {
+    return meet[static_cast<std::size_t>(edge.first)] != 0 && meet[static_cast<std::size_t>(edge.second)] != 0;
+  };
+  std::map<Edge, int> part_of;  // of edges between two such particles: few
   std::set<Edge> found;
   for (std::size_t t = 0; t < object.triangles.size(); ++t) {
     const auto& [a, b, c] = object.triangles[t];
     for (const Edge& edge : {edge_of(a, b), edge_of(b, c), edge_of(c, a)})
-      if (part_of.try_emplace(edge, part[t]).first->second != part[t]) found.insert(edge);
+      if (is_between(edge) && part_of.try_emplace(edge, part[t]).first->second != part[t]) found.insert(edge);
   }
   return found;
 }
 
 Edit cut_edges(const Object& object, const std::set<Edge>& edges, const std::vector<char>& whole) {
   require_masses(object);
+  require_triangles(object);
   return Cut(object, edges, whole).make();
 }
 

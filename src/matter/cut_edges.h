@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "matter/around.h"
 #include "pliant/edit.h"
 
 namespace pliant {
@@ -19,16 +20,15 @@ inline bool has_corner(const std::array<int, 3>& t, int particle) {
   return t[0] == particle || t[1] == particle || t[2] == particle;
 }
 
-/// The triangles at each particle.
-using Around = std::vector<std::vector<int>>;
-/// Throws an Error if a triangle uses a particle that does not exist. `present`: leaves out triangles that have 0 there.
-Around triangles_around(const Object& object, const std::vector<char>* present = nullptr);
+/// Throws an Error if a triangle uses a particle that does not exist.
+void require_triangles(const Object& object);
 
 /// The triangles of a stencil: those that contain both of its two particles, or for larger stencils those with all corners in it. Slots
-/// below 0 are none.
+/// below 0 are none. `around` knows of all of its particles.
 std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& object, const Around& around);
 
-/// The edges between triangles of different `part`, one number for each triangle.
+/// The edges between triangles of different `part`, one number for each triangle. Throws an Error if a triangle uses a particle that does
+/// not exist.
 std::set<Edge> edges_between(const Object& object, std::span<const int> part);
 
 /// The Edit that opens a surface along these edges (pliant/edit.h: cut). Particles that have 1 in `whole` are not split.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,8 +24,10 @@ struct InnerFace {
 std::vector<std::array<int, 4>> required_tetrahedra(const Object& object,
                                                     const std::string& advice = "use cut or part_triangles for surfaces");
 
-/// The faces between tetrahedra, ascending.
-std::vector<InnerFace> inner_faces(const std::vector<std::array<int, 4>>& tetrahedra);
+/// The faces between tetrahedra, ascending: those whose corners all have 1 in `at`, or all if that is empty, and that are `wanted`.
+std::vector<InnerFace> inner_faces(
+    const std::vector<std::array<int, 4>>& tetrahedra, const std::vector<char>& at,
+    const std::function<bool(const Face&)>& wanted = [](const Face&) { return true; });
 
 /// The Edit that opens a soft body along these faces. A particle of them is split into one for each fan of tetrahedra around it that share
 /// other faces, unless it has 1 in `whole`.

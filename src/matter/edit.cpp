@@ -1,6 +1,7 @@
 // Edits the description of an object: removes triangles, and cuts surfaces along edges.
 #include "pliant/edit.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -14,11 +15,14 @@ namespace pliant {
 namespace {
 
 std::set<Edge> edges_of(const Object& object, std::span<const int> path) {
-  std::set<Edge> edges, all;
-  for (const auto& [a, b, c] : object.triangles) all.insert({edge_of(a, b), edge_of(b, c), edge_of(c, a)});
+  std::vector<char> is_on(object.positions.size());
+  for (const int p : path) is_on[static_cast<std::size_t>(p)] = 1;
+  require_triangles(object);
+  const Around around(object.triangles, is_on);
+  std::set<Edge> edges;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const Edge cut = edge_of(path[i], path[i + 1]);
-    if (all.count(cut) == 0)
+    if (cut.first == cut.second || triangles_of({cut.first, cut.second}, object, around).empty())
       throw Error({.object = object.name, .element = "edge " + std::to_string(path[i]) + "-" + std::to_string(path[i + 1])},
                   "is not an edge of a triangle, so it cannot be cut", "give a path along edges of triangles");
     edges.insert(cut);
@@ -35,11 +39,7 @@ void refuse_soft_body(const Object& object) {
 
 }  // namespace
 
-Edit unchanged(const Object& object) {
-  Edit edit{object, {}};
-  for (int i = 0; i < static_cast<int>(object.positions.size()); ++i) edit.from.push_back(i);
-  return edit;
-}
+Edit unchanged(const Object& object) { return edit_to(object); }
 
 Edit remove_triangles(const Object& object, std::span<const int> triangles) {
   refuse_soft_body(object);
@@ -50,7 +50,11 @@ Edit remove_triangles(const Object& object, std::span<const int> triangles) {
                   "does not exist; there are " + std::to_string(present.size()), "triangles count from 0");
     present[static_cast<std::size_t>(t)] = 0;
   }
-  const Around before = triangles_around(object), after = triangles_around(object, &present);
+  require_triangles(object);
+  std::vector<char> is_reached(object.positions.size());
+  for (const int t : triangles)
+    for (const int corner : object.triangles[static_cast<std::size_t>(t)]) is_reached[static_cast<std::size_t>(corner)] = 1;
+  const Around around(object.triangles, is_reached);
   Edit edit = unchanged(object);
   edit.object.triangles.clear();
   for (std::size_t t = 0; t < present.size(); ++t)
@@ -58,13 +62,13 @@ Edit remove_triangles(const Object& object, std::span<const int> triangles) {
   for (ConstraintGroup& group : edit.object.constraints) {
     const ConstraintType& type = type_of(group, object);
     const int slots = type.stencil_size;
-    ConstraintGroup kept = empty_like(group);
-    for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c) {
-      const std::vector<int> stencil = stencil_of(group, slots, c), points = points_of(type, stencil, object);
-      const auto had = triangles_of(points, object, before).size(), has = triangles_of(points, object, after).size();
-      if (had == has || (slots == 2 && has > 0)) append(group, c, stencil, 1, kept);
-    }
-    group = std::move(kept);
+    group = rewritten(group, slots, constraints_at(group, is_reached, object), [&](int c, ConstraintGroup& kept) {
+      const std::vector<int> stencil = stencil_of(group, slots, c),
+                             had = triangles_of(points_of(type, stencil, object), object, around);
+      const auto has =
+          std::count_if(had.begin(), had.end(), [&](int t) { return present[static_cast<std::size_t>(t)] != 0; });
+      if (has == std::ssize(had) || (slots == 2 && has > 0)) append(group, c, stencil, 1, kept);
+    });
   }
   return edit;
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "constraints/registry.h"
 #include "math/vector.h"
@@ -12,28 +14,41 @@ namespace pliant {
 
 namespace {
 
-/// Pins and attaches a copy as its origin is.
-void copy_pins(int of, int copy, Object& object) {
-  const std::vector<Pin> pins = object.pins;
-  for (const Pin& pin : pins)
-    if (pin.particle == of) object.pins.push_back({copy, pin.motion});
-  const std::vector<Attachment> attachments = object.attachments;
-  for (Attachment attachment : attachments) {
-    if (attachment.particle != of) continue;
-    attachment.particle = copy;
-    object.attachments.push_back(attachment);
+/// Holds copies by pins or attachments as their origins are.
+template <class Holder>
+void copy_holders(const std::vector<int>& origins, int first, std::size_t particles, std::vector<Holder>& holders) {
+  if (holders.empty()) return;
+  std::vector<char> held(particles);
+  const std::size_t count = holders.size();
+  for (const Holder& holder : holders)
+    if (holder.particle >= 0 && static_cast<std::size_t>(holder.particle) < particles)
+      held[static_cast<std::size_t>(holder.particle)] = 1;
+  for (std::size_t i = 0; i < origins.size(); ++i)
+    for (std::size_t h = 0; h < count && held[static_cast<std::size_t>(origins[i])] != 0; ++h) {
+      if (holders[h].particle != origins[i]) continue;
+      Holder copy = holders[h];
+      copy.particle = first + static_cast<int>(i);
+      holders.push_back(std::move(copy));
+    }
+}
+
+/// Copies join a cluster of their origins, at the same rest places.
+void add_to_cluster(const std::vector<int>& origins, int first, std::size_t particles, Cluster& cluster) {
+  std::vector<int> place(particles, -1);
+  for (std::size_t i = cluster.particles.size(); i-- > 0;)
+    if (cluster.particles[i] >= 0 && static_cast<std::size_t>(cluster.particles[i]) < particles)
+      place[static_cast<std::size_t>(cluster.particles[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    const int at = place[static_cast<std::size_t>(origins[i])];
+    if (at < 0) continue;
+    if (!cluster.rest.empty()) cluster.rest.push_back(cluster.rest[static_cast<std::size_t>(at)]);
+    cluster.particles.push_back(first + static_cast<int>(i));
   }
 }
 
-/// A copy joins the clusters of its origin, at the same rest place.
-void add_to_clusters(int of, int copy, Object& object) {
-  for (Cluster& cluster : object.clusters) {
-    const auto found = std::find(cluster.particles.begin(), cluster.particles.end(), of);
-    if (found == cluster.particles.end()) continue;
-    const std::ptrdiff_t at = found - cluster.particles.begin();
-    if (!cluster.rest.empty()) cluster.rest.push_back(cluster.rest[static_cast<std::size_t>(at)]);
-    cluster.particles.push_back(copy);
-  }
+/// True if an alpha is given for each constraint of a group once it is edited.
+bool has_compliances(const ConstraintGroup& group) {
+  return group.stiffness.kind == Stiffness::Kind::compliance || !group.compliances.empty();
 }
 
 }  // namespace
@@ -68,6 +83,26 @@ std::vector<int> points_of(const ConstraintType& type, const std::vector<int>& s
   return points;
 }
 
+std::vector<int> constraints_at(const ConstraintGroup& group, const std::vector<char>& marks, const Object& object) {
+  const ConstraintType& type = type_of(group, object);
+  const auto slots = static_cast<std::size_t>(type.stencil_size), count = group.particles.size() / slots;
+  std::vector<std::size_t> points;
+  for (std::size_t slot = 0; slot < slots; ++slot)
+    if (type.slots[slot] == SlotKind::point) points.push_back(slot);
+  std::vector<int> found;
+  const int* stencil = group.particles.data();
+  for (std::size_t c = 0; c < count; ++c, stencil += slots) {
+    char any = 0;
+    for (const std::size_t slot : points) {
+      const auto particle = static_cast<std::size_t>(stencil[slot]);
+      if (particle >= marks.size()) (void)points_of(type, {stencil, stencil + slots}, object);  // throws
+      any |= marks[particle];
+    }
+    if (any != 0) found.push_back(static_cast<int>(c));
+  }
+  return found;
+}
+
 void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to) {
   const auto slots = stencil.size();
   const std::size_t count = from.particles.size() / slots, fields = count > 0 ? from.rest.size() / count : 0;
@@ -75,10 +110,24 @@ void append(const ConstraintGroup& from, int number, const std::vector<int>& ste
   to.particles.insert(to.particles.end(), stencil.begin(), stencil.end());
   const auto rest = from.rest.begin() + static_cast<std::ptrdiff_t>(at * fields);
   to.rest.insert(to.rest.end(), rest, rest + static_cast<std::ptrdiff_t>(fields));
-  const bool compliant = from.stiffness.kind == Stiffness::Kind::compliance;
   const float alpha = from.compliances.empty() ? from.stiffness.value : from.compliances[at];
-  if (compliant || !from.compliances.empty())
-    to.compliances.push_back(softer == 1 ? alpha : static_cast<float>(alpha * softer));
+  if (has_compliances(from)) to.compliances.push_back(softer == 1 ? alpha : static_cast<float>(alpha * softer));
+}
+
+void append_run(const ConstraintGroup& from, int slots, int begin, int end, ConstraintGroup& to) {
+  if (begin >= end) return;
+  const auto size = static_cast<std::size_t>(slots), count = from.particles.size() / size,
+             fields = from.rest.size() / count;
+  const auto copy = [&](const auto& all, std::size_t each, auto& out) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(begin) * each);
+    out.insert(out.end(), first, first + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(end - begin) * each));
+  };
+  copy(from.particles, size, to.particles);
+  copy(from.rest, fields, to.rest);
+  if (!from.compliances.empty())
+    copy(from.compliances, 1, to.compliances);
+  else if (has_compliances(from))
+    to.compliances.insert(to.compliances.end(), static_cast<std::size_t>(end - begin), from.stiffness.value);
 }
 
 std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3f> positions) {
@@ -103,10 +152,10 @@ std::vector<double> rest_of(const ConstraintGroup& group, int number, const Obje
 }
 
 ConstraintGroup empty_like(const ConstraintGroup& group) {
-  ConstraintGroup out = group;
-  out.particles.clear();
-  out.rest.clear();
-  out.compliances.clear();
+  ConstraintGroup out{group.type, {}, {}, group.stiffness, {}, group.plasticity, group.keyframes, group.break_force};
+  out.particles.reserve(group.particles.size());
+  out.rest.reserve(group.rest.size());
+  out.compliances.reserve(group.compliances.size());
   return out;
 }
 
@@ -115,9 +164,19 @@ std::vector<int> stencil_of(const ConstraintGroup& group, int slots, int number)
   return {first, first + slots};
 }
 
-void hold_like(int of, int copy, Object& object) {
-  copy_pins(of, copy, object);
-  add_to_clusters(of, copy, object);
+void hold_like(const std::vector<int>& origins, int first, Object& object) {
+  if (origins.empty()) return;
+  const std::size_t particles = object.positions.size();
+  copy_holders(origins, first, particles, object.pins);
+  copy_holders(origins, first, particles, object.attachments);
+  for (Cluster& cluster : object.clusters) add_to_cluster(origins, first, particles, cluster);
+}
+
+Edit edit_to(Object object) {
+  Edit edit{std::move(object), {}};
+  edit.from.resize(edit.object.positions.size());
+  std::iota(edit.from.begin(), edit.from.end(), 0);
+  return edit;
 }
 
 }  // namespace pliant

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "pliant/scene.h"
+#include "pliant/edit.h"
 
 namespace pliant {
 
@@ -23,6 +23,10 @@ std::vector<int> stencil_of(const ConstraintGroup& group, int slots, int number)
 /// The particles of a constraint; -1 in place of frames. Throws an Error if one does not exist.
 std::vector<int> points_of(const ConstraintType& type, const std::vector<int>& stencil, const Object& object);
 
+/// The constraints of a group that use a particle with 1 in `marks`, one for each particle: ascending numbers. Throws an Error if one of the
+/// group uses a particle that does not exist.
+std::vector<int> constraints_at(const ConstraintGroup& group, const std::vector<char>& marks, const Object& object);
+
 /// The rest data of constraint `number` of a group: as given, or measured from the positions of the description. Its slots are particles that
 /// exist.
 std::vector<double> rest_of(const ConstraintGroup& group, int number, const Object& object);
@@ -37,7 +41,28 @@ ConstraintGroup empty_like(const ConstraintGroup& group);
 /// Appends a copy of constraint `number` of a group with the given stencil, and with its compliance times `softer`.
 void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to);
 
-/// Pins and attaches a copy of particle `of` as that is, and adds it to its clusters, at the same place in their rest shapes.
-void hold_like(int of, int copy, Object& object);
+/// Appends copies of constraints `begin` to `end` - 1 of a group, of this many slots.
+void append_run(const ConstraintGroup& from, int slots, int begin, int end, ConstraintGroup& to);
+
+/// A group in which `follow(number, group)` appends what becomes of some constraints, whose numbers ascend. Others stay, in their order.
+template <class Follow>
+ConstraintGroup rewritten(const ConstraintGroup& group, int slots, const std::vector<int>& numbers, Follow&& follow) {
+  ConstraintGroup out = empty_like(group);
+  int next = 0;
+  for (const int number : numbers) {
+    append_run(group, slots, next, number, out);
+    follow(number, out);
+    next = number + 1;
+  }
+  append_run(group, slots, next, static_cast<int>(group.particles.size()) / slots, out);
+  return out;
+}
+
+/// Pins and attaches copies as the particles that they are of, and adds them to their clusters, at the same place in their rest shapes. The
+/// copies have numbers from `first` on.
+void hold_like(const std::vector<int>& origins, int first, Object& object);
+
+/// An Edit after which all particles are where they were.
+Edit edit_to(Object object);
 
 }  // namespace pliant

@@ -11,6 +11,7 @@
 
 #include "matter/fibres.h"
 #include "matter/strain_limit.h"
+#include "matter/tetrahedron_faces.h"
 #include "pliant/error.h"
 #include "topology/sort_by_first.h"
 
@@ -29,11 +30,6 @@ constexpr double largest_response = 1e26;
 struct Source {
   const TetrahedralMesh& mesh;
   const std::string& name;
-
-  Vec3d at(int corner) const {
-    const Vec3f& p = mesh.positions[static_cast<std::size_t>(corner)];
-    return {p.x, p.y, p.z};
-  }
   [[noreturn]] void refuse(const std::string& element, const std::string& problem, const std::string& advice) const {
     throw Error({.object = name, .element = element}, problem, advice);
   }
@@ -91,8 +87,7 @@ void require_corners(const Source& from) {
 
 /// Six times the volume of a tetrahedron, and the product of its three edges at the first corner.
 std::pair<double, double> six_volumes(const Source& from, const Tetrahedron& t) {
-  const Vec3d origin = from.at(t[0]);
-  const Vec3d a = from.at(t[1]) - origin, b = from.at(t[2]) - origin, c = from.at(t[3]) - origin;
+  const auto [a, b, c] = ways_of(t, from.mesh.positions);
   return {dot(cross(a, b), c), std::sqrt(dot(a, a) * dot(b, b) * dot(c, c))};
 }
 
@@ -116,9 +111,6 @@ MeasuredTetrahedra wound_alike(const Source& from) {
   return out;
 }
 
-/// The four triangles of a tetrahedron of positive volume, counter-clockwise seen from outside.
-constexpr std::array<std::array<std::size_t, 3>, 4> faces{{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-
 struct Face {
   std::array<int, 3> sorted;
   std::size_t tetrahedron;
@@ -129,8 +121,8 @@ std::vector<Face> sorted_faces(const std::vector<Tetrahedron>& tetrahedra) {
   std::vector<Face> all;
   all.reserve(4 * tetrahedra.size());
   for (std::size_t t = 0; t < tetrahedra.size(); ++t)
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      std::array<int, 3> sorted{tetrahedra[t][faces[f][0]], tetrahedra[t][faces[f][1]], tetrahedra[t][faces[f][2]]};
+    for (std::size_t f = 0; f < tetrahedron_faces.size(); ++f) {
+      std::array<int, 3> sorted = face_of(tetrahedra[t], f);
       std::sort(sorted.begin(), sorted.end());
       all.push_back({sorted, t, f});
     }
@@ -160,11 +152,7 @@ std::vector<std::array<int, 3>> border_of(const Source& from, const std::vector<
     return std::pair(a.tetrahedron, a.number) < std::pair(b.tetrahedron, b.number);
   });
   std::vector<std::array<int, 3>> out;
-  for (const Face& face : border) {
-    const Tetrahedron& t = tetrahedra[face.tetrahedron];
-    const auto& [a, b, c] = faces[face.number];
-    out.push_back({t[a], t[b], t[c]});
-  }
+  for (const Face& face : border) out.push_back(face_of(tetrahedra[face.tetrahedron], face.number));
   return out;
 }
 
@@ -242,6 +230,10 @@ std::vector<std::array<int, 2>> edges_of(const std::vector<Tetrahedron>& tetrahe
 
 std::vector<std::array<int, 4>> tetrahedra_of(const Object& object) {
   std::vector<Tetrahedron> out;
+  std::size_t most = 0;
+  for (const ConstraintGroup& group : object.constraints)
+    if (group.type == "tetrahedron_shear") most += group.particles.size() / 4;
+  out.reserve(most);
   for (const ConstraintGroup& group : object.constraints) {
     if (group.type != "tetrahedron_shear") continue;
     for (std::size_t i = 0; i + 3 < group.particles.size(); i += 4)
@@ -255,8 +247,7 @@ std::vector<std::array<int, 3>> border_triangles(const TetrahedralMesh& mesh) {
   const Source from{mesh, none};
   require_corners(from);
   std::vector<Tetrahedron> tetrahedra = mesh.tetrahedra;
-  for (Tetrahedron& t : tetrahedra)
-    if (six_volumes(from, t).first < 0) std::swap(t[2], t[3]);
+  for (Tetrahedron& t : tetrahedra) t = wound(t, mesh.positions);
   return border_of(from, tetrahedra);
 }
 

@@ -31,34 +31,45 @@ std::vector<char> held_particles(const Object& object) {
 
 namespace {
 
-/// The ends of those that are links, both ways round.
-std::set<std::vector<int>> ends_of(const Object& object, const std::set<std::pair<int, int>>& links) {
-  std::set<std::vector<int>> ends;
+/// The ends of those that are links.
+std::set<Edge> ends_of(const Object& object, const std::set<std::pair<int, int>>& links) {
+  std::set<Edge> ends;
   for (const auto& [group, number] : links) {
     if (!is_length(object.constraints[static_cast<std::size_t>(group)].type)) continue;
     const std::vector<int>& particles = object.constraints[static_cast<std::size_t>(group)].particles;
     const int* const first = particles.data() + 2 * std::ptrdiff_t{number};
-    const int a = first[0], b = first[1];
-    ends.insert({a, b});
-    ends.insert({b, a});
+    ends.insert(edge_of(first[0], first[1]));
   }
   return ends;
+}
+
+/// The limits of a group that limit these lengths, ascending.
+std::vector<int> limits_of(const ConstraintGroup& group, const std::set<Edge>& lengths, const Object& object) {
+  if (group.type != DistanceLimit::name || lengths.empty()) return {};
+  std::vector<char> at(object.positions.size());
+  for (const Edge& length : lengths) at[static_cast<std::size_t>(length.first)] = 1;
+  std::vector<int> found = constraints_at(group, at, object);
+  std::erase_if(found, [&](int c) {
+    const std::vector<int> limited = stencil_of(group, 2, c);
+    return lengths.count(edge_of(limited[0], limited[1])) == 0;
+  });
+  return found;
 }
 
 }  // namespace
 
 Object without_constraints(const Object& object, const std::set<std::pair<int, int>>& links) {
   Object without = object;
-  const std::set<std::vector<int>> ends = ends_of(object, links);
-  for (std::size_t g = 0; g < object.constraints.size() && !links.empty(); ++g) {
-    const ConstraintGroup& group = object.constraints[g];
-    const bool is_limit = group.type == DistanceLimit::name;  // of a link that goes, it goes too
-    const int slots = slots_of(group, object);
-    ConstraintGroup kept = empty_like(group);
-    for (int c = 0; c < static_cast<int>(group.particles.size()) / slots; ++c)
-      if (links.count({static_cast<int>(g), c}) == 0 && !(is_limit && ends.count(stencil_of(group, slots, c)) != 0))
-        append(group, c, stencil_of(group, slots, c), 1, kept);
-    without.constraints[g] = std::move(kept);
+  const std::set<Edge> ends = ends_of(object, links);
+  for (int g = 0; g < static_cast<int>(object.constraints.size()) && !links.empty(); ++g) {
+    const ConstraintGroup& group = object.constraints[static_cast<std::size_t>(g)];
+    std::vector<int> gone = limits_of(group, ends, object);  // of a link that goes, its limit goes too
+    for (auto link = links.lower_bound({g, 0}); link != links.end() && link->first == g; ++link)
+      gone.push_back(link->second);
+    std::sort(gone.begin(), gone.end());
+    gone.erase(std::unique(gone.begin(), gone.end()), gone.end());
+    without.constraints[static_cast<std::size_t>(g)] =
+        rewritten(group, slots_of(group, object), gone, [](int, const ConstraintGroup&) {});
   }
   return without;
 }
@@ -72,7 +83,10 @@ void require_sound(const Object& object) {
     if (find_constraint_type(group.type) < 0 || !is_length(group.type)) continue;
     const ConstraintType& type = type_of(group, object);
     const std::size_t count = group.particles.size() / 2;
-    for (std::size_t c = 0; c < count; ++c) (void)points_of(type, stencil_of(group, 2, static_cast<int>(c)), object);
+    const auto exists = [&](int p) { return p >= 0 && static_cast<std::size_t>(p) < object.positions.size(); };
+    for (std::size_t c = 0; c < count; ++c)
+      if (!exists(group.particles[2 * c]) || !exists(group.particles[2 * c + 1]))
+        (void)points_of(type, stencil_of(group, 2, static_cast<int>(c)), object);  // throws
     if (!group.rest.empty() && group.rest.size() != count)
       throw Error({.object = object.name, .element = group.type + " constraints"},
                   "have " + std::to_string(group.rest.size()) + " rest lengths for " + std::to_string(count),
@@ -88,7 +102,7 @@ DisjointSets pieces_of(const Object& object) {
     for (const int corner : t) join(t[0], corner);
   for (const auto& t : object.triangles)
     for (const int corner : t) join(t[0], corner);
-  for_each_link(object, [&](int, int, int a, int b, double) { join(a, b); });
+  for_each_pair(object, [&](int, int, int a, int b) { join(a, b); });
   return pieces;
 }
 
@@ -112,63 +126,115 @@ void divide_clusters(Object& object) {
   std::vector<int> size(pieces.count());
   for (std::size_t i = 0; i < pieces.count(); ++i) ++size[pieces.root(i)];
   std::vector<Cluster> divided;
-  for (const Cluster& cluster : object.clusters) {
-    std::map<std::size_t, std::vector<std::size_t>> members;  // of each piece: indices in the cluster
-    for (std::size_t i = 0; i < cluster.particles.size(); ++i) {
-      const std::size_t piece = pieces.root(static_cast<std::size_t>(cluster.particles[i]));
-      members[size[piece] > 1 ? piece : unjoined].push_back(i);
+  for (Cluster& cluster : object.clusters) {
+    const auto piece_of = [&](int particle) {
+      const std::size_t piece = pieces.root(static_cast<std::size_t>(particle));
+      return size[piece] > 1 ? piece : unjoined;
+    };
+    if (std::all_of(cluster.particles.begin(), cluster.particles.end(),
+                    [&](int p) { return piece_of(p) == piece_of(cluster.particles[0]); })) {
+      if (cluster.particles.size() > 1) divided.push_back(std::move(cluster));
+      continue;
     }
+    std::map<std::size_t, std::vector<std::size_t>> members;  // of each piece: indices in the cluster
+    for (std::size_t i = 0; i < cluster.particles.size(); ++i) members[piece_of(cluster.particles[i])].push_back(i);
     for (const auto& [of, indices] : members)
       if (indices.size() > 1) divided.push_back(part_of(cluster, indices));
   }
   object.clusters = std::move(divided);
 }
 
-/// One edit after another.
-Edit then(const Edit& first, Edit second) {
-  for (int& from : second.from) from = from < 0 ? from : first.from[static_cast<std::size_t>(from)];
+/// One edit after another, if there is one.
+Edit then(const std::optional<Edit>& first, Edit second) {
+  if (first)
+    for (int& from : second.from) from = from < 0 ? from : first->from[static_cast<std::size_t>(from)];
   return second;
+}
+
+/// True if no particle of what comes apart may split.
+bool is_held_together(const Object& object, const Breaks& at) {
+  const std::vector<char> held = held_particles(object);
+  const auto is_held = [&](int p) { return held[static_cast<std::size_t>(p)] != 0; };
+  return at.links.empty() &&
+         std::all_of(at.edges.begin(), at.edges.end(),
+                     [&](const Edge& edge) { return is_held(edge.first) && is_held(edge.second); }) &&
+         std::all_of(at.faces.begin(), at.faces.end(),
+                     [&](const Face& face) { return std::all_of(face.begin(), face.end(), is_held); });
 }
 
 /// The Edit that breaks an object; nothing if no particle splits and no link goes. Held particles are not split, because their copies would
 /// be held in one place.
 std::optional<Edit> broken(const Object& object, const Breaks& at) {
-  Edit edit = unchanged(without_constraints(object, at.links));
-  if (!at.edges.empty()) edit = then(edit, cut_edges(edit.object, at.edges, held_particles(edit.object)));
-  const bool is_open = edit.object.positions.size() > object.positions.size();
-  if (!at.faces.empty()) edit = then(edit, cut_faces(edit.object, at.faces, held_particles(edit.object)));
-  if (is_open) edit.object.volume.reset();  // through the tear the gas escapes
-  if (at.links.empty() && edit.object.positions.size() == object.positions.size()) return {};
-  divide_clusters(edit.object);
+  if (is_held_together(object, at)) return {};
+  std::optional<Edit> edit;
+  const auto now = [&]() -> const Object& { return edit ? edit->object : object; };
+  if (!at.links.empty()) edit = edit_to(without_constraints(object, at.links));
+  if (!at.edges.empty()) edit = then(edit, cut_edges(now(), at.edges, held_particles(now())));
+  const bool is_open = now().positions.size() > object.positions.size();
+  if (!at.faces.empty()) edit = then(edit, cut_faces(now(), at.faces, held_particles(now())));
+  if (at.links.empty() && now().positions.size() == object.positions.size()) return {};
+  if (is_open) edit->object.volume.reset();  // through the tear the gas escapes
+  divide_clusters(edit->object);
   return edit;
+}
+
+/// For each triangle or tetrahedron: 1 if it is ahead of the plane.
+template <std::size_t n>
+std::vector<int> sides_of(const std::vector<std::array<int, n>>& elements, const PlaneSides& sides) {
+  std::vector<int> ahead;
+  ahead.reserve(elements.size());
+  for (const auto& corners : elements) ahead.push_back(sides.is_ahead(corners) ? 1 : 0);
+  return ahead;
+}
+
+/// Adds the faces that a cut has reached. Returns for each particle 1 if it is of a tetrahedron.
+std::vector<char> add_cut_faces(const Object& object, const PlaneSides& sides, Breaks& breaks) {
+  std::vector<char> is_solid(object.positions.size());
+  if (!is_soft_body(object)) return is_solid;
+  const std::vector<std::array<int, 4>> tetrahedra = required_tetrahedra(object);
+  for (const auto& t : tetrahedra)
+    for (const int corner : t) is_solid[static_cast<std::size_t>(corner)] = 1;
+  const std::vector<int> ahead = sides_of(tetrahedra, sides);
+  const std::vector<char> meet = where_parts_meet(tetrahedra, ahead, object.positions.size());
+  for (const InnerFace& inner : inner_faces(tetrahedra, meet, [&](const Face& face) { return sides.is_reached(face); }))
+    if (ahead[static_cast<std::size_t>(inner.a)] != ahead[static_cast<std::size_t>(inner.b)])
+      breaks.faces.insert(inner.face);
+  return is_solid;
+}
+
+/// Adds the links that a cut has reached, apart from edges of triangles.
+void add_cut_links(const Object& object, const PlaneSides& sides, Breaks& breaks) {
+  struct Link {
+    int group, number, a, b;
+  };
+  std::vector<Link> links;
+  std::vector<char> at(object.positions.size());
+  for_each_pair(object, [&](int group, int number, int a, int b) {
+    if (!sides.are_parted(std::array<int, 1>{a}, std::array<int, 1>{b}) || !sides.is_reached(std::array<int, 2>{a, b}))
+      return;
+    links.push_back({group, number, a, b});
+    at[static_cast<std::size_t>(a)] = 1;
+  });
+  if (links.empty()) return;
+  const Around around(object.triangles, at);
+  for (const auto& [group, number, a, b] : links) {
+    const std::span<const int> near = around[a];
+    if (std::none_of(near.begin(), near.end(),
+                     [&, end = b](int t) { return has_corner(object.triangles[static_cast<std::size_t>(t)], end); }))
+      breaks.links.insert({group, number});
+  }
 }
 
 /// Adds what a cut has reached at a time.
 void add_cut(const Object& object, const PlaneCut& cut, double time, Breaks& breaks) {
   const PlaneSides sides(object, cut, time);
-  std::vector<char> is_solid(object.positions.size());
-  if (is_soft_body(object)) {
-    const std::vector<std::array<int, 4>> tetrahedra = required_tetrahedra(object);
-    for (const auto& t : tetrahedra)
-      for (const int corner : t) is_solid[static_cast<std::size_t>(corner)] = 1;
-    for (const InnerFace& inner : inner_faces(tetrahedra))
-      if (sides.are_parted(tetrahedra[static_cast<std::size_t>(inner.a)], tetrahedra[static_cast<std::size_t>(inner.b)]) &&
-          sides.is_reached(inner.face))
-        breaks.faces.insert(inner.face);
-  }
-  const Around around = triangles_around(object);
-  std::vector<int> side;
-  side.reserve(object.triangles.size());
-  for (const auto& triangle : object.triangles) side.push_back(sides.is_ahead(triangle) ? 1 : 0);
-  for (const Edge& edge : edges_between(object, side))
+  const std::vector<char> is_solid = add_cut_faces(object, sides, breaks);
+  require_triangles(object);
+  for (const Edge& edge : edges_between(object, sides_of(object.triangles, sides)))
     if (sides.is_reached(std::array<int, 2>{edge.first, edge.second}) &&
         is_solid[static_cast<std::size_t>(edge.first)] == 0 && is_solid[static_cast<std::size_t>(edge.second)] == 0)
       breaks.edges.insert(edge);
-  for_each_link(object, [&](int group, int number, int a, int b, double) {
-    if (triangles_of({a, b}, object, around).empty() && sides.are_parted(std::array<int, 1>{a}, std::array<int, 1>{b}) &&
-        sides.is_reached(std::array<int, 2>{a, b}))
-      breaks.links.insert({group, number});
-  });
+  add_cut_links(object, sides, breaks);
 }
 
 }  // namespace

@@ -60,18 +60,17 @@ LongTetrahedron greatest_stretch(const Tetrahedron& t, const std::vector<Vec3f>&
 class SolidTear {
  public:
   SolidTear(const Object& object, std::span<const Vec3f> positions)
-      : object_(object),
-        positions_(positions),
-        tetrahedra_(required_tetrahedra(object)),
-        around_(object.positions.size()),
-        held_(held_particles(object)),
-        touched_(object.positions.size()) {}
+      : object_(object), positions_(positions), tetrahedra_(required_tetrahedra(object)) {}
 
   std::set<Face> find() {
     const std::vector<LongTetrahedron> longs = too_long();
     if (longs.empty()) return {};
-    for (int t = 0; t < static_cast<int>(tetrahedra_.size()); ++t)
-      for (const int corner : tetrahedron(t)) around_[static_cast<std::size_t>(corner)].push_back(t);
+    std::vector<char> at(object_.positions.size());
+    for (const LongTetrahedron& one : longs)
+      for (const int corner : tetrahedron(one.number)) at[static_cast<std::size_t>(corner)] = 1;
+    around_ = Around(tetrahedra_, at);
+    held_ = held_particles(object_);
+    touched_.resize(object_.positions.size());
     on_surface_.resize(object_.positions.size());
     for (const auto& triangle : object_.triangles)
       for (const int corner : triangle) on_surface_[static_cast<std::size_t>(corner)] = 1;
@@ -81,7 +80,7 @@ class SolidTear {
 
  private:
   const Tetrahedron& tetrahedron(int t) const { return tetrahedra_[static_cast<std::size_t>(t)]; }
-  const std::vector<int>& around(int p) const { return around_[static_cast<std::size_t>(p)]; }
+  std::span<const int> around(int p) const { return around_[p]; }
   static bool is_in(const std::vector<char>& set, int p) { return set[static_cast<std::size_t>(p)] != 0; }
 
   std::vector<LongTetrahedron> too_long() const {
@@ -126,9 +125,9 @@ class SolidTear {
       is_ahead.push_back(dot(sum, direction) > 0 ? 1 : 0);
     }
     std::set<Face> found;
-    for (const InnerFace& inner : inner_faces(near))
-      if (is_ahead[static_cast<std::size_t>(inner.a)] != is_ahead[static_cast<std::size_t>(inner.b)] &&
-          std::find(inner.face.begin(), inner.face.end(), p) != inner.face.end())
+    const auto has_p = [p](const Face& face) { return std::find(face.begin(), face.end(), p) != face.end(); };
+    for (const InnerFace& inner : inner_faces(near, {}, has_p))
+      if (is_ahead[static_cast<std::size_t>(inner.a)] != is_ahead[static_cast<std::size_t>(inner.b)])
         found.insert(inner.face);
     return found;
   }
@@ -136,7 +135,7 @@ class SolidTear {
   const Object& object_;
   std::span<const Vec3f> positions_;
   std::vector<Tetrahedron> tetrahedra_;
-  std::vector<std::vector<int>> around_;           ///< tetrahedra at each particle
+  Around around_;                                  ///< tetrahedra at the corners of those that are too long
   std::vector<char> held_, touched_, on_surface_;  ///< by particle
   std::set<Face> faces_;
 };

@@ -37,7 +37,7 @@ class SurfaceTear {
   SurfaceTear(const Object& object, std::span<const Vec3f> positions)
       : object_(object),
         positions_(positions),
-        around_(triangles_around(object)),
+        around_(object.triangles, std::vector<char>(object.positions.size(), 1)),
         held_(held_particles(object)),
         touched_(object.positions.size()) {}
 
@@ -53,7 +53,7 @@ class SurfaceTear {
   }
 
  private:
-  const std::vector<int>& around(int p) const { return around_[static_cast<std::size_t>(p)]; }
+  std::span<const int> around(int p) const { return around_[p]; }
   const std::array<int, 3>& triangle(int t) const { return object_.triangles[static_cast<std::size_t>(t)]; }
   Vec3d at(int p) const { return convert<double>(positions_[static_cast<std::size_t>(p)]); }
   bool touched(int p) const { return touched_[static_cast<std::size_t>(p)] != 0; }
@@ -141,7 +141,7 @@ class SurfaceTear {
 
   void find_beside() {
     beside_.resize(object_.positions.size());
-    for_each_link(object_, [&](int, int, int a, int b, double) {
+    for_each_pair(object_, [&](int, int, int a, int b) {
       if (is_edge(a, b)) return;
       beside_[static_cast<std::size_t>(a)].push_back(b);
       beside_[static_cast<std::size_t>(b)].push_back(a);
@@ -160,7 +160,9 @@ class SurfaceTear {
 
 Breaks tears_of_surface(const Object& object, std::span<const Vec3f> positions) {
   const std::vector<LongLink> links = long_links(object, positions);
-  return links.empty() ? Breaks{} : SurfaceTear(object, positions).find(links);
+  if (links.empty()) return {};
+  require_triangles(object);
+  return SurfaceTear(object, positions).find(links);
 }
 
 }  // namespace pliant

@@ -34,20 +34,26 @@ std::set<Face> faces_that_tear(const Object& object, std::span<const Vec3f> posi
 /// Particles that must not be split, because both copies would be held at the same place; 1 for each of them.
 std::vector<char> held_particles(const Object& object);
 
-/// Calls body(group, number, a, b, rest length) for each distance constraint.
+/// Calls body(group, number, a, b) for each distance constraint.
 template <class Body>
-void for_each_link(const Object& object, Body&& body) {
+void for_each_pair(const Object& object, Body&& body) {
   for (std::size_t g = 0; g < object.constraints.size(); ++g) {
     const ConstraintGroup& group = object.constraints[g];
     if (!is_length(group.type)) continue;
-    for (std::size_t c = 0; 2 * c + 1 < group.particles.size(); ++c) {
-      const int a = group.particles[2 * c], b = group.particles[2 * c + 1];
-      const Vec3d d = convert<double>(object.positions[static_cast<std::size_t>(b)]) -
-                      convert<double>(object.positions[static_cast<std::size_t>(a)]);
-      const double rest = group.rest.empty() ? std::sqrt(dot(d, d)) : static_cast<double>(group.rest[c]);
-      body(static_cast<int>(g), static_cast<int>(c), a, b, rest);
-    }
+    for (std::size_t c = 0; 2 * c + 1 < group.particles.size(); ++c)
+      body(static_cast<int>(g), static_cast<int>(c), group.particles[2 * c], group.particles[2 * c + 1]);
   }
+}
+
+/// Calls body(group, number, a, b, rest length) for each distance constraint.
+template <class Body>
+void for_each_link(const Object& object, Body&& body) {
+  for_each_pair(object, [&](int g, int c, int a, int b) {
+    const std::vector<float>& lengths = object.constraints[static_cast<std::size_t>(g)].rest;
+    const Vec3d d = convert<double>(object.positions[static_cast<std::size_t>(b)]) -
+                    convert<double>(object.positions[static_cast<std::size_t>(a)]);
+    body(g, c, a, b, lengths.empty() ? std::sqrt(dot(d, d)) : static_cast<double>(lengths[static_cast<std::size_t>(c)]));
+  });
 }
 
 }  // namespace pliant
