@@ -55,9 +55,12 @@ std::vector<char> where_parts_meet(const std::vector<std::array<int, n>>& elemen
   for (std::size_t e = 0; e < elements.size(); ++e)
     for (const int corner : elements[e]) {
       const auto p = static_cast<std::size_t>(corner);
-      if (is_seen[p] == 0) part_at[p] = part[e];
-      is_seen[p] = 1;
-      meet[p] |= static_cast<char>(part_at[p] != part[e]);
+      if (is_seen[p] == 0) {
+        is_seen[p] = 1;
+        part_at[p] = part[e];
+      } else if (part_at[p] != part[e]) {
+        meet[p] = 1;
+      }
     }
   return meet;
 }
