@@ -129,12 +129,12 @@ class Cut {
           if (p >= 0) at[static_cast<std::size_t>(p)] = 1;
     }
     around_ = Around(object_.triangles, at);
-    for (std::size_t g = 0; g < groups.size(); ++g) groups[g] = split(groups[g], reached[g]);
+    for (std::size_t g = 0; g < groups.size(); ++g) split(groups[g], reached[g]);
   }
 
-  ConstraintGroup split(const ConstraintGroup& group, const std::vector<int>& reached) const {
+  void split(ConstraintGroup& group, const std::vector<int>& reached) const {
     const ConstraintType& type = type_of(group, object_);
-    return rewritten(group, type.stencil_size, reached, [&](int c, ConstraintGroup& out) { split(group, type, c, out); });
+    rewrite(group, type.stencil_size, reached, [&](int c, ConstraintGroup& out) { split(group, type, c, out); });
   }
 
   /// A constraint on one side of the cut follows it, an edge on the cut is doubled, others are removed.

@@ -62,7 +62,7 @@ Edit remove_triangles(const Object& object, std::span<const int> triangles) {
   for (ConstraintGroup& group : edit.object.constraints) {
     const ConstraintType& type = type_of(group, object);
     const int slots = type.stencil_size;
-    group = rewritten(group, slots, constraints_at(group, is_reached, object), [&](int c, ConstraintGroup& kept) {
+    rewrite(group, slots, constraints_at(group, is_reached, object), [&](int c, ConstraintGroup& kept) {
       const std::vector<int> stencil = stencil_of(group, slots, c),
                              had = triangles_of(points_of(type, stencil, object), object, around);
       const auto has =

@@ -52,6 +52,41 @@ bool has_compliances(const ConstraintGroup& group) {
   return group.stiffness.kind == Stiffness::Kind::compliance || !group.compliances.empty();
 }
 
+/// Gives each constraint of a group its alpha, and takes off what is not a whole constraint.
+void complete(ConstraintGroup& group, int slots) {
+  const auto size = static_cast<std::size_t>(slots), count = group.particles.size() / size;
+  group.particles.resize(count * size);
+  group.rest.resize(count > 0 ? group.rest.size() / count * count : 0);
+  if (has_compliances(group)) group.compliances.resize(count, group.stiffness.value);
+}
+
+/// Appends copies of constraints `begin` to `end` - 1 of a group whose data are complete.
+void append_run(const ConstraintGroup& from, int slots, int begin, int end, ConstraintGroup& to) {
+  if (begin >= end) return;
+  const auto size = static_cast<std::size_t>(slots), count = from.particles.size() / size,
+             fields = from.rest.size() / count;
+  const auto copy = [&](const auto& all, std::size_t each, auto& out) {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(begin) * each);
+    out.insert(out.end(), first, first + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(end - begin) * each));
+  };
+  copy(from.particles, size, to.particles);
+  copy(from.rest, fields, to.rest);
+  if (!from.compliances.empty()) copy(from.compliances, 1, to.compliances);
+}
+
+/// Puts followers, one for each, in the place of some constraints of a group.
+void overwrite(ConstraintGroup& group, int slots, const std::vector<int>& numbers, const ConstraintGroup& followers) {
+  if (numbers.empty()) return;
+  const auto fields = static_cast<std::ptrdiff_t>(followers.rest.size() / numbers.size());
+  for (std::ptrdiff_t i = 0; i < std::ssize(numbers); ++i) {
+    const std::ptrdiff_t at = numbers[static_cast<std::size_t>(i)];
+    std::copy_n(followers.particles.begin() + i * slots, slots, group.particles.begin() + at * slots);
+    std::copy_n(followers.rest.begin() + i * fields, fields, group.rest.begin() + at * fields);
+    if (!group.compliances.empty())
+      group.compliances[static_cast<std::size_t>(at)] = followers.compliances[static_cast<std::size_t>(i)];
+  }
+}
+
 }  // namespace
 
 void require_masses(const Object& object) {
@@ -121,20 +156,22 @@ void append(const ConstraintGroup& from, int number, const std::vector<int>& ste
   if (has_compliances(from)) to.compliances.push_back(softer == 1 ? alpha : static_cast<float>(alpha * softer));
 }
 
-void append_run(const ConstraintGroup& from, int slots, int begin, int end, ConstraintGroup& to) {
-  if (begin >= end) return;
-  const auto size = static_cast<std::size_t>(slots), count = from.particles.size() / size,
-             fields = from.rest.size() / count;
-  const auto copy = [&](const auto& all, std::size_t each, auto& out) {
-    const auto first = all.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(begin) * each);
-    out.insert(out.end(), first, first + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(end - begin) * each));
-  };
-  copy(from.particles, size, to.particles);
-  copy(from.rest, fields, to.rest);
-  if (!from.compliances.empty())
-    copy(from.compliances, 1, to.compliances);
-  else if (has_compliances(from))
-    to.compliances.insert(to.compliances.end(), static_cast<std::size_t>(end - begin), from.stiffness.value);
+void replace_constraints(ConstraintGroup& group, int slots, const std::vector<int>& numbers,
+                         const ConstraintGroup& followers, const std::vector<int>& ends) {
+  complete(group, slots);
+  bool one_each = true;
+  for (std::size_t i = 0; i < ends.size(); ++i) one_each &= ends[i] == static_cast<int>(i) + 1;
+  if (one_each) return overwrite(group, slots, numbers, followers);
+  ConstraintGroup out = empty_like(group);
+  int next = 0, follower = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    append_run(group, slots, next, numbers[i], out);
+    append_run(followers, slots, follower, ends[i], out);
+    next = numbers[i] + 1;
+    follower = ends[i];
+  }
+  append_run(group, slots, next, static_cast<int>(group.particles.size()) / slots, out);
+  group = std::move(out);
 }
 
 std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3f> positions) {
@@ -159,11 +196,7 @@ std::vector<double> rest_of(const ConstraintGroup& group, int number, const Obje
 }
 
 ConstraintGroup empty_like(const ConstraintGroup& group) {
-  ConstraintGroup out{group.type, {}, {}, group.stiffness, {}, group.plasticity, group.keyframes, group.break_force};
-  out.particles.reserve(group.particles.size());
-  out.rest.reserve(group.rest.size());
-  out.compliances.reserve(group.compliances.size());
-  return out;
+  return {group.type, {}, {}, group.stiffness, {}, group.plasticity, group.keyframes, group.break_force};
 }
 
 std::vector<int> stencil_of(const ConstraintGroup& group, int slots, int number) {

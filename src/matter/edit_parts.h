@@ -41,21 +41,21 @@ ConstraintGroup empty_like(const ConstraintGroup& group);
 /// Appends a copy of constraint `number` of a group with the given stencil, and with its compliance times `softer`.
 void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to);
 
-/// Appends copies of constraints `begin` to `end` - 1 of a group, of this many slots.
-void append_run(const ConstraintGroup& from, int slots, int begin, int end, ConstraintGroup& to);
+/// Puts `followers` in the place of some constraints of a group, whose numbers ascend: of the i-th of these, those up to `ends[i]`. Others stay,
+/// in their order.
+void replace_constraints(ConstraintGroup& group, int slots, const std::vector<int>& numbers,
+                         const ConstraintGroup& followers, const std::vector<int>& ends);
 
-/// A group in which `follow(number, group)` appends what becomes of some constraints, whose numbers ascend. Others stay, in their order.
+/// The same, where `follow(number, followers)` appends what becomes of a constraint.
 template <class Follow>
-ConstraintGroup rewritten(const ConstraintGroup& group, int slots, const std::vector<int>& numbers, Follow&& follow) {
-  ConstraintGroup out = empty_like(group);
-  int next = 0;
+void rewrite(ConstraintGroup& group, int slots, const std::vector<int>& numbers, Follow&& follow) {
+  ConstraintGroup followers = empty_like(group);
+  std::vector<int> ends;
   for (const int number : numbers) {
-    append_run(group, slots, next, number, out);
-    follow(number, out);
-    next = number + 1;
+    follow(number, followers);
+    ends.push_back(static_cast<int>(followers.particles.size()) / slots);
   }
-  append_run(group, slots, next, static_cast<int>(group.particles.size()) / slots, out);
-  return out;
+  replace_constraints(group, slots, numbers, followers, ends);
 }
 
 /// Pins and attaches copies as the particles that they are of, and adds them to their clusters, at the same place in their rest shapes. The

@@ -19,6 +19,10 @@ std::vector<std::array<int, 4>> required_tetrahedra(const Object& object, const 
   require_masses(object);
   std::vector<std::array<int, 4>> out = tetrahedra_of(object);
   if (out.empty()) throw Error({.object = object.name}, "has no tetrahedra", advice);
+  bool all_exist = true;  // looked at first, without a branch for each
+  for (const std::array<int, 4>& t : out)
+    for (const int corner : t) all_exist &= static_cast<std::size_t>(corner) < object.positions.size();
+  if (all_exist) return out;
   for (const std::array<int, 4>& t : out)
     for (const int corner : t)
       if (corner < 0 || corner >= static_cast<int>(object.positions.size()))

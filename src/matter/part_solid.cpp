@@ -30,10 +30,11 @@ bool holds(const Corners& t, int particle) { return std::find(t.begin(), t.end()
 std::optional<Face> shared_face(const Corners& a, const Corners& b) {
   Face face{};
   std::size_t count = 0;
-  for (const int corner : a) {
-    if (!holds(b, corner)) continue;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (count + 1 < i) return {};  // two of them are not shared
+    if (!holds(b, a[i])) continue;
     if (count == 3) return {};
-    face[count++] = corner;
+    face[count++] = a[i];
   }
   if (count < 3) return {};
   std::sort(face.begin(), face.end());
@@ -166,8 +167,8 @@ class Parting {
     around_ = Around(before_.tetrahedra, looked_up);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const ConstraintType& type = type_of(groups[g], object_);
-      groups[g] = rewritten(groups[g], type.stencil_size, reached[g],
-                            [&](int c, ConstraintGroup& out) { follow(groups[g], type, c, out); });
+      rewrite(groups[g], type.stencil_size, reached[g],
+              [&](int c, ConstraintGroup& out) { follow(groups[g], type, c, out); });
     }
   }
 

@@ -152,6 +152,7 @@ std::vector<std::array<int, 3>> border_of(const Source& from, const std::vector<
     return std::pair(a.tetrahedron, a.number) < std::pair(b.tetrahedron, b.number);
   });
   std::vector<std::array<int, 3>> out;
+  out.reserve(border.size());
   for (const Face& face : border) out.push_back(face_of(tetrahedra[face.tetrahedron], face.number));
   return out;
 }
@@ -230,14 +231,12 @@ std::vector<std::array<int, 2>> edges_of(const std::vector<Tetrahedron>& tetrahe
 
 std::vector<std::array<int, 4>> tetrahedra_of(const Object& object) {
   std::vector<Tetrahedron> out;
-  std::size_t most = 0;
-  for (const ConstraintGroup& group : object.constraints)
-    if (group.type == "tetrahedron_shear") most += group.particles.size() / 4;
-  out.reserve(most);
   for (const ConstraintGroup& group : object.constraints) {
     if (group.type != "tetrahedron_shear") continue;
-    for (std::size_t i = 0; i + 3 < group.particles.size(); i += 4)
-      out.push_back({group.particles[i], group.particles[i + 1], group.particles[i + 2], group.particles[i + 3]});
+    const std::size_t first = out.size();
+    out.resize(first + group.particles.size() / 4);
+    for (std::size_t t = first; t < out.size(); ++t)
+      std::copy_n(group.particles.data() + 4 * (t - first), 4, out[t].begin());
   }
   return out;
 }

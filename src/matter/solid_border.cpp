@@ -28,7 +28,7 @@ struct BorderFace {
 };
 
 bool holds(const Corners& t, int particle) {
-  return (t[0] == particle) | (t[1] == particle) | (t[2] == particle) | (t[3] == particle);
+  return t[0] == particle || t[1] == particle || t[2] == particle || t[3] == particle;
 }
 
 bool is_reached(const Triangle& triangle, const std::vector<char>& reached) {
@@ -123,6 +123,7 @@ std::optional<std::vector<Triangle>> changed_border(const std::vector<Triangle>&
   std::merge(known->begin(), known->end(), fresh->begin(), fresh->end(), std::back_inserter(merged),
              [](const BorderFace& a, const BorderFace& b) { return a.face < b.face; });
   std::vector<Triangle> border;
+  border.reserve(merged.size());
   for (const BorderFace& one : merged) border.push_back(one.triangle);
   return border;
 }

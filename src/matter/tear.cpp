@@ -68,8 +68,8 @@ Object without_constraints(const Object& object, const std::set<std::pair<int, i
       gone.push_back(link->second);
     std::sort(gone.begin(), gone.end());
     gone.erase(std::unique(gone.begin(), gone.end()), gone.end());
-    without.constraints[static_cast<std::size_t>(g)] =
-        rewritten(group, slots_of(group, object), gone, [](int, const ConstraintGroup&) {});
+    rewrite(without.constraints[static_cast<std::size_t>(g)], slots_of(group, object), gone,
+            [](int, const ConstraintGroup&) {});
   }
   return without;
 }

@@ -251,12 +251,18 @@ TEST(LocalEdit, RunsOfConstraintsKeepTheirOrderAndData) {
   }
   group.stiffness = Stiffness::compliance(0.5f);
   const std::vector<int> followed{0, 3, 4, 9};
-  const ConstraintGroup after = rewritten(group, 2, followed, [&](int c, ConstraintGroup& to) {
+  ConstraintGroup after = group;
+  rewrite(after, 2, followed, [&](int c, ConstraintGroup& to) {
     for (int copy = 0; copy < c % 3; ++copy) append(group, c, {c + 100, c + 101}, 2, to);  // 0 0 1 0 times
   });
   EXPECT_EQ(after.rest, (std::vector<float>{1, 2, 4, 5, 6, 7, 8}));
   EXPECT_EQ(after.compliances, (std::vector<float>{0.5f, 0.5f, 1, 0.5f, 0.5f, 0.5f, 0.5f}));
   EXPECT_EQ(after.particles, (std::vector<int>{1, 2, 2, 3, 104, 105, 5, 6, 6, 7, 7, 8, 8, 9}));
+  after = group;
+  rewrite(after, 2, {2, 9}, [&](int c, ConstraintGroup& to) { append(group, c, {c + 100, c + 101}, 2, to); });
+  EXPECT_EQ(after.rest, group.rest);
+  EXPECT_EQ(after.compliances, (std::vector<float>{0.5f, 0.5f, 1, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 1}));
+  EXPECT_EQ(after.particles, (std::vector<int>{0, 1, 1, 2, 102, 103, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 109, 110}));
 }
 
 TEST(LocalEdit, AroundHasTheElementsAtMarkedParticles) {
