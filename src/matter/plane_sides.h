@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "math/functions.h"
 #include "pliant/scene.h"
@@ -22,6 +23,7 @@ class PlaneSides {
       const double distance = dot(wide(p), along_);
       first = std::min(first, distance);
       last = std::max(last, distance);
+      reach_ = std::max({reach_, std::fabs(wide(p).x), std::fabs(wide(p).y), std::fabs(wide(p).z)});
     }
     const double length = static_cast<double>(cut.end) - static_cast<double>(cut.start);
     const double share = length > 0 ? std::min((time - static_cast<double>(cut.start)) / length, 1.) : 1;
@@ -32,6 +34,22 @@ class PlaneSides {
   template <std::size_t n>
   bool is_ahead(const std::array<int, n>& particles) const {
     return dot(middle(particles) - point_, normal_) > 0;
+  }
+  /// For each triangle or tetrahedron: 1 if is_ahead. The sum of the distances of its corners tells it, unless rounding could.
+  template <std::size_t n>
+  std::vector<int> ahead_of(const std::vector<std::array<int, n>>& elements) const {
+    std::vector<double> distances;
+    distances.reserve(object_.positions.size());
+    for (const Vec3f& p : object_.positions) distances.push_back(dot(wide(p) - point_, normal_));
+    const double rounding = 1e-11 * (reach_ + std::sqrt(dot(point_, point_)));
+    std::vector<int> ahead;
+    ahead.reserve(elements.size());
+    for (const auto& corners : elements) {
+      double sum = 0;
+      for (const int p : corners) sum += distances[static_cast<std::size_t>(p)];
+      ahead.push_back((std::fabs(sum) > rounding ? sum > 0 : is_ahead(corners)) ? 1 : 0);
+    }
+    return ahead;
   }
   template <std::size_t n>
   bool are_parted(const std::array<int, n>& a, const std::array<int, n>& b) const {
@@ -57,6 +75,7 @@ class PlaneSides {
   const Object& object_;
   Vec3d point_, normal_, along_;
   double blade_ = 0;  ///< how far the blade has come [m]
+  double reach_ = 0;  ///< greatest coordinate [m]
 };
 
 }  // namespace pliant

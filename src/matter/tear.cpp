@@ -178,15 +178,6 @@ std::optional<Edit> broken(const Object& object, const Breaks& at) {
   return edit;
 }
 
-/// For each triangle or tetrahedron: 1 if it is ahead of the plane.
-template <std::size_t n>
-std::vector<int> sides_of(const std::vector<std::array<int, n>>& elements, const PlaneSides& sides) {
-  std::vector<int> ahead;
-  ahead.reserve(elements.size());
-  for (const auto& corners : elements) ahead.push_back(sides.is_ahead(corners) ? 1 : 0);
-  return ahead;
-}
-
 /// Adds the faces that a cut has reached. Returns for each particle 1 if it is of a tetrahedron.
 std::vector<char> add_cut_faces(const Object& object, const PlaneSides& sides, Breaks& breaks) {
   std::vector<char> is_solid(object.positions.size());
@@ -194,7 +185,7 @@ std::vector<char> add_cut_faces(const Object& object, const PlaneSides& sides, B
   const std::vector<std::array<int, 4>> tetrahedra = required_tetrahedra(object);
   for (const auto& t : tetrahedra)
     for (const int corner : t) is_solid[static_cast<std::size_t>(corner)] = 1;
-  const std::vector<int> ahead = sides_of(tetrahedra, sides);
+  const std::vector<int> ahead = sides.ahead_of(tetrahedra);
   const std::vector<char> meet = where_parts_meet(tetrahedra, ahead, object.positions.size());
   for (const InnerFace& inner : inner_faces(tetrahedra, meet, [&](const Face& face) { return sides.is_reached(face); }))
     if (ahead[static_cast<std::size_t>(inner.a)] != ahead[static_cast<std::size_t>(inner.b)])
@@ -230,7 +221,7 @@ void add_cut(const Object& object, const PlaneCut& cut, double time, Breaks& bre
   const PlaneSides sides(object, cut, time);
   const std::vector<char> is_solid = add_cut_faces(object, sides, breaks);
   require_triangles(object);
-  for (const Edge& edge : edges_between(object, sides_of(object.triangles, sides)))
+  for (const Edge& edge : edges_between(object, sides.ahead_of(object.triangles)))
     if (sides.is_reached(std::array<int, 2>{edge.first, edge.second}) &&
         is_solid[static_cast<std::size_t>(edge.first)] == 0 && is_solid[static_cast<std::size_t>(edge.second)] == 0)
       breaks.edges.insert(edge);
