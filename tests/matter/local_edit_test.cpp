@@ -140,6 +140,22 @@ PlaneCut some_cut(Random& random) {
   return {0, 1, vector(0.3f), vector(1), vector(1)};
 }
 
+TEST(LocalEdit, SidesOfAPlaneAreThoseOfTheMiddlesBeTheyInTheRounding) {
+  Random random(9);
+  for (int body = 0; body < 40; ++body) {
+    const Object object = body % 2 == 0 ? uneven_block(random) : make_soft_body(box_tetrahedra({1, 1, 1}, {4, 4, 4}));
+    const std::vector<std::array<int, 4>> all = tetrahedra_of(object);
+    PlaneCut cut = some_cut(random);
+    if (body % 4 == 1) cut.normal = {1, 0, 0};
+    cut.point = {};  // through the middle of a tetrahedron, as nearly as rounding lets it
+    for (const int corner : all[static_cast<std::size_t>(below(random, all.size()))])
+      cut.point = cut.point + 0.25f * object.positions[static_cast<std::size_t>(corner)];
+    const PlaneSides sides(object, cut, 0.5);
+    const std::vector<int> ahead = sides.ahead_of(all);
+    for (std::size_t t = 0; t < all.size(); ++t) ASSERT_EQ(ahead[t] != 0, sides.is_ahead(all[t])) << body;
+  }
+}
+
 std::vector<int> shared_corners(std::array<int, 4> a, std::array<int, 4> b) {
   std::sort(a.begin(), a.end());
   std::sort(b.begin(), b.end());
