@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "inspect/inspect_scene.h"
 #include "matter/advice_settings.h"
@@ -152,7 +153,10 @@ MeshColliderId World::add(const MeshCollider& collider) {
   return data_->ids.mesh_colliders.add(number);
 }
 
-std::vector<int> edit_object(WorldData& world, ObjectId object, const Edit& edit) {
+namespace {
+
+/// Edits an object, but for its description.
+std::vector<int> compile_again(WorldData& world, ObjectId object, const Edit& edit) {
   const int number = world.number(object);
   refuse_grave(edit.object);
   require_origins(world, number, edit);
@@ -167,8 +171,20 @@ std::vector<int> edit_object(WorldData& world, ObjectId object, const Edit& edit
       sweep == old.sweep ? follow_edit(old, edit.object, edit.from) : std::optional<KeptSchedule>{};
   const KeptSchedule* const to_keep = kept ? &*kept : nullptr;
   replace_object(world, number, compile(edit.object, compile_options(world, sweep), to_keep), edit.from);
+  return news;
+}
+
+}  // namespace
+
+std::vector<int> edit_object(WorldData& world, ObjectId object, const Edit& edit) {
+  const std::vector<int> news = compile_again(world, object, edit);
   keep_description(world, object.slot, &edit.object);
   return news;
+}
+
+void edit_object(WorldData& world, ObjectId object, Edit&& edit) {
+  compile_again(world, object, edit);
+  keep_description(world, object.slot, std::move(edit.object));
 }
 
 std::vector<int> World::edit(ObjectId object, const Edit& edit) { return edit_object(*data_, object, edit); }

@@ -9,8 +9,10 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "matter/around.h"
 #include "matter/break_constraints.h"
 #include "matter/edit_parts.h"
 #include "pliant/edit.h"
@@ -70,45 +72,69 @@ class Settled {
   std::vector<RestFactor> factors_;
 };
 
-/// For each particle of an object the mean place of those that share a triangle or tetrahedron with it.
-std::vector<Vec3d> middles_around(const Object& object, const std::vector<Vec3f>& positions) {
-  std::vector<Vec3d> sums(positions.size());
-  std::vector<int> counts(positions.size());
-  const auto add = [&](const auto& corners) {
-    Vec3d sum{};
-    for (const int p : corners) sum = sum + convert<double>(positions[static_cast<std::size_t>(p)]);
-    for (const int p : corners) {
-      sums[static_cast<std::size_t>(p)] = sums[static_cast<std::size_t>(p)] + sum;
-      counts[static_cast<std::size_t>(p)] += static_cast<int>(corners.size());
-    }
-  };
-  const std::vector<std::array<int, 4>> tetrahedra = tetrahedra_of(object);
-  for (const auto& t : tetrahedra) add(t);
-  if (tetrahedra.empty())
-    for (const auto& t : object.triangles) add(t);
-  for (std::size_t i = 0; i < sums.size(); ++i)
-    sums[i] = counts[i] > 0 ? sums[i] * (1. / counts[i]) : convert<double>(positions[i]);
-  return sums;
+/// Particles that were one before an edit, by that one.
+using Copies = std::map<int, std::vector<int>>;
+
+/// An edit of an object that tears keeps its particles, and adds copies of some.
+Copies copies_of(const std::vector<int>& from, int particles_before) {
+  Copies copies;
+  for (int i = particles_before; i < static_cast<int>(from.size()); ++i) {
+    const int origin = from[static_cast<std::size_t>(i)];
+    if (origin >= 0) copies.try_emplace(origin, 1, origin).first->second.push_back(i);
+  }
+  return copies;
 }
+
+/// The mean place of those that share a triangle or tetrahedron with a particle, for each that has copies or is one.
+class MiddlesAround {
+ public:
+  MiddlesAround(const Object& object, const Copies& copies, const std::vector<Vec3f>& positions) : positions_(positions) {
+    std::vector<char> marks(positions.size());
+    for (const auto& [origin, all] : copies)
+      for (const int one : all) marks[static_cast<std::size_t>(one)] = 1;
+    tetrahedra_ = tetrahedra_of(object);
+    if (tetrahedra_.empty()) triangles_ = object.triangles;
+    around_ = tetrahedra_.empty() ? Around(triangles_, marks) : Around(tetrahedra_, marks);
+  }
+
+  Vec3d of(int particle) const { return tetrahedra_.empty() ? mean(particle, triangles_) : mean(particle, tetrahedra_); }
+
+ private:
+  template <class Elements>
+  Vec3d mean(int particle, const Elements& elements) const {
+    Vec3d sum{};
+    int count = 0;
+    for (const int e : around_[particle]) {
+      const auto& corners = elements[static_cast<std::size_t>(e)];
+      Vec3d of_element{};
+      for (const int p : corners) of_element = of_element + convert<double>(positions_[static_cast<std::size_t>(p)]);
+      sum = sum + of_element;
+      count += static_cast<int>(corners.size());
+    }
+    return count > 0 ? sum * (1. / count) : convert<double>(positions_[static_cast<std::size_t>(particle)]);
+  }
+
+  const std::vector<Vec3f>& positions_;
+  std::vector<std::array<int, 4>> tetrahedra_;
+  std::vector<std::array<int, 3>> triangles_;
+  Around around_;
+};
 
 /// Moves particles that were one a little apart, each towards what it belongs to: contact must know on which side surfaces are. Their
 /// centre of mass stays.
-void open_gaps(WorldData& world, ObjectId id, const std::vector<int>& from) {
+void open_gaps(WorldData& world, ObjectId id, const Copies& copies) {
   constexpr double share = 0.01;  // of the way to the middle of what is around a particle
-  std::map<int, std::vector<int>> copies;
-  for (int i = 0; i < static_cast<int>(from.size()); ++i) copies[from[static_cast<std::size_t>(i)]].push_back(i);
-  const Object& object = world.descriptions.at(id.slot).object;
-  const std::vector<Vec3d> middles = middles_around(object, ObjectView(world, id).positions());
+  const std::vector<Vec3f> positions = ObjectView(world, id).positions();
+  const MiddlesAround middles(world.descriptions.at(id.slot).object, copies, positions);
   const int number = world.number(id), first = world.model.first[number];
   for (const auto& [origin, all] : copies) {
-    if (origin < 0 || all.size() < 2) continue;
     double mass = 0;
     Vec3d moment{};
     std::vector<Record*> records;
     std::vector<Vec3d> ways;
     for (const int one : all) {
       Record& x = world.state.positions[first + world.model.objects[number].place[one]];
-      const Vec3d way = (middles[static_cast<std::size_t>(one)] - Vec3d{x.x, x.y, x.z}) * share;
+      const Vec3d way = (middles.of(one) - Vec3d{x.x, x.y, x.z}) * share;
       const double weight = x.w > 0 ? 1 / static_cast<double>(x.w) : 0;
       mass += weight;
       moment = moment + way * weight;
@@ -125,16 +151,17 @@ void open_gaps(WorldData& world, ObjectId id, const std::vector<int>& from) {
 }
 
 /// Makes an edit of an object that tears.
-void open_up(WorldData& world, ObjectId id, const Edit& edit, Report& report) {
+void open_up(WorldData& world, ObjectId id, Edit&& edit, Report& report) {
   const Object& before = world.descriptions.at(id.slot).object;
+  const Copies copies = copies_of(edit.from, static_cast<int>(before.positions.size()));
   const Torn torn{id, static_cast<int>(edit.object.positions.size() - before.positions.size()),
                   lost_constraints(before, edit.object)};
   const Settled settled(world.state, world.number(id));
   const OverstretchRecord record = world.overstretch;  // particles keep their indices, so it stays true
-  edit_object(world, id, edit);
+  edit_object(world, id, std::move(edit));
   world.overstretch = record;
   settled.put_back(world);
-  open_gaps(world, id, edit.from);
+  open_gaps(world, id, copies);
   const auto same = std::find_if(report.torn.begin(), report.torn.end(), [&](const Torn& one) { return one.object == id; });
   if (same == report.torn.end()) return report.torn.push_back(torn);
   same->new_particles += torn.new_particles;
@@ -146,18 +173,18 @@ void tear_object(WorldData& world, ObjectId id, Report& report) {
   TornObject& torn = world.descriptions.at(id.slot);
   const std::vector<PlaneCut>& cuts = torn.object.cuts;
   if (std::any_of(cuts.begin(), cuts.end(), [&](const PlaneCut& cut) { return is_due(cut, torn.cut_until, now); }))
-    if (const std::optional<Edit> edit = make_cuts(torn.object, now)) open_up(world, id, *edit, report);
+    if (std::optional<Edit> edit = make_cuts(torn.object, now)) open_up(world, id, std::move(*edit), report);
   torn.cut_until = now;
   if (can_break(torn.object)) {
     const int number = world.number(id);
     const auto factor = [&](int group) { return rest_factor_of(world, number, group); };
     const std::vector<Vec3f> positions = ObjectView(world, id).positions();
-    if (const std::optional<Edit> edit = break_constraints(torn.object, positions, factor))
-      open_up(world, id, *edit, report);
+    if (std::optional<Edit> edit = break_constraints(torn.object, positions, factor))
+      open_up(world, id, std::move(*edit), report);
   }
   if (!torn.object.tearing) return;
-  if (const std::optional<Edit> edit = tear(torn.object, ObjectView(world, id).positions()))
-    open_up(world, id, *edit, report);
+  if (std::optional<Edit> edit = tear(torn.object, ObjectView(world, id).positions()))
+    open_up(world, id, std::move(*edit), report);
 }
 
 }  // namespace
@@ -168,6 +195,13 @@ void keep_description(WorldData& world, int slot, const Object* object) {
     return;
   }
   world.descriptions[slot] = {*object, -1};
+}
+
+void keep_description(WorldData& world, int slot, Object&& object) {
+  if (comes_apart(object))
+    world.descriptions[slot] = {std::move(object), -1};
+  else
+    world.descriptions.erase(slot);
 }
 
 void tear_objects(WorldData& world, Report& report) {

@@ -7,6 +7,7 @@ namespace pliant {
 
 /// Keeps the description of an object that tears or is cut; forgets that of others, and of one that was removed (null).
 void keep_description(WorldData& world, int slot, const Object* object);
+void keep_description(WorldData& world, int slot, Object&& object);
 
 /// Tears and cuts objects at the end of a step. What cannot be torn stays whole, and a warning says so.
 void tear_objects(WorldData& world, Report& report);
