@@ -18,6 +18,7 @@
 #include "apps/bench/piles.h"
 #include "apps/bench/scene_table.h"
 #include "apps/bench/soft_bodies.h"
+#include "apps/bench/tears.h"
 #include "atomic_file.h"
 #include "command.h"
 #include "give_back.h"
@@ -202,6 +203,20 @@ std::string bench_columns(const BenchOptions& options) {
   return to_json(pliant::bench::measure_columns(wanted));
 }
 
+std::string bench_tears(const BenchOptions& options) {
+  pliant::bench::TearOptions wanted;
+  if (!options.sizes.empty()) wanted.sizes = options.sizes;
+  wanted.frames = options.frames.value_or(wanted.frames);
+  print("object  cells  elements  substeps  cuts  new particles  ms: whole     cut  ratio  us/new particle  ns/element\n");
+  wanted.on_row = [](const pliant::bench::TearRow& row) {
+    throw_if_interrupted();
+    print(fmt::format("{:<6}  {:5}  {:8}  {:8}  {:4}  {:13.1f}  {:9.2f}  {:6.2f}  {:5.2f}  {:15.1f}  {:10.0f}\n",
+                      row.object, row.cells, row.elements, row.substeps, row.cuts, row.copies, row.whole_ms, row.cut_ms,
+                      row.ratio, row.us_per_copy, row.ns_per_element));
+  };
+  return to_json(pliant::bench::measure_tears(wanted));
+}
+
 std::string bench_default(const BenchOptions& options) {
   if (options.scenes.empty() && options.meshes.empty())
     throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json, or --meshes FOLDER");
@@ -246,7 +261,7 @@ void refuse_unknown(const std::string& workload) {
   std::vector<std::string> names;
   for (const pliant::bench::Workload& frames : pliant::bench::workloads()) names.push_back(frames.name);
   for (const char* other : {"bodies", "bodies-pyramid", "bodies-tower", "bodies-pour", "columns", "contact", "covered",
-                            "default", "joints", "memory", "W2", "W3", "W3-ball", "W3-cloth", "W5"})
+                            "default", "joints", "memory", "tears", "W2", "W3", "W3-ball", "W3-cloth", "W5"})
     names.emplace_back(other);
   if (workload.empty() || std::find(names.begin(), names.end(), workload) != names.end()) return;
   const std::string near = scene_file::nearest_name(workload, names);
@@ -275,6 +290,7 @@ std::optional<std::string> bench_by_name(const BenchOptions& options) {
   if (options.workload == "default") return bench_default(options);
   if (options.workload == "joints") return bench_joints(options);
   if (options.workload == "memory") return bench_memory(options);
+  if (options.workload == "tears") return bench_tears(options);
   if (options.workload == "W3" || options.workload == "W3-ball" || options.workload == "W3-cloth")
     return bench_landings(options);
   if (options.workload == "W2") return bench_soft_bodies(options);

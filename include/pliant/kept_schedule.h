@@ -15,7 +15,7 @@ struct KeptSchedule {
     int type = 0, law = 0;         ///< number of the constraint type and of its law (Law)
     int tile = -1;                 ///< the tile that has all their particles; -1: they are between tiles
     int runs = 0;                  ///< bit s: slot s is contiguous in groups of four
-    bool is_added = false;         ///< coloured by an edit: the next one colours them again
+    bool is_added = false;         ///< of constraints that were changed or added by edits; without runs
     std::vector<int> constraints;  ///< number of each among the constraints of the type
   };
   /// Tetrahedra around an edge that keep their volume together (constraint type volume_around_edge). Tetrahedron i has the corners a, b,

@@ -24,18 +24,7 @@ struct Constraints {
 
   std::size_t count() const { return particles.size() / size; }
   const int* stencil(std::size_t i) const { return &particles[i * size]; }
-  bool has(std::size_t i) const { return i < count() && (are_there.empty() || are_there[i] != 0); }
-
-  /// Sets the particles of constraint `i`.
-  template <class Particle>
-  void set(std::size_t i, const Particle& particle) {
-    if (i >= are_there.size()) {
-      are_there.resize(i + 1, 0);
-      particles.resize((i + 1) * size, -1);
-    }
-    are_there[i] = 1;
-    for (std::size_t slot = 0; slot < size; ++slot) particles[i * size + slot] = particle(slot);
-  }
+  bool has(std::size_t i) const { return are_there.empty() || are_there[i] != 0; }
 };
 
 bool is_same(const int* a, const int* b, std::size_t size) {
@@ -157,32 +146,44 @@ class Following {
   /// The particles of constraints before, by type, as the compiled object has them.
   std::vector<Constraints> constraints_before() const {
     std::vector<Constraints> out(at(constraint_type_count()));
-    for (const KeptSchedule::Fan& fan : out_.fans) {
-      Constraints& volumes = out[at(volume_type_)];
-      volumes.size = 4;
+    for (const Pool& pool : before_.pools)
+      if (is_followed(pool)) make_room(pool.type, at(pool.stencil), static_cast<std::size_t>(pool.constraints), out);
+    for (const KeptSchedule::Fan& fan : out_.fans) make_room(volume_type_, 4, at(fan.count), out);
+    Constraints& volumes = out[at(volume_type_)];
+    for (const KeptSchedule::Fan& fan : out_.fans)
       for (int i = 0; i < fan.count; ++i) {
         const std::array<int, 4> corners{fan.a, fan.b, fan.ring[at(i)], fan.ring[at((i + 1) % fan.ring_size)]};
-        volumes.set(at(fan.tetrahedra[at(i)]), [&](std::size_t slot) { return corners[slot]; });
+        const std::size_t number = at(fan.tetrahedra[at(i)]);
+        volumes.are_there[number] = 1;
+        std::copy(corners.begin(), corners.end(), &volumes.particles[4 * number]);
       }
-    }
     for (const Segment& segment : before_.segments) add_segment(segment, out);
     return out;
   }
 
+  bool is_followed(const Pool& pool) const { return pool.in_lanes && pool.type != fan_type_; }
+
+  static void make_room(int type, std::size_t size, std::size_t count, std::vector<Constraints>& out) {
+    Constraints& constraints = out[at(type)];
+    constraints.size = size;
+    constraints.particles.resize(constraints.particles.size() + size * count, -1);
+    constraints.are_there.resize(constraints.are_there.size() + count, 0);
+  }
+
   void add_segment(const Segment& segment, std::vector<Constraints>& out) const {
     const Pool& pool = before_.pools[at(segment.pool)];
-    if (!pool.in_lanes || pool.type == fan_type_) return;
-    Constraints& constraints = out[at(pool.type)];
-    constraints.size = at(pool.stencil);
+    if (!is_followed(pool)) return;
+    Constraints& to = out[at(pool.type)];
     const std::int32_t* indices = &pool.indices[static_cast<std::size_t>(segment.index_offset)];
-    for (int batch = 0; batch < segment.batches; ++batch, indices += indices_per_batch(pool, segment))
+    for (int batch = 0; batch < segment.batches; ++batch, indices += indices_per_batch(pool, segment)) {
+      const std::int32_t* const numbers = &pool.origin[at(segment.first_batch + batch) * batch_width];
       for (int lane = 0; lane < batch_width; ++lane) {
-        const int number = pool.origin[at(segment.first_batch + batch) * batch_width + at(lane)];
-        if (number >= 0 && lane_is_valid(segment, batch, lane))
-          constraints.set(at(number), [&](std::size_t slot) {
-            return out_.order[at(particle_of(segment, indices, static_cast<int>(slot), lane))];
-          });
+        if (numbers[lane] < 0) continue;
+        to.are_there[at(numbers[lane])] = 1;
+        for (int slot = 0; slot < pool.stencil; ++slot)
+          to.particles[at(numbers[lane]) * to.size + at(slot)] = out_.order[at(particle_of(segment, indices, slot, lane))];
       }
+    }
   }
 
   /// The particles of the constraints of a type after the edit.

@@ -25,9 +25,9 @@ constexpr double least_ratio = 3.99;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Corners corners_of(const ConstraintList& list, int i) {
-  const std::size_t first = 4 * at(i);
-  return {list.stencils[first], list.stencils[first + 1], list.stencils[first + 2], list.stencils[first + 3]};
+Corners corners_of(const std::vector<int>& stencils, int i) {
+  const int* const first = &stencils[4 * at(i)];
+  return {first[0], first[1], first[2], first[3]};
 }
 
 Corners sorted(Corners corners) {
@@ -39,14 +39,15 @@ Corners sorted(Corners corners) {
 using Shear = std::vector<std::pair<Corners, float>>;
 
 /// `is_near`: 1 for particles of tetrahedra that may be joined.
-Shear shear_of(const std::vector<ConstraintList>& lists, const std::vector<char>& is_near) {
+Shear shear_of(std::vector<ConstraintList>& lists, const std::vector<char>& is_near) {
   const int type = find_constraint_type(TetrahedronShear::name);
   const auto has_near = [&](int particle) { return at(particle) < is_near.size() && is_near[at(particle)] != 0; };
   Shear out;
-  for (const ConstraintList& list : lists) {
-    if (list.type != type || list.law == Law::pbd) continue;
+  for (ConstraintList& list : lists) {
+    if (list.type != type || list.law == Law::pbd || is_near.empty()) continue;
+    const std::vector<int>& stencils = list.stencils.own();
     for (int i = 0; i < list.count(); ++i) {
-      const Corners corners = corners_of(list, i);
+      const Corners corners = corners_of(stencils, i);
       if (std::all_of(corners.begin(), corners.end(), has_near)) out.emplace_back(sorted(corners), list.response[at(i)]);
     }
   }
@@ -57,8 +58,8 @@ Shear shear_of(const std::vector<ConstraintList>& lists, const std::vector<char>
   return out;
 }
 
-bool is_nearly_incompressible(const Shear& shear, const ConstraintList& volumes, int i) {
-  const Corners corners = sorted(corners_of(volumes, i));
+/// `corners`: sorted, of tetrahedron i of `volumes`.
+bool is_nearly_incompressible(const Shear& shear, const ConstraintList& volumes, const Corners& corners, int i) {
   const auto found = std::lower_bound(shear.begin(), shear.end(), std::pair{corners, 0.f});
   return found != shear.end() && found->first == corners && found->second > 0 &&
          static_cast<double>(found->second) >= least_ratio * static_cast<double>(volumes.response[at(i)]);
@@ -89,12 +90,12 @@ using Fan = KeptSchedule::Fan;
 /// Divides tetrahedra among edges, largest fans first.
 class Fans {
  public:
-  /// Tetrahedra of the list with 1 in `joins`.
-  Fans(const ConstraintList& list, std::vector<char> joins) : is_free_(std::move(joins)) {
-    edges_.reserve(6 * at(list.count()));
+  /// Tetrahedra with these corners that have 1 in `joins`.
+  Fans(const std::vector<int>& stencils, std::vector<char> joins) : is_free_(std::move(joins)) {
+    edges_.reserve(6 * at(static_cast<int>(std::count(is_free_.begin(), is_free_.end(), 1))));
     int particles = 0;
-    for (int i = 0; i < list.count(); ++i)
-      if (is_free_[at(i)] != 0) add_edges(corners_of(list, i), i, edges_);
+    for (int i = 0; i < static_cast<int>(is_free_.size()); ++i)
+      if (is_free_[at(i)] != 0) add_edges(corners_of(stencils, i), i, edges_);
     for (const AtEdge& edge : edges_) particles = std::max(particles, edge.a + 1);
     sort_by_first(
         edges_, at(particles), [](const AtEdge& edge) { return edge.a; },
@@ -188,11 +189,12 @@ void add_fan(const Fan& fan, const ConstraintList& from, int origin, ConstraintL
 }
 
 /// The tetrahedra of a list that no fan has.
-ConstraintList left_over(const ConstraintList& list, const std::vector<char>& is_taken) {
+ConstraintList left_over(ConstraintList& list, const std::vector<char>& is_taken) {
+  const std::vector<int>& stencils = list.stencils.own();
   ConstraintList out = list.empty();
   for (int i = 0; i < list.count(); ++i) {
     if (is_taken[at(i)] != 0) continue;
-    for (const int corner : corners_of(list, i)) out.stencils.push_back(corner);
+    for (const int corner : corners_of(stencils, i)) out.stencils.push_back(corner);
     out.rest.push_back(list.rest[at(i)]);
     out.response.push_back(list.response[at(i)]);
     out.damping.push_back(list.damping[at(i)]);
@@ -213,7 +215,8 @@ ConstraintList fans_like(const ConstraintList& volumes) {
 /// The tetrahedra of a list, what an earlier schedule says of them, and the fans that they form.
 class Joining {
  public:
-  explicit Joining(const ConstraintList& list) : list_(list), is_settled_(at(list.count())), is_taken_(at(list.count())) {
+  explicit Joining(ConstraintList& list)
+      : list_(list), stencils_(list.stencils.own()), is_settled_(at(list.count())), is_taken_(at(list.count())) {
     static_assert(std::tuple_size_v<decltype(Fan::ring)> == most_around);
     for (int i = 0; i < list.count(); ++i) {
       const auto origin = at(list.origin[at(i)]);
@@ -231,8 +234,8 @@ class Joining {
       int& tetrahedron = fan.tetrahedra[at(t)];
       tetrahedron = index_of(tetrahedron);
       if (tetrahedron < 0 || is_taken_[at(tetrahedron)] != 0) return false;
-      Corners corners{fan.a, fan.b, fan.ring[at(t)], fan.ring[at((t + 1) % fan.ring_size)]};
-      if (sorted(corners) != sorted(corners_of(list_, tetrahedron))) return false;
+      const Corners corners{fan.a, fan.b, fan.ring[at(t)], fan.ring[at((t + 1) % fan.ring_size)]};
+      if (!std::is_permutation(corners.begin(), corners.end(), &stencils_[4 * at(tetrahedron)])) return false;
     }
     take(fan, number);
     return true;
@@ -245,20 +248,21 @@ class Joining {
   }
 
   /// Joins those that are left to fans with numbers from `number` on.
-  void join(const std::vector<ConstraintList>& lists, int number) {
+  void join(std::vector<ConstraintList>& lists, int number) {
     std::vector<char> joins(at(list_.count())), is_near;
     for (int i = 0; i < list_.count(); ++i) {
       joins[at(i)] = is_taken_[at(i)] == 0 && is_settled_[at(i)] == 0 && list_.rest[at(i)] > 0 ? 1 : 0;
-      for (const int corner : corners_of(list_, i)) {
-        if (joins[at(i)] == 0) continue;
+      if (joins[at(i)] == 0) continue;
+      for (const int corner : corners_of(stencils_, i)) {
         if (at(corner) >= is_near.size()) is_near.resize(2 * at(corner) + 1);
         is_near[at(corner)] = 1;
       }
     }
     const Shear shear = shear_of(lists, is_near);
     for (int i = 0; i < list_.count(); ++i)
-      if (joins[at(i)] != 0 && !is_nearly_incompressible(shear, list_, i)) joins[at(i)] = 0;
-    const Fans fans(list_, std::move(joins));
+      if (joins[at(i)] != 0 && !is_nearly_incompressible(shear, list_, sorted(corners_of(stencils_, i)), i))
+        joins[at(i)] = 0;
+    const Fans fans(stencils_, std::move(joins));
     for (const Fan& fan : fans.all()) take(fan, number++);
   }
 
@@ -274,6 +278,7 @@ class Joining {
   }
 
   const ConstraintList& list_;
+  const std::vector<int>& stencils_;
   std::vector<int> index_of_;                ///< by number among the constraints of the type
   std::vector<char> is_settled_, is_taken_;  ///< by index in the list
   std::vector<std::pair<Fan, int>> fans_;
@@ -286,8 +291,8 @@ Fan by_number(Fan fan, const ConstraintList& list) {
 }
 
 /// Replaces the tetrahedra of a list that are joined, and appends the list of their fans.
-void join_list(ConstraintList& list, const std::vector<ConstraintList>& lists, const KeptSchedule* kept,
-               std::vector<Fan>& fans, std::vector<ConstraintList>& joined) {
+void join_list(ConstraintList& list, std::vector<ConstraintList>& lists, const KeptSchedule* kept, std::vector<Fan>& fans,
+               std::vector<ConstraintList>& joined) {
   Joining joining(list);
   for (std::size_t i = 0; kept != nullptr && i < kept->fans.size(); ++i)
     if (fans[i].count == 0 && joining.keep(kept->fans[i], static_cast<int>(i))) fans[i] = kept->fans[i];

@@ -90,7 +90,7 @@ class ColourKeeper {
 
   void add(const KeptSchedule::Colour& kept) {
     const int all = size_ > 4 ? 0 : (1 << size_) - 1;
-    if (kept.is_added || (kept.runs & ~all) != 0 || kept.tile < -1 || kept.tile >= tiles_) return;
+    if ((kept.runs & (kept.is_added ? -1 : ~all)) != 0 || kept.tile < -1 || kept.tile >= tiles_) return;
     const std::size_t group = kept.runs != 0 ? 4 : 1;
     const int tile = kept.tile < 0 ? tiles_ : kept.tile;
     Colour colour{kept.runs, {}};
@@ -98,7 +98,9 @@ class ColourKeeper {
     for (std::size_t i = 0; i + group <= kept.constraints.size(); i += group)
       add_group(&kept.constraints[i], group, tile, colour);
     if (kept.runs != all) drop_rest(colour);
-    if (!colour.members.empty()) out_.of_tile[at(tile)].push_back(std::move(colour));
+    if (colour.members.empty()) return;
+    KeptColours::OfTile& colours = out_.of_tile[at(tile)];
+    (kept.is_added ? colours.added : colours.first).push_back(std::move(colour));
   }
 
   KeptColours take() { return std::move(out_); }

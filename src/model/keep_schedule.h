@@ -1,7 +1,7 @@
 // Keeps the schedule of an object over an edit, so that only what the edit reached is scheduled again.
 //
 // Particles that an edit adds are stored after the others, in tiles of their own, so no other particle moves. A constraint that has the
-// same particles as before keeps its colour. Others are coloured together, and again at the next edit, so that these colours stay few.
+// same particles as before keeps its colour. Others go into colours that are for them, each into the first in which its particles are free.
 // When they are a quarter of all, the object is scheduled anew.
 #pragma once
 
@@ -27,8 +27,12 @@ void require_fits(const KeptSchedule& kept, std::size_t particles, const std::st
 
 /// The colours that the constraints of a list keep.
 struct KeptColours {
-  std::vector<std::vector<Colour>> of_tile;  ///< for each tile, then for what is between tiles
-  std::vector<char> is_kept;                 ///< for each constraint of the list
+  /// Those inside a tile, or between tiles.
+  struct OfTile {
+    std::vector<Colour> first, added;  ///< those of the first schedule, and those of constraints that edits changed
+  };
+  std::vector<OfTile> of_tile;  ///< for each tile, then for what is between tiles
+  std::vector<char> is_kept;    ///< for each constraint of the list
 };
 
 /// Of a list whose stencils are places in storage. What does not fit, is not kept: a file may have any numbers.

@@ -175,11 +175,14 @@ struct Scheduler {
         }
       };
       if (kept != nullptr) {
-        append(colours.of_tile[static_cast<std::size_t>(t)], false);
+        KeptColours::OfTile& of_tile = colours.of_tile[static_cast<std::size_t>(t)];
         std::erase_if(members, [&](int member) { return colours.is_kept[static_cast<std::size_t>(member)] != 0; });
+        colouring.extend(list.stencils.own(), list.size, members, of_tile.added);
+        append(of_tile.first, false);
+        append(of_tile.added, true);
+      } else {
+        append(in_given_order ? one_by_one(members) : colouring.colour(list.stencils.own(), list.size, members), false);
       }
-      append(in_given_order ? one_by_one(members) : colouring.colour(list.stencils.own(), list.size, members),
-             kept != nullptr);
       if (t < tiles) out.tile_end.push_back(static_cast<int>(out.segments.size()));
     }
     if (pool.indices.capacity() > 2 * pool.indices.size()) pool.indices.shrink_to_fit();  // most slots are contiguous

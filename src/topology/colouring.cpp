@@ -124,13 +124,23 @@ int Colouring::first_free(const int* particles, int count) {
   if (~used != 0) {
     int colour = 0;
     while (used >> colour & 1) ++colour;
-    for (int i = 0; i < count; ++i) used_[particles[i]] |= std::uint64_t{1} << colour;
+    use(particles, count, colour);
     return colour;
   }
   int colour = bits;
   for (int i = 0; i < count; ++i) colour = std::max(colour, next_[particles[i]]);
-  for (int i = 0; i < count; ++i) next_[particles[i]] = colour + 1;
+  use(particles, count, colour);
   return colour;
+}
+
+/// Marks a colour as one that these particles have; of colours beyond 64 they have all lower ones, too.
+void Colouring::use(const int* particles, int count, int colour) {
+  for (int i = 0; i < count; ++i) {
+    if (colour < bits)
+      used_[particles[i]] |= std::uint64_t{1} << colour;
+    else
+      next_[particles[i]] = std::max(next_[particles[i]], colour + 1);
+  }
 }
 
 /// Colours by first fit, using only new colours. A group of four gets one colour as a whole.
@@ -168,6 +178,21 @@ void Colouring::reset(const std::vector<int>& stencils, int size, const std::vec
       next_[stencils[static_cast<std::size_t>(size) * member + slot]] = 0;
     }
   }
+}
+
+void Colouring::extend(const std::vector<int>& stencils, int size, const std::vector<int>& members,
+                       std::vector<Colour>& colours) {
+  const auto stencil = [&](int member) { return &stencils[static_cast<std::size_t>(size) * member]; };
+  for (const Colour& colour : colours) reset(stencils, size, colour.members);
+  reset(stencils, size, members);
+  for (std::size_t c = 0; c < colours.size(); ++c)
+    for (const int member : colours[c].members) use(stencil(member), size, static_cast<int>(c));
+  for (const int member : members) {
+    const auto colour = static_cast<std::size_t>(first_free(stencil(member), size));
+    if (colour >= colours.size()) colours.resize(colour + 1);
+    colours[colour].members.push_back(member);
+  }
+  std::erase_if(colours, [](const Colour& colour) { return colour.members.empty(); });
 }
 
 std::vector<Colour> Colouring::colour_singly(const std::vector<int>& stencils, int size, const std::vector<int>& members) {

@@ -96,6 +96,40 @@ TEST(Colouring, OfAPartLeavesTheRestAlone) {
   EXPECT_TRUE(checked_colours(c, {}).empty());
 }
 
+/// Adds constraints to colours a few at a time, and checks that those that are there stay.
+std::vector<Colour> extended(const Constraints& c, int at_once) {
+  Colouring colouring(c.particles);
+  std::vector<Colour> colours;
+  for (int first = 0; first < c.count(); first += at_once) {
+    std::vector<int> some;
+    for (int i = first; i < std::min(first + at_once, c.count()); ++i) some.push_back(i);
+    const std::vector<Colour> before = colours;
+    colouring.extend(c.stencils, c.size, some, colours);
+    for (std::size_t i = 0; i < before.size(); ++i)
+      EXPECT_TRUE(std::equal(before[i].members.begin(), before[i].members.end(), colours[i].members.begin()));
+  }
+  std::vector<int> found;
+  for (const Colour& colour : colours) {
+    EXPECT_EQ(colour.runs, 0);
+    expect_independent(c, colour);
+    found.insert(found.end(), colour.members.begin(), colour.members.end());
+  }
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, all_of(c));
+  return colours;
+}
+
+TEST(Colouring, IsExtended) {
+  for (int size = 1; size <= 4; ++size)
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      const Constraints c = random_constraints(4 + static_cast<int>(seed) * 20, size, 300, seed);
+      EXPECT_EQ(extended(c, 7).size(), extended(c, 300).size()) << "first fit";
+    }
+  Constraints star{501, 2, {}};
+  for (int i = 1; i <= 500; ++i) star.stencils.insert(star.stencils.end(), {0, i});
+  EXPECT_EQ(extended(star, 11).size(), 500u);
+}
+
 TEST(Colouring, OfAStarNeedsAColourAnEdge) {
   Constraints star{501, 2, {}};
   for (int i = 1; i <= 500; ++i) star.stencils.insert(star.stencils.end(), {0, i});
