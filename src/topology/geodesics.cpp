@@ -4,7 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <queue>
+#include <span>
 #include <tuple>
+#include <utility>
 
 namespace pliant {
 
@@ -36,20 +38,73 @@ double unfolded(double da, double db, double side, double ca, double cb) {
   return std::sqrt((cx - sx) * (cx - sx) + (cy + sy) * (cy + sy));
 }
 
+/// What is at each of some vertices, in compressed rows.
+template <class T>
+class AtVertices {
+ public:
+  /// `visit(add)` calls add(vertex, item) for each item, twice in the same order.
+  template <class Visit>
+  AtVertices(std::size_t vertices, const Visit& visit) : first_(vertices + 2) {
+    visit([this](int vertex, const T&) { ++first_[static_cast<std::size_t>(vertex) + 2]; });
+    for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    items_.resize(first_.back());
+    visit([this](int vertex, const T& item) { items_[first_[static_cast<std::size_t>(vertex) + 1]++] = item; });
+  }
+
+  std::span<const T> operator[](int vertex) const {
+    const auto v = static_cast<std::size_t>(vertex);
+    return {items_.data() + first_[v], items_.data() + first_[v + 1]};
+  }
+
+ private:
+  std::vector<std::size_t> first_;
+  std::vector<T> items_;
+};
+
+AtVertices<Neighbour> neighbours_of(const Distances& mesh) {
+  return {static_cast<std::size_t>(mesh.vertices), [&](const auto& add) {
+            for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+              const auto [a, b] = mesh.edges[e];
+              add(a, Neighbour{b, mesh.lengths[e]});
+              add(b, Neighbour{a, mesh.lengths[e]});
+            }
+          }};
+}
+
+/// The length of the shortest edge between two vertices; infinity if there is none.
+double length_between(const AtVertices<Neighbour>& neighbours, int a, int b) {
+  double length = HUGE_VAL;
+  if (neighbours[b].size() < neighbours[a].size()) std::swap(a, b);
+  for (const Neighbour& n : neighbours[a])
+    if (n.vertex == b) length = std::min(length, n.length);
+  return length;
+}
+
+AtVertices<Corner> corners_of(const Distances& mesh, const AtVertices<Neighbour>& neighbours) {
+  return {static_cast<std::size_t>(mesh.vertices), [&](const auto& add) {
+            for (const auto& [a, b, c] : mesh.triangles) {
+              const double ab = length_between(neighbours, a, b), bc = length_between(neighbours, b, c),
+                           ca = length_between(neighbours, c, a);
+              if (!(std::max({ab, bc, ca}) < HUGE_VAL)) continue;
+              add(a, Corner{b, c, ab, ca, bc});
+              add(b, Corner{c, a, bc, ab, ca});
+              add(c, Corner{a, b, ca, bc, ab});
+            }
+          }};
+}
+
 class Search {
  public:
   explicit Search(const Distances& mesh)
-      : neighbours_(mesh.vertices), corners_(mesh.vertices), group_of_(mesh.vertices, -1) {
-    for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-      neighbours_[mesh.edges[e][0]].push_back({mesh.edges[e][1], mesh.lengths[e]});
-      neighbours_[mesh.edges[e][1]].push_back({mesh.edges[e][0], mesh.lengths[e]});
-    }
-    add_corners(mesh);
-  }
+      : vertices_(static_cast<std::size_t>(mesh.vertices)),
+        neighbours_(neighbours_of(mesh)),
+        corners_(corners_of(mesh, neighbours_)),
+        group_of_(vertices_, -1),
+        offered_(vertices_, {-1, HUGE_VAL}) {}
 
   std::vector<std::vector<NearSource>> run(const std::vector<int>& sources, int most) {
     group(sources);
-    std::vector<std::vector<NearSource>> found(neighbours_.size());
+    std::vector<std::vector<NearSource>> found(vertices_);
     for (int source : sources) waiting_.emplace(0.0, source, source);
     while (!waiting_.empty()) {
       const auto [distance, vertex, source] = waiting_.top();
@@ -65,30 +120,9 @@ class Search {
   }
 
  private:
-  void add_corners(const Distances& mesh) {
-    std::vector<std::tuple<int, int, double>> known;
-    for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-      const auto [a, b] = std::minmax(mesh.edges[e][0], mesh.edges[e][1]);
-      known.emplace_back(a, b, mesh.lengths[e]);
-    }
-    std::sort(known.begin(), known.end());
-    const auto length = [&](int a, int b) {
-      const auto [low, high] = std::minmax(a, b);
-      const auto at = std::lower_bound(known.begin(), known.end(), std::make_tuple(low, high, -1.0));
-      return at != known.end() && std::get<0>(*at) == low && std::get<1>(*at) == high ? std::get<2>(*at) : -1.0;
-    };
-    for (const auto& [a, b, c] : mesh.triangles) {
-      const double ab = length(a, b), bc = length(b, c), ca = length(c, a);
-      if (ab < 0 || bc < 0 || ca < 0) continue;
-      corners_[a].push_back({b, c, ab, ca, bc});
-      corners_[b].push_back({c, a, bc, ab, ca});
-      corners_[c].push_back({a, b, ca, bc, ab});
-    }
-  }
-
   /// Numbers the groups of sources: sources connected by edges form one group.
   void group(const std::vector<int>& sources) {
-    std::vector<char> is_source(neighbours_.size(), 0);
+    std::vector<char> is_source(vertices_, 0);
     for (int source : sources) is_source[source] = 1;
     int groups = 0;
     std::vector<int> stack;
@@ -121,8 +155,14 @@ class Search {
     return true;
   }
 
+  /// Of two offers of a group the one that is taken first is accepted, so what is behind the last one that waits is left out.
   void offer(const std::vector<NearSource>& found, double distance, int vertex, int source, int most) {
-    if (distance < HUGE_VAL && is_wanted(found, source, most)) waiting_.emplace(distance, vertex, source);
+    if (!(distance < HUGE_VAL) || !is_wanted(found, source, most)) return;
+    NearSource& last = offered_[static_cast<std::size_t>(vertex)];
+    const bool is_of_group = last.source >= 0 && group_of_[last.source] == group_of_[source];
+    if (is_of_group && std::tie(last.distance, last.source) <= std::tie(distance, source)) return;
+    last = {source, distance};
+    waiting_.emplace(distance, vertex, source);
   }
 
   struct Sides {
@@ -141,9 +181,11 @@ class Search {
   }
 
   using Entry = std::tuple<double, int, int>;  // distance, vertex, source
-  std::vector<std::vector<Neighbour>> neighbours_;
-  std::vector<std::vector<Corner>> corners_;
+  std::size_t vertices_;
+  AtVertices<Neighbour> neighbours_;
+  AtVertices<Corner> corners_;
   std::vector<int> group_of_;
+  std::vector<NearSource> offered_;  ///< to each vertex last; no source: nothing yet
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> waiting_;
 };
 
