@@ -45,6 +45,8 @@ void count_colour(const CompiledObject& object, int first, int last, const Tile*
   for (int s = first; s < last; ++s) {
     const Segment& segment = object.segments[static_cast<std::size_t>(s)];
     const Pool& pool = object.pools[static_cast<std::size_t>(segment.pool)];
+    const bool is_partly_contiguous = segment.runs != 0 && segment.runs != (1 << pool.stencil) - 1;
+    EXPECT_TRUE(!is_partly_contiguous || segment.last_count == 4) << "such groups fill their batches";
     const std::int32_t* index = pool.indices.data() + segment.index_offset;
     for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment))
       for (int lane = 0; lane < batch_width; ++lane) {
