@@ -11,6 +11,7 @@
 #include "model/compiled_object.h"
 #include "model/gather_constraints.h"
 #include "model/join_volumes.h"
+#include "model/keep_schedule.h"
 #include "model/length_ranges.h"
 #include "model/object_sets.h"
 #include "model/schedule.h"
@@ -95,6 +96,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   }
   fill_kinematics(object, out);
   schedule(lists, tile, in_given_order, has_tethers(options) || options.sweep == Sweep::multigrid, kept, out);
+  if (kept != nullptr && has_many_additions(out)) return compile(object, nullptr, options, nullptr);
   fill_particles(object, positions, out);
   append_chains(lists, options.chain_softness, out);
   schedule_stencils(lists, in_given_order, out);

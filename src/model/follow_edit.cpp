@@ -120,7 +120,7 @@ class Following {
     move_fans();
     move_colours();
     const auto particles = static_cast<int>(out_.order.size());
-    if (4 * (particles - out_.first_added) > particles || 4 * (constraints_ - kept_) > constraints_) return {};
+    if (4 * (particles - out_.first_added) > particles) return {};
     return std::move(out_);
   }
 
@@ -210,10 +210,8 @@ class Following {
     for (std::size_t type = 0; type < before.size(); ++type) {
       if (before[type].count() == 0) continue;
       const Constraints after = constraints_after(static_cast<int>(type));
-      constraints_ += static_cast<std::int64_t>(after.count());
       if (after.particles.size() % after.size == 0 && has_all(after))  // compile() says what is wrong with others
         now_[type] = Match(before[type], after, is_touched_).find();
-      kept_ += std::count_if(now_[type].begin(), now_[type].end(), [](int number) { return number >= 0; });
     }
   }
 
@@ -244,20 +242,15 @@ class Following {
   /// Those that are gone stay as -1, so that the groups of four around them are still groups.
   void move_colours() {
     for (KeptSchedule::Colour& colour : out_.colours)
-      for (int& constraint : colour.constraints) {
-        constraint = now(colour.type, constraint);
-        if (constraint < 0 || !colour.is_added) continue;
-        kept_ -= colour.type == fan_type_ ? out_.fans[at(constraint)].count : 1;
-      }
+      for (int& constraint : colour.constraints) constraint = now(colour.type, constraint);
   }
 
   const int largest_tile = CompileOptions{}.largest_tile;
   const CompiledObject& before_;
   const Object& after_;
   KeptSchedule out_;
-  std::vector<char> is_touched_;             ///< by the user's index
-  std::vector<std::vector<int>> now_;        ///< by type and number before: the number after, or -1
-  std::int64_t constraints_ = 0, kept_ = 0;  ///< after the edit; of these those that keep their colour
+  std::vector<char> is_touched_;       ///< by the user's index
+  std::vector<std::vector<int>> now_;  ///< by type and number before: the number after, or -1
   int volume_type_ = find_constraint_type(TetrahedronVolume::name),
       fan_type_ = find_constraint_type(VolumeAroundEdge::name);
 };

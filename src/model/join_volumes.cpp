@@ -35,35 +35,54 @@ Corners sorted(Corners corners) {
   return corners;
 }
 
-/// The compliance in shear of each tetrahedron that has one, by sorted corners.
-using Shear = std::vector<std::pair<Corners, float>>;
+/// True if the compliance in shear, 0 if there is none, is so much greater than that in volume.
+bool is_nearly_incompressible(float shear, float volume) {
+  return shear > 0 && static_cast<double>(shear) >= least_ratio * static_cast<double>(volume);
+}
 
-/// `is_near`: 1 for particles of tetrahedra that may be joined.
-Shear shear_of(std::vector<ConstraintList>& lists, const std::vector<char>& is_near) {
-  const int type = find_constraint_type(TetrahedronShear::name);
-  const auto has_near = [&](int particle) { return at(particle) < is_near.size() && is_near[at(particle)] != 0; };
-  Shear out;
-  for (ConstraintList& list : lists) {
-    if (list.type != type || list.law == Law::pbd || is_near.empty()) continue;
-    const std::vector<int>& stencils = list.stencils.own();
-    for (int i = 0; i < list.count(); ++i) {
-      const Corners corners = corners_of(stencils, i);
-      if (std::all_of(corners.begin(), corners.end(), has_near)) out.emplace_back(sorted(corners), list.response[at(i)]);
+/// The compliance in shear of tetrahedra. They mostly come in the order in which they are asked for.
+class Shear {
+ public:
+  explicit Shear(std::vector<ConstraintList>& lists) {
+    const int type = find_constraint_type(TetrahedronShear::name);
+    for (ConstraintList& list : lists) {
+      if (list.type != type || list.law == Law::pbd) continue;
+      const std::vector<int>& stencils = list.stencils.own();
+      for (int i = 0; i < list.count(); ++i) all_.emplace_back(corners_of(stencils, i), list.response[at(i)]);
     }
   }
-  const auto first = [](const Shear::value_type& one) { return one.first[0]; };
-  int particles = 0;
-  for (const auto& one : out) particles = std::max(particles, first(one) + 1);
-  sort_by_first(out, at(particles), first, std::less<>());
-  return out;
-}
 
-/// `corners`: sorted, of tetrahedron i of `volumes`.
-bool is_nearly_incompressible(const Shear& shear, const ConstraintList& volumes, const Corners& corners, int i) {
-  const auto found = std::lower_bound(shear.begin(), shear.end(), std::pair{corners, 0.f});
-  return found != shear.end() && found->first == corners && found->second > 0 &&
-         static_cast<double>(found->second) >= least_ratio * static_cast<double>(volumes.response[at(i)]);
-}
+  /// 0 if the tetrahedron has none.
+  float compliance_of(const Corners& corners) {
+    const std::size_t end = std::min(next_ + most_ahead, all_.size());
+    for (std::size_t i = next_; i < end; ++i) {
+      if (!std::is_permutation(corners.begin(), corners.end(), all_[i].first.begin())) continue;
+      next_ = i + 1;
+      return all_[i].second;
+    }
+    if (sorted_.empty()) sort();
+    const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair{sorted(corners), 0.f});
+    return found != sorted_.end() && found->first == sorted(corners) ? found->second : 0;
+  }
+
+ private:
+  using Entry = std::pair<Corners, float>;
+  static constexpr std::size_t most_ahead = 8;
+
+  void sort() {
+    sorted_ = all_;
+    int particles = 0;
+    for (Entry& one : sorted_) {
+      one.first = sorted(one.first);
+      particles = std::max(particles, one.first[0] + 1);
+    }
+    sort_by_first(
+        sorted_, at(particles), [](const Entry& one) { return one.first[0]; }, std::less<>());
+  }
+
+  std::vector<Entry> all_, sorted_;
+  std::size_t next_ = 0;
+};
 
 /// A tetrahedron at an edge (a, b): the other corners, so that (a, b, from, to) has a positive volume.
 struct AtEdge {
@@ -212,16 +231,20 @@ ConstraintList fans_like(const ConstraintList& volumes) {
   return out;
 }
 
-/// The tetrahedra of a list, what an earlier schedule says of them, and the fans that they form.
+/// The tetrahedra of a list, and the fans that they form.
 class Joining {
  public:
-  explicit Joining(ConstraintList& list)
-      : list_(list), stencils_(list.stencils.own()), is_settled_(at(list.count())), is_taken_(at(list.count())) {
+  Joining(ConstraintList& list, Shear& shear)
+      : list_(list), stencils_(list.stencils.own()), may_join_(at(list.count())), is_taken_(at(list.count())) {
     static_assert(std::tuple_size_v<decltype(Fan::ring)> == most_around);
+    index_of_.resize(at(list.count()), -1);
     for (int i = 0; i < list.count(); ++i) {
       const auto origin = at(list.origin[at(i)]);
-      if (origin >= index_of_.size()) index_of_.resize(std::max(2 * origin, at(list.count())), -1);
+      if (origin >= index_of_.size()) index_of_.resize(2 * origin, -1);
       index_of_[origin] = i;
+      if (list.rest[at(i)] > 0)
+        may_join_[at(i)] =
+            is_nearly_incompressible(shear.compliance_of(corners_of(stencils_, i)), list.response[at(i)]) ? 1 : 0;
     }
   }
 
@@ -233,7 +256,7 @@ class Joining {
     for (int t = 0; t < fan.count; ++t) {
       int& tetrahedron = fan.tetrahedra[at(t)];
       tetrahedron = index_of(tetrahedron);
-      if (tetrahedron < 0 || is_taken_[at(tetrahedron)] != 0) return false;
+      if (tetrahedron < 0 || is_taken_[at(tetrahedron)] != 0 || may_join_[at(tetrahedron)] == 0) return false;
       const Corners corners{fan.a, fan.b, fan.ring[at(t)], fan.ring[at((t + 1) % fan.ring_size)]};
       if (!std::is_permutation(corners.begin(), corners.end(), &stencils_[4 * at(tetrahedron)])) return false;
     }
@@ -241,27 +264,11 @@ class Joining {
     return true;
   }
 
-  /// A tetrahedron that has its own constraint in an earlier schedule keeps it.
-  void settle(int origin) {
-    const int i = index_of(origin);
-    if (i >= 0) is_settled_[at(i)] = 1;
-  }
-
   /// Joins those that are left to fans with numbers from `number` on.
-  void join(std::vector<ConstraintList>& lists, int number) {
-    std::vector<char> joins(at(list_.count())), is_near;
-    for (int i = 0; i < list_.count(); ++i) {
-      joins[at(i)] = is_taken_[at(i)] == 0 && is_settled_[at(i)] == 0 && list_.rest[at(i)] > 0 ? 1 : 0;
-      if (joins[at(i)] == 0) continue;
-      for (const int corner : corners_of(stencils_, i)) {
-        if (at(corner) >= is_near.size()) is_near.resize(2 * at(corner) + 1);
-        is_near[at(corner)] = 1;
-      }
-    }
-    const Shear shear = shear_of(lists, is_near);
-    for (int i = 0; i < list_.count(); ++i)
-      if (joins[at(i)] != 0 && !is_nearly_incompressible(shear, list_, sorted(corners_of(stencils_, i)), i))
-        joins[at(i)] = 0;
+  void join(int number) {
+    std::vector<char> joins = may_join_;
+    for (std::size_t i = 0; i < joins.size(); ++i)
+      if (is_taken_[i] != 0) joins[i] = 0;
     const Fans fans(stencils_, std::move(joins));
     for (const Fan& fan : fans.all()) take(fan, number++);
   }
@@ -279,8 +286,8 @@ class Joining {
 
   const ConstraintList& list_;
   const std::vector<int>& stencils_;
-  std::vector<int> index_of_;                ///< by number among the constraints of the type
-  std::vector<char> is_settled_, is_taken_;  ///< by index in the list
+  std::vector<int> index_of_;              ///< by number among the constraints of the type
+  std::vector<char> may_join_, is_taken_;  ///< by index in the list
   std::vector<std::pair<Fan, int>> fans_;
 };
 
@@ -291,15 +298,12 @@ Fan by_number(Fan fan, const ConstraintList& list) {
 }
 
 /// Replaces the tetrahedra of a list that are joined, and appends the list of their fans.
-void join_list(ConstraintList& list, std::vector<ConstraintList>& lists, const KeptSchedule* kept, std::vector<Fan>& fans,
+void join_list(ConstraintList& list, Shear& shear, const KeptSchedule* kept, std::vector<Fan>& fans,
                std::vector<ConstraintList>& joined) {
-  Joining joining(list);
+  Joining joining(list, shear);
   for (std::size_t i = 0; kept != nullptr && i < kept->fans.size(); ++i)
     if (fans[i].count == 0 && joining.keep(kept->fans[i], static_cast<int>(i))) fans[i] = kept->fans[i];
-  for (std::size_t c = 0; kept != nullptr && c < kept->colours.size(); ++c)
-    if (kept->colours[c].type == list.type && kept->colours[c].law == static_cast<int>(list.law))
-      for (const int origin : kept->colours[c].constraints) joining.settle(origin);
-  joining.join(lists, static_cast<int>(fans.size()));
+  joining.join(static_cast<int>(fans.size()));
   if (joining.fans().empty()) return;
   joined.push_back(fans_like(list));
   for (const auto& [fan, number] : joining.fans()) {
@@ -313,10 +317,15 @@ void join_list(ConstraintList& list, std::vector<ConstraintList>& lists, const K
 
 std::vector<KeptSchedule::Fan> join_volumes(std::vector<ConstraintList>& lists, const KeptSchedule* kept) {
   const int type = find_constraint_type(TetrahedronVolume::name);
+  const auto may_join = [type](const ConstraintList& list) {
+    return list.type == type && list.law != Law::pbd && !list.changes;
+  };
   std::vector<Fan> fans(kept != nullptr ? kept->fans.size() : 0);
+  if (std::none_of(lists.begin(), lists.end(), may_join)) return fans;
   std::vector<ConstraintList> joined;
+  Shear shear(lists);
   for (ConstraintList& list : lists)
-    if (list.type == type && list.law != Law::pbd && !list.changes) join_list(list, lists, kept, fans, joined);
+    if (may_join(list)) join_list(list, shear, kept, fans, joined);
   if (joined.empty()) return fans;
   std::erase_if(lists, [](const ConstraintList& list) { return list.count() == 0; });
   for (ConstraintList& list : joined) lists.push_back(std::move(list));

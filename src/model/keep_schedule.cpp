@@ -1,6 +1,7 @@
 #include "model/keep_schedule.h"
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -13,11 +14,13 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+int constraints_in(const Segment& segment) {
+  return (segment.batches - 1) * batch_width + segment.last_count * (segment.runs != 0 ? 4 : 1);
+}
+
 /// Appends the constraints of a segment in the order in which they were given to it.
 void append_constraints(const Pool& pool, const Segment& segment, std::vector<int>& out) {
-  const int in_last = segment.last_count * (segment.runs != 0 ? 4 : 1);
-  const int count = (segment.batches - 1) * batch_width + in_last;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < constraints_in(segment); ++i) {
     const int in_batch = i % batch_width, lane = segment.runs != 0 ? 4 * (in_batch % 4) + in_batch / 4 : in_batch;
     out.push_back(pool.origin[at(segment.first_batch + i / batch_width) * batch_width + at(lane)]);
   }
@@ -50,6 +53,16 @@ KeptSchedule schedule_of(const CompiledObject& object) {
   for (const ObjectPhase& phase : object.phases)
     if (phase.driver == Driver::inter_tile) out.colours.push_back(colour_of(object, phase.first, phase.last, -1));
   return out;
+}
+
+bool has_many_additions(const CompiledObject& object) {
+  std::int64_t all = 0, added = 0;
+  for (std::size_t s = 0; s < object.additions.segments.size(); ++s) {
+    const int count = constraints_in(object.segments[s]);
+    all += count;
+    added += object.additions.segments[s] != 0 ? count : 0;
+  }
+  return 4 * added > all;
 }
 
 void require_fits(const KeptSchedule& kept, std::size_t particles, const std::string& name) {

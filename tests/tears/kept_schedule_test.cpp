@@ -168,6 +168,23 @@ TEST(KeptSchedule, IsMadeAnewWhereItIsBetter) {
   for (std::size_t i = 0; i < part.size(); ++i) part[i] = static_cast<int>(i);
   const Edit dust = part_tetrahedra(block, part);
   EXPECT_FALSE(follow_edit(before, dust.object, dust.from)) << "nearly all is new";
+  for (const float ratio : {0.3f, 0.45f}) {  // the same particles, but volumes are joined otherwise
+    SoftBodyOptions options;
+    options.material.poisson_ratio = ratio;
+    Edit other = unchanged(block);
+    other.object.constraints = make_soft_body(box_tetrahedra({1, 1, 1}, {14, 14, 14}), options).constraints;
+    const std::optional<KeptSchedule> kept = follow_edit(before, other.object, other.from);
+    ASSERT_TRUE(kept);
+    const CompiledObject now = compile(other.object, CompileOptions{}, &*kept);
+    EXPECT_EQ(now.fans.empty(), ratio < 0.4f);
+    expect_same_schedule(now, compile(other.object, CompileOptions{}));
+    EXPECT_EQ(now.additions.are_used, ratio > 0.4f);
+  }
+  Edit damped = unchanged(block);
+  for (ConstraintGroup& group : damped.object.constraints) group.stiffness.damping = 0.1f;
+  const std::optional<KeptSchedule> kept = follow_edit(before, damped.object, damped.from);
+  ASSERT_TRUE(kept);
+  expect_same_schedule(compile(damped.object, CompileOptions{}, &*kept), compile(damped.object, CompileOptions{}));
   Edit reversed = unchanged(block);
   std::reverse(reversed.from.begin(), reversed.from.end());
   EXPECT_FALSE(follow_edit(before, reversed.object, reversed.from)) << "particles have changed places";
