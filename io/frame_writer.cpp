@@ -1,4 +1,6 @@
 // The public FrameWriter: reads a World's objects in each frame and passes them to the writer of the suffix's format.
+#include <algorithm>
+
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/surface.h"
@@ -54,8 +56,15 @@ void leave_out_absent(const std::vector<int>& present, bool keeps_number, std::v
   velocities = std::move(speeds);
 }
 
-/// True if the World tears or cuts an object.
-bool changes_mesh(const Object& object) { return object.tearing || !object.cuts.empty(); }
+/// True if the World tears or cuts an object in a way that changes its mesh. Of rods joints break, and their segments stay.
+bool changes_mesh(const Object& object) {
+  const auto is_of_rod = [](const ObjectJoint& joint) { return joint.kind == "rod"; };
+  const auto is_link = [](const ConstraintGroup& group) { return group.type == "distance"; };
+  const bool has_rods_alone = object.triangles.empty() &&
+                              std::any_of(object.joints.begin(), object.joints.end(), is_of_rod) &&
+                              std::none_of(object.constraints.begin(), object.constraints.end(), is_link);
+  return (object.tearing || !object.cuts.empty()) && !has_rods_alone;
+}
 
 class WorldWriter final : public FrameWriter {
  public:

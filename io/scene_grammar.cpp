@@ -106,7 +106,7 @@ const Record& tie_record() {
 
 const Record& tearing_record() {
   static const Record result{"tearing",
-                             "The object tears at edges and tetrahedra that become too long.",
+                             "The object tears at edges, tetrahedra and joints of rods that become too long.",
                              {needed("stretch", number("-", 1.000001, 1e6), "Greatest length over that at rest.")},
                              {}};
   return result;
@@ -196,7 +196,8 @@ const Record& object_record() {
              "Kinematic particles. A body whose particle has a pin turns with it, if a keyframe has a rotation."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
        field("stitches", list(record(stitch_record())), "none", "Threads that sew its particles together."),
-       field("tearing", record(tearing_record()), "none", "Cloth, ropes and soft bodies: at which stretch they tear."),
+       field("tearing", record(tearing_record()), "none",
+             "Cloth, ropes, rods and soft bodies: at which stretch they tear."),
        field("cuts", list(record(plane_cut_record())), "none", "Cuts that are made during the simulation."),
        field("absorbency", record(absorbency_record()), "none", "Its triangles take up liquid."),
        field("thickness", number("m", 0, largest_place),

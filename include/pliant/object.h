@@ -177,12 +177,12 @@ struct ObjectJoint {
 };
 
 /// Where an object tears: at edges and tetrahedra that become too long. World::step splits one of their particles, across the direction of
-/// the greatest stretch (Mueller et al. 2007, section 4.6), and tells in Report::torn.
+/// the greatest stretch (Mueller et al. 2007, section 4.6), and tells in Report::torn. Of a rod a joint breaks (Report::broken_joints).
 struct Tearing {
   float stretch = 1.5f;  ///< greatest length over that at rest, > 1 [-]
 };
 
-/// A cut along a plane of an object's rest shape, made by World::step as time passes. It follows edges of triangles and faces of tetrahedra.
+/// A cut along a plane of an object's rest shape, made by World::step as time passes. It follows edges, faces of tetrahedra and joints of rods.
 struct PlaneCut {
   float start = 0, end = 0;  ///< when the blade enters the object, and when it has passed; equal: at once [s]
   Vec3f point{};             ///< of the plane [m]

@@ -147,7 +147,7 @@ struct ContactEvent {
   Vec3d push{};         ///< sum of their normal impulses on `first` over the frame [N s]
 };
 
-/// A joint that broke, because it carried more than its break_force or break_torque.
+/// A joint that broke: it carried more than its break_force or break_torque, or its rod tore or was cut.
 struct JointBreak {
   ObjectId object;
   int joint = -1;    ///< index in Object::joints

@@ -7,6 +7,7 @@
 #include "constraints/registry.h"
 #include "inspect/problems.h"
 #include "math/vector.h"
+#include "model/rods.h"
 #include "model/soft_body_substeps.h"
 
 namespace pliant {
@@ -46,9 +47,9 @@ void check_tearing(Problems& problems, const Object& object) {
   if (is_never_reached(object))
     problems.doubtful("tearing", "is of an object whose limits of strain keep it from being stretched so far",
                       "give a strain_limit whose `most` is above the stretch of the tearing");
-  if (!is_soft_body(object) && !has_links(object))
-    problems.grave("tearing", "is of an object without distance constraints or tetrahedra, so nothing can tear",
-                   "give it to cloth of springs, a rope or a soft body");
+  if (!is_soft_body(object) && !has_links(object) && !has_rods(object))
+    problems.grave("tearing", "is of an object without distance constraints, tetrahedra or rods, so nothing can tear",
+                   "give it to cloth of springs, a rope, a rod or a soft body");
 }
 
 void check_cut(Problems& problems, const PlaneCut& cut, const std::string& name) {
@@ -127,8 +128,9 @@ void doubt_tears(Problems& problems, const Object& object, const Scene& scene) {
 void check_tears(Problems& problems, const Object& object) {
   check_tearing(problems, object);
   for (std::size_t i = 0; i < object.cuts.size(); ++i) check_cut(problems, object.cuts[i], "cut " + std::to_string(i));
-  if (!object.cuts.empty() && object.triangles.empty() && !has_links(object) && !is_soft_body(object))
-    problems.grave("cuts", "are of an object without triangles or links, so there is nothing to cut", "leave them out");
+  if (!object.cuts.empty() && object.triangles.empty() && !has_links(object) && !is_soft_body(object) && !has_rods(object))
+    problems.grave("cuts", "are of an object without triangles, links or rods, so there is nothing to cut",
+                   "leave them out");
   check_skin(problems, object);
 }
 

@@ -15,11 +15,13 @@
 #include "matter/around.h"
 #include "matter/break_constraints.h"
 #include "matter/edit_parts.h"
+#include "model/rods.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
 #include "pliant/soft_body.h"
 #include "world/objects.h"
 #include "world/rest.h"
+#include "world/tear_rods.h"
 
 namespace pliant {
 
@@ -172,7 +174,9 @@ void tear_object(WorldData& world, ObjectId id, Report& report) {
   const double now = world.state.time;
   TornObject& torn = world.descriptions.at(id.slot);
   const std::vector<PlaneCut>& cuts = torn.object.cuts;
-  if (std::any_of(cuts.begin(), cuts.end(), [&](const PlaneCut& cut) { return is_due(cut, torn.cut_until, now); }))
+  const bool is_being_cut =
+      std::any_of(cuts.begin(), cuts.end(), [&](const PlaneCut& cut) { return is_due(cut, torn.cut_until, now); });
+  if (is_being_cut)
     if (std::optional<Edit> edit = make_cuts(torn.object, now)) open_up(world, id, std::move(*edit), report);
   torn.cut_until = now;
   if (can_break(torn.object)) {
@@ -182,9 +186,10 @@ void tear_object(WorldData& world, ObjectId id, Report& report) {
     if (std::optional<Edit> edit = break_constraints(torn.object, positions, factor))
       open_up(world, id, std::move(*edit), report);
   }
-  if (!torn.object.tearing) return;
-  if (std::optional<Edit> edit = tear(torn.object, ObjectView(world, id).positions()))
-    open_up(world, id, std::move(*edit), report);
+  if (torn.object.tearing)
+    if (std::optional<Edit> edit = tear(torn.object, ObjectView(world, id).positions()))
+      open_up(world, id, std::move(*edit), report);
+  if (has_rods(torn.object)) tear_rods(world, id, torn.object, is_being_cut, report);
 }
 
 }  // namespace
