@@ -29,7 +29,7 @@ struct KeptSchedule {
 
   std::vector<int> order;      ///< order[place in storage] = user's index, of particles, then of targets of attachments
   std::vector<int> tile_ends;  ///< one past the last particle of each tile
-  int first_added = 0;         ///< particles from this place on were added by edits
+  int first_added = 0;         ///< particles from this place on were added by edits; one of the tile ends
   std::vector<Colour> colours;
   std::vector<Fan> fans;
 

@@ -15,7 +15,7 @@ namespace pliant {
 /// Identifies what determines the bits of a run: two SHA-256 hashes, each as 64 hexadecimal digits.
 ///
 /// It excludes data that change no bits: colours, number of frames, threads, instruction set, measuring and recording,
-/// and distance grids, which follow from their meshes. Of force fields only the number counts.
+/// and distance grids, which follow from their meshes. Of force fields only the number counts. What edits left of schedules is in WorldLayout.
 struct Fingerprint {
   std::string scene;     ///< hash of gravity, wind, frame time, objects, colliders and pairs
   std::string settings;  ///< hash of chosen_settings that change bits; `tiled` and `sequential` are equal

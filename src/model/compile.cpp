@@ -96,7 +96,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   }
   fill_kinematics(object, out);
   schedule(lists, tile, in_given_order, has_tethers(options) || options.sweep == Sweep::multigrid, kept, out);
-  if (kept != nullptr && has_many_additions(out)) return compile(object, nullptr, options, nullptr);
+  if (kept != nullptr && has_many_additions(out)) return out;  // the caller schedules it anew
   fill_particles(object, positions, out);
   append_chains(lists, options.chain_softness, out);
   schedule_stencils(lists, in_given_order, out);
@@ -164,7 +164,11 @@ void fill_carrier(const MeshCollider& collider, CompiledObject& out) {
 }  // namespace
 
 CompiledObject compile(const Object& object, const CompileOptions& options, const KeptSchedule* kept) {
-  return compile(object, nullptr, options, kept);
+  if (kept != nullptr) {
+    CompiledObject out = compile(object, nullptr, options, kept);
+    if (!has_many_additions(out)) return out;
+  }
+  return compile(object, nullptr, options, nullptr);
 }
 
 CompiledObject compile(Object&& object, const CompileOptions& options) {

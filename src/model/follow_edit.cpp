@@ -116,7 +116,7 @@ class Following {
 
   std::optional<KeptSchedule> make() {
     number_particles();
-    find_all();
+    match_constraints();
     move_fans();
     move_colours();
     const auto particles = static_cast<int>(out_.order.size());
@@ -204,32 +204,32 @@ class Following {
                        [&](int p) { return p >= 0 && at(p) < is_touched_.size(); });
   }
 
-  void find_all() {
+  void match_constraints() {
     const std::vector<Constraints> before = constraints_before();
-    now_.resize(before.size());
+    numbers_after_.resize(before.size());
     for (std::size_t type = 0; type < before.size(); ++type) {
       if (before[type].count() == 0) continue;
       const Constraints after = constraints_after(static_cast<int>(type));
       if (after.particles.size() % after.size == 0 && has_all(after))  // compile() says what is wrong with others
-        now_[type] = Match(before[type], after, is_touched_).find();
+        numbers_after_[type] = Match(before[type], after, is_touched_).find();
     }
   }
 
-  int now(int type, int constraint) const {
-    const std::vector<int>& numbers = now_[at(type)];
+  int number_after(int type, int constraint) const {
+    const std::vector<int>& numbers = numbers_after_[at(type)];
     return constraint >= 0 && at(constraint) < numbers.size() ? numbers[at(constraint)] : -1;
   }
 
   /// Keeps the fans of which each tetrahedron is there.
   void move_fans() {
     std::vector<KeptSchedule::Fan> fans;
-    std::vector<int>& numbers = now_[at(fan_type_)];
+    std::vector<int>& numbers = numbers_after_[at(fan_type_)];
     numbers.assign(out_.fans.size(), -1);
     for (std::size_t i = 0; i < out_.fans.size(); ++i) {
       KeptSchedule::Fan fan = out_.fans[i];
       bool is_whole = fan.count > 0;
       for (int t = 0; t < fan.count; ++t) {
-        fan.tetrahedra[at(t)] = now(volume_type_, fan.tetrahedra[at(t)]);
+        fan.tetrahedra[at(t)] = number_after(volume_type_, fan.tetrahedra[at(t)]);
         is_whole = is_whole && fan.tetrahedra[at(t)] >= 0;
       }
       if (!is_whole) continue;
@@ -242,15 +242,15 @@ class Following {
   /// Those that are gone stay as -1, so that the groups of four around them are still groups.
   void move_colours() {
     for (KeptSchedule::Colour& colour : out_.colours)
-      for (int& constraint : colour.constraints) constraint = now(colour.type, constraint);
+      for (int& constraint : colour.constraints) constraint = number_after(colour.type, constraint);
   }
 
   const int largest_tile = CompileOptions{}.largest_tile;
   const CompiledObject& before_;
   const Object& after_;
   KeptSchedule out_;
-  std::vector<char> is_touched_;       ///< by the user's index
-  std::vector<std::vector<int>> now_;  ///< by type and number before: the number after, or -1
+  std::vector<char> is_touched_;  ///< by the user's index; 1: there are copies, so its constraints may be gone
+  std::vector<std::vector<int>> numbers_after_;  ///< by type and number before: the number after, or -1
   int volume_type_ = find_constraint_type(TetrahedronVolume::name),
       fan_type_ = find_constraint_type(VolumeAroundEdge::name);
 };

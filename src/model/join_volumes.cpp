@@ -231,6 +231,18 @@ ConstraintList fans_like(const ConstraintList& volumes) {
   return out;
 }
 
+/// True if tetrahedra with these corners are the same, and have a volume of the same sign.
+bool is_same_tetrahedron(const Corners& one, Corners other) {
+  bool is_even = true;
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const auto found = std::find(other.begin() + static_cast<std::ptrdiff_t>(i), other.end(), one[i]);
+    if (found == other.end()) return false;
+    if (found != other.begin() + static_cast<std::ptrdiff_t>(i)) is_even = !is_even;
+    std::swap(*found, other[i]);
+  }
+  return is_even;
+}
+
 /// The tetrahedra of a list, and the fans that they form.
 class Joining {
  public:
@@ -258,7 +270,8 @@ class Joining {
       tetrahedron = index_of(tetrahedron);
       if (tetrahedron < 0 || is_taken_[at(tetrahedron)] != 0 || may_join_[at(tetrahedron)] == 0) return false;
       const Corners corners{fan.a, fan.b, fan.ring[at(t)], fan.ring[at((t + 1) % fan.ring_size)]};
-      if (!std::is_permutation(corners.begin(), corners.end(), &stencils_[4 * at(tetrahedron)])) return false;
+      // One after another around the edge, all of the same sign: so none is there twice.
+      if (!is_same_tetrahedron(corners, corners_of(stencils_, tetrahedron))) return false;
     }
     take(fan, number);
     return true;

@@ -1,5 +1,6 @@
 #include "model/keep_schedule.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -82,6 +83,9 @@ void require_fits(const KeptSchedule& kept, std::size_t particles, const std::st
     last = end;
   }
   if (at(last) != particles) refuse("its tiles do not have all particles");
+  const bool begins_a_tile =
+      std::find(kept.tile_ends.begin(), kept.tile_ends.end(), kept.first_added) != kept.tile_ends.end();
+  if (!begins_a_tile) refuse("particles that were added do not begin with a tile");
 }
 
 namespace {

@@ -1,11 +1,13 @@
 // Edits of large objects keep the schedule of what they do not reach, and the schedule stays sound: each constraint once, none that share a
 // particle at the same time. What is saved between edits goes on with the same bits.
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
 
 #include "constraints/registry.h"
+#include "math/vector.h"
 #include "model/keep_schedule.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
@@ -258,6 +260,50 @@ TEST(KeptSchedule, OfAFileMayHaveAnyNumbers) {
       EXPECT_EQ(i % 8, 7) << error.what();
     }
   }
+}
+
+TEST(KeptSchedule, OfAFileHasNoFanOfOneTetrahedronAndNoneTurnedInsideOut) {
+  const Object block = large_block(13);
+  const CompiledObject before = compile(block, CompileOptions{});
+  for (const bool is_turned : {false, true}) {
+    KeptSchedule kept = schedule_of(before);
+    for (KeptSchedule::Fan& fan : kept.fans) {
+      if (is_turned) {
+        std::swap(fan.a, fan.b);
+      } else {
+        fan.count = fan.ring_size = 2;
+        fan.tetrahedra.fill(fan.tetrahedra[0]);
+      }
+    }
+    const CompiledObject after = compile(block, CompileOptions{}, &kept);
+    EXPECT_EQ(without_fans(after), without_fans(before));
+    for (const KeptSchedule::Fan& fan : after.fans) {
+      if (fan.count == 0) continue;  // one that was not kept
+      const auto at = [&](int p) { return convert<double>(block.positions[static_cast<std::size_t>(p)]); };
+      EXPECT_GT(dot(at(fan.b) - at(fan.a), cross(at(fan.ring[0]) - at(fan.a), at(fan.ring[1]) - at(fan.a))), 0);
+    }
+  }
+}
+
+TEST(KeptSchedule, OfAFileIsRefusedIfParticlesThatWereAddedDoNotBeginATile) {
+  const Object block = large_block(13);
+  KeptSchedule kept = schedule_of(compile(block, CompileOptions{}));
+  for (const int first : {std::numeric_limits<int>::min(), -1, 1, std::numeric_limits<int>::max()}) {
+    kept.first_added = first;
+    EXPECT_THROW(compile(block, CompileOptions{}, &kept), Error) << first;
+  }
+}
+
+TEST(KeptSchedule, OfOtherConstraintsIsRefused) {
+  Object block = large_block();
+  std::fill(block.masses.begin(), block.masses.end(), 1.f);  // so that States would not tell particles apart
+  Scene scene = weightless(block, 2);
+  World world(scene);
+  world.edit(ObjectId(0), unchanged(block));
+  ASSERT_TRUE(world.layout().schedules[0].is_used());
+  EXPECT_NO_THROW(World(scene, world.layout()));
+  for (ConstraintGroup& group : scene.objects[0].constraints) group.stiffness.damping = 0.1f;
+  EXPECT_THROW(World(scene, world.layout()), Error);
 }
 
 /// Cuts a block, saves it in the middle of the cut, and compares.
