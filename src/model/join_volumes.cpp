@@ -247,7 +247,7 @@ bool is_same_tetrahedron(const Corners& one, Corners other) {
 class Joining {
  public:
   Joining(ConstraintList& list, Shear& shear)
-      : list_(list), stencils_(list.stencils.own()), may_join_(at(list.count())), is_taken_(at(list.count())) {
+      : stencils_(list.stencils.own()), may_join_(at(list.count())), is_taken_(at(list.count())) {
     static_assert(std::tuple_size_v<decltype(Fan::ring)> == most_around);
     index_of_.resize(at(list.count()), -1);
     for (int i = 0; i < list.count(); ++i) {
@@ -297,7 +297,6 @@ class Joining {
     fans_.emplace_back(fan, number);
   }
 
-  const ConstraintList& list_;
   const std::vector<int>& stencils_;
   std::vector<int> index_of_;              ///< by number among the constraints of the type
   std::vector<char> may_join_, is_taken_;  ///< by index in the list
