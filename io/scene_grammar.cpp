@@ -115,9 +115,8 @@ const Record& tearing_record() {
 const Record& plane_cut_record() {
   static const Record result{
       "plane cut",
-      "A cut along a plane of the object's rest shape, by a blade that passes through it. It follows edges of triangles "
-      "and "
-      "faces of tetrahedra.",
+      "A cut along a plane of the object's rest shape, by a blade that passes through it. It follows faces of "
+      "tetrahedra, edges of triangles, links of ropes and joints of rods.",
       {field("start", number("s", 0, 1e9), PlaneCut{}.start, "When the blade enters the object."),
        field("end", number("s", 0, 1e9), "`start`: all at once", "When the blade has passed."),
        field("point", place(), PlaneCut{}.point, "A point of the plane, in the object's rest shape."),

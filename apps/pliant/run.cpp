@@ -35,8 +35,10 @@ std::string summary(const RunOptions& options, const World& world, const RunRepo
 /// What tore, was cut or broke, as a line; empty if nothing did.
 std::string summary(const Tears& tears) {
   if (tears.first_frame < 0) return {};
+  const std::string joints =
+      tears.broken_joints == 0 ? "" : ", " + counted(static_cast<std::size_t>(tears.broken_joints), "broken joint");
   return "tears: " + counted(static_cast<std::size_t>(tears.lost_constraints), "constraint") + " lost and " +
-         counted(static_cast<std::size_t>(tears.new_particles), "new particle") + ", the first in frame " +
+         counted(static_cast<std::size_t>(tears.new_particles), "new particle") + joints + ", the first in frame " +
          std::to_string(tears.first_frame) + "\n";
 }
 

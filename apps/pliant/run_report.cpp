@@ -108,6 +108,7 @@ Json tears_json(const Scene& scene, const Tears& tears) {
   if (std::none_of(scene.objects.begin(), scene.objects.end(), comes_apart)) return nullptr;
   return {{"new_particles", tears.new_particles},
           {"lost_constraints", tears.lost_constraints},
+          {"broken_joints", tears.broken_joints},
           {"first_frame", tears.first_frame < 0 ? Json() : Json(tears.first_frame)}};
 }
 
@@ -178,8 +179,9 @@ void RunReport::add(const Report& report, const World& world) {
   for (const Torn& torn : report.torn) {
     tears_.new_particles += torn.new_particles;
     tears_.lost_constraints += torn.lost_constraints;
-    if (tears_.first_frame < 0) tears_.first_frame = report.frame;
   }
+  tears_.broken_joints += static_cast<std::int64_t>(report.broken_joints.size());
+  if (tears_.first_frame < 0 && !(report.torn.empty() && report.broken_joints.empty())) tears_.first_frame = report.frame;
   iterations_.mean += report.iterations.mean;
   milliseconds_.push_back(report.milliseconds);
   most_substeps_ = std::max(most_substeps_, report.substeps);

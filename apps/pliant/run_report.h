@@ -17,7 +17,7 @@ double quantile(std::vector<double> values, double q);
 
 /// What tore and was cut in all frames.
 struct Tears {
-  std::int64_t new_particles = 0, lost_constraints = 0;
+  std::int64_t new_particles = 0, lost_constraints = 0, broken_joints = 0;
   std::int64_t first_frame = -1;  ///< -1: nothing tore
 };
 

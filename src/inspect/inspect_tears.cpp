@@ -109,7 +109,11 @@ void doubt_tears(Problems& problems, const Object& object, const Scene& scene) {
     if (static_cast<double>(cut.start) > scene.frames * static_cast<double>(scene.frame_time))
       problems.doubtful(name, "starts after the last frame", "give more frames, or an earlier time");
     bool is_before = false, is_behind = false;
-    for (const Vec3f& p : object.positions) (dot(p - cut.point, cut.normal) > 0 ? is_before : is_behind) = true;
+    const int world = world_particle(object);
+    for (std::size_t p = 0; p < object.positions.size(); ++p) {
+      if (static_cast<int>(p) == world) continue;
+      (dot(object.positions[p] - cut.point, cut.normal) > 0 ? is_before : is_behind) = true;
+    }
     if (!is_before || !is_behind)
       problems.doubtful(name, "misses the object", "let `point` lie in the object's rest shape");
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "math/functions.h"
+#include "model/rods.h"
 #include "pliant/scene.h"
 
 namespace pliant {
@@ -19,7 +20,10 @@ class PlaneSides {
     const Vec3d way = wide(cut.along);
     along_ = unit(way - normal_ * dot(way, normal_));
     double first = std::numeric_limits<double>::infinity(), last = -first;
-    for (const Vec3f& p : object.positions) {
+    const int world = world_particle(object);
+    for (std::size_t i = 0; i < object.positions.size(); ++i) {
+      if (static_cast<int>(i) == world) continue;
+      const Vec3f& p = object.positions[i];
       const double distance = dot(wide(p), along_);
       first = std::min(first, distance);
       last = std::max(last, distance);
@@ -35,6 +39,7 @@ class PlaneSides {
   bool is_ahead(const std::array<int, n>& particles) const {
     return dot(middle(particles) - point_, normal_) > 0;
   }
+  bool is_ahead(const Vec3d& place) const { return dot(place - point_, normal_) > 0; }
   /// For each triangle or tetrahedron: 1 if is_ahead. The sum of the distances of its corners tells it, unless rounding could.
   template <std::size_t n>
   std::vector<int> ahead_of(const std::vector<std::array<int, n>>& elements) const {
@@ -55,6 +60,7 @@ class PlaneSides {
   bool are_parted(const std::array<int, n>& a, const std::array<int, n>& b) const {
     return is_ahead(a) != is_ahead(b);
   }
+  bool is_reached(const Vec3d& place) const { return dot(place, along_) <= blade_; }
   /// True if the blade has passed the middle of these particles.
   template <std::size_t n>
   bool is_reached(const std::array<int, n>& particles) const {

@@ -103,7 +103,7 @@ WorldData::WorldData(const Scene& scene, const WorldLayout& layout)
     objects[of_objects[i]] =
         compile(scene.objects[i], compile_options(*this, layout.sweeps[of_objects[i]]), kept.is_used() ? &kept : nullptr);
     if (kept.is_used() && !objects[of_objects[i]].additions.are_used)  // its particles would be stored in another order
-      refuse("the schedule of object '" + scene.objects[i].name + "' is of other constraints");
+      refuse("the schedule of object '" + scene.objects[i].name + "' is of other constraints, or of another stiffness");
   }
   for (std::size_t i = 0; i < of_meshes.size(); ++i) {
     objects[of_meshes[i]] = compile(scene.mesh_colliders[i]);

@@ -1,7 +1,6 @@
 #include "world/tear_rods.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <variant>
 #include <vector>
@@ -30,17 +29,15 @@ class WholeRods {
       if (is_of_rod(object.joints[at(j)]) && !std::binary_search(broken.begin(), broken.end(), j)) joints_.push_back(j);
   }
 
-  /// Those between segments on both sides of a plane, where the blade has been.
+  /// Those between segments on both sides of a plane, or between an end and the middle of the first segment, where the blade has been.
   std::vector<int> cut_by(const PlaneCut& cut, double time) const {
     std::vector<int> found;
     if (joints_.empty() || time < static_cast<double>(cut.start)) return found;
     const PlaneSides sides(object_, cut, time);
     for (const int j : joints_) {
-      const ObjectJoint& joint = object_.joints[at(j)];
-      if (joint.a < 0 || joint.b < 0) continue;
-      const int a = object_.bodies[at(joint.a)].particle, b = object_.bodies[at(joint.b)].particle;
-      if (sides.are_parted(std::array<int, 1>{a}, std::array<int, 1>{b}) && sides.is_reached(std::array<int, 2>{a, b}))
-        found.push_back(j);
+      const Vec3d place = place_of(j), ahead = middle_of(object_.joints[at(j)].b);
+      const Vec3d behind = is_end(j) ? place : middle_of(object_.joints[at(j)].a);
+      if (sides.is_ahead(ahead) != sides.is_ahead(behind) && sides.is_reached((ahead + behind) * 0.5)) found.push_back(j);
     }
     return found;
   }
@@ -66,50 +63,67 @@ class WholeRods {
   }
 
  private:
-  /// The end of a segment at a joint, and how far that is from its middle.
-  struct End {
-    Vec3d place;
-    double arm = 0;
-  };
+  Vec3d middle_of(int body) const { return convert<double>(object_.positions[at(object_.bodies[at(body)].particle)]); }
 
-  /// `side`: 0 for body a, 1 for b. A rod_joint has the anchors of both as its first rest fields.
-  End end_of(const CompiledJoint::Part& part, int side) const {
-    const Pool& pool = compiled_.pools[at(part.pool)];
-    const auto field = [&](int i) { return static_cast<double>(pool.row(3 * side + i, part.batch)[part.lane]); };
-    const Vec3d anchor{field(0), field(1), field(2)};
+  /// The place of a joint in the rest shape.
+  Vec3d place_of(int j) const {
+    const ObjectJoint& joint = object_.joints[at(j)];
+    const Quatf& turn = object_.frames[at(object_.bodies[at(joint.b)].frame)].orientation;
+    return middle_of(joint.b) + rotate(convert<double>(turn), convert<double>(joint.anchor));
+  }
+
+  /// The rod_joint of a joint; null: it is the end of a rod on a ball joint.
+  const CompiledJoint::Part* rod_part(int j) const {
+    for (const CompiledJoint::Part& part : compiled_.joints[at(j)].parts)
+      if (pool_of(part).type == type_) return &part;
+    return nullptr;
+  }
+  const Pool& pool_of(const CompiledJoint::Part& part) const { return compiled_.pools[at(part.pool)]; }
+  double field(const CompiledJoint::Part& part, int i) const {
+    return static_cast<double>(pool_of(part).row(i, part.batch)[part.lane]);
+  }
+
+  /// The anchor of a body, which a rod_joint has first: in its principal axes about its centre. `side`: 0 for body a, 1 for b.
+  Vec3d anchor_of(const CompiledJoint::Part& part, int side) const {
+    return {field(part, 3 * side), field(part, 3 * side + 1), field(part, 3 * side + 2)};
+  }
+
+  /// True if body a is what holds the rod, and no segment: the rod_joint, which knows the radius over the length of rod that it stands for,
+  /// counts only the half segment of b.
+  bool is_end(int j) const {
+    const CompiledJoint::Part* const part = rod_part(j);
+    const std::vector<Solid>& solids = object_.bodies[at(object_.joints[at(j)].b)].solids;
+    const auto* capsule = solids.size() == 1 ? std::get_if<Capsule>(&solids[0].shape) : nullptr;
+    if (part == nullptr || capsule == nullptr) return false;
+    const double expected = static_cast<double>(capsule->radius) / field(*part, pool_of(*part).fields - 1);
+    const double arm_a = length_of(anchor_of(*part, 0)), arm_b = length_of(anchor_of(*part, 1));
+    return std::fabs(arm_b - expected) < std::fabs(arm_a + arm_b - expected);
+  }
+
+  static double length_of(const Vec3d& v) { return std::sqrt(dot(v, v)); }
+
+  /// Where the anchor of a body is at present.
+  Vec3d present_anchor(const CompiledJoint::Part& part, int side) const {
     const Record& x = world_.state.positions[at(world_.model.first[at(number_)] + part.slots[at(2 * side)])];
     const int frame = part.slots[at(2 * side + 1)] - compiled_.particles;
     const Record& q = world_.state.frames.orientations[at(world_.model.first_frame[at(number_)] + frame)];
     const Quatd turn{double(q.x), double(q.y), double(q.z), double(q.w)};
-    return {Vec3d{double(x.x), double(x.y), double(x.z)} + rotate(turn, anchor), std::sqrt(dot(anchor, anchor))};
+    return Vec3d{double(x.x), double(x.y), double(x.z)} + rotate(turn, anchor_of(part, side));
   }
 
-  /// The length over that at rest of the rod between the middles of two segments, or between what holds a rod and the middle of the first.
+  /// The length over that at rest of the rod between the middles of two segments, or between its end and the middle of the first.
   double stretch_of(int j) const {
-    for (const CompiledJoint::Part& part : compiled_.joints[at(j)].parts) {
-      const Pool& pool = compiled_.pools[at(part.pool)];
-      if (pool.type != find_constraint_type(RodJointRows::name)) continue;
-      const End a = end_of(part, 0), b = end_of(part, 1);
-      const Vec3d gap = b.place - a.place;
-      return 1 + std::sqrt(dot(gap, gap)) / rest_length(j, a.arm, b.arm, pool, part);
-    }
-    return 0;  // an end on a ball joint, which does not stretch
-  }
-
-  /// The rod_joint knows its radius over its length; that says whether the body a is a segment, too.
-  double rest_length(int j, double arm_a, double arm_b, const Pool& pool, const CompiledJoint::Part& part) const {
-    const std::vector<Solid>& solids = object_.bodies[at(object_.joints[at(j)].b)].solids;
-    const auto* capsule = solids.size() == 1 ? std::get_if<Capsule>(&solids[0].shape) : nullptr;
-    const double per_angle = static_cast<double>(pool.row(pool.fields - 1, part.batch)[part.lane]);
-    if (capsule == nullptr || !(per_angle > 0)) return arm_a + arm_b;
-    const double expected = static_cast<double>(capsule->radius) / per_angle;
-    return std::fabs(arm_b - expected) < std::fabs(arm_a + arm_b - expected) ? arm_b : arm_a + arm_b;
+    const CompiledJoint::Part* const part = rod_part(j);
+    if (part == nullptr) return 0;
+    const double arm_a = is_end(j) ? 0 : length_of(anchor_of(*part, 0)), arm_b = length_of(anchor_of(*part, 1));
+    return 1 + length_of(present_anchor(*part, 1) - present_anchor(*part, 0)) / (arm_a + arm_b);
   }
 
   const WorldData& world_;
   int number_;
   const Object& object_;
   const CompiledObject& compiled_;
+  int type_ = find_constraint_type(RodJointRows::name);
   std::vector<int> joints_;
 };
 

@@ -87,6 +87,38 @@ TEST(RodThatIsCut, PartsWhereTheBladeHasPassed) {
   }
 }
 
+/// The names of all joints that break within a second.
+std::vector<std::string> broken_of(const Object& object) {
+  Lone lone(object);
+  std::vector<std::string> names;
+  for (int frame = 0; frame < 60; ++frame)
+    for (const JointBreak& one : lone.world.step(frame_time).broken_joints) names.push_back(one.name);
+  return names;
+}
+
+TEST(RodThatIsCut, StaysWhereItIsHeldWhereverTheOriginIs) {
+  Object object = stalks();
+  for (const float x : {-0.25f, 0.25f})
+    for (const float way : {-1.f, 1.f}) {
+      object.cuts = {{0, 0.5f, {x, 0, 0}, {way, 0, 0}, {0, -1, 0}}};
+      EXPECT_TRUE(broken_of(object).empty()) << "the plane is between stalks";
+    }
+  RodOptions options = clamped_rod(material_of(1e9, 3.5e8, 1000), 0.01f);
+  Object hanging = make_rod(line({0, 2, 0}, {0, 1, 0}, 10), options);
+  hanging.cuts = {{0, 0.5f, {0, 1.52f, 0}, {0, 1, 0}, {1, 0, 0}}};
+  EXPECT_EQ(broken_of(hanging), std::vector<std::string>{"rod 4-5"});
+  hanging.cuts = {{0, 0.5f, {0, 1.98f, 0}, {0, 1, 0}, {1, 0, 0}}};
+  EXPECT_EQ(broken_of(hanging), std::vector<std::string>{"rod start"}) << "between the end and the first middle";
+}
+
+TEST(RodThatIsCut, MeetsTheBladeWhenItIsThereFarFromTheOrigin) {
+  Object object;
+  add_rod(object, line({100, 0, 0}, {100, 0.6f, 0}, 6), clamped_rod(material_of(1e9, 3.5e8, 1000), 0.01f));
+  object.cuts.push_back({0, 1, {0, 0.31f, 0}, {0, 1, 0}, {-1, 0, 0}});  // both ends of its way are where the rod is
+  Lone lone(object);
+  EXPECT_EQ(lone.world.step(frame_time).broken_joints.size(), 1u);
+}
+
 TEST(RodThatIsCut, GoesOnFromALayoutAndAStateWithTheSameBits) {
   Lone lone(stalks());
   lone.run(0.35);
