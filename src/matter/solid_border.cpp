@@ -1,5 +1,5 @@
 // Most of a large body's surface stays as it is when the body comes apart in some places. So if the triangles are the border of the
-// tetrahedra, in the order of border_triangles, only those at reached particles are found anew; else all are.
+// tetrahedra, in the order of border_triangles, only those at reached particles are found again; else all are.
 #include "matter/solid_border.h"
 
 #include <algorithm>

@@ -96,7 +96,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   }
   fill_kinematics(object, out);
   schedule(lists, tile, in_given_order, has_tethers(options) || options.sweep == Sweep::multigrid, kept, out);
-  if (kept != nullptr && has_many_additions(out)) return out;  // the caller schedules it anew
+  if (kept != nullptr && has_many_additions(out)) return out;  // the caller schedules it from scratch
   fill_particles(object, positions, out);
   append_chains(lists, options.chain_softness, out);
   schedule_stencils(lists, in_given_order, out);

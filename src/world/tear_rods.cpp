@@ -49,7 +49,7 @@ class WholeRods {
     std::vector<double> stretch(joints_.size());
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const ObjectJoint& joint = object_.joints[at(joints_[i])];
-      if (joint.a >= 0 && joint.b >= 0) rods.join(at(joint.a), at(joint.b));
+      if (!is_end(joints_[i])) rods.join(at(joint.a), at(joint.b));  // what holds several rods does not make them one
       stretch[i] = stretch_of(joints_[i]);
     }
     for (std::size_t i = 0; i < joints_.size(); ++i) {

@@ -75,6 +75,21 @@ TEST(RodThatTears, BreaksWhereItIsStretchedFarthest) {
   EXPECT_EQ(report.broken_joints[0].name, "rod end") << "where it is thinnest";
 }
 
+TEST(RodThatTears, BreaksEachOfTwoThatHangOnTheWorld) {
+  RodOptions options = clamped_rod(material_of(1e6, 3.5e5, 1000), 0.01f);
+  Object rods;
+  for (const float x : {0.f, 0.5f}) {
+    options.name = "rod " + std::to_string(rods.bodies.size());
+    options.velocity = {0, -3, 0};
+    add_rod(rods, line({x, 0, 0}, {x, -0.5f, 0}, 5), options);
+  }
+  rods.tearing = Tearing{1.02f};
+  Lone lone(std::move(rods), 20, false);
+  std::size_t most = 0;
+  for (int frame = 0; frame < 20; ++frame) most = std::max(most, lone.world.step(frame_time).broken_joints.size());
+  EXPECT_EQ(most, 2u) << "both in the same step";
+}
+
 TEST(RodThatTears, DoesNotTearByBendingOrAtASmallerStretch) {
   RodOptions options = clamped_rod(material_of(1e6, 3.5e5, 1000), 0.01f);
   options.material.damping = 0.05f;
