@@ -177,7 +177,7 @@ std::vector<int> compile_again(WorldData& world, ObjectId object, const Edit& ed
 }  // namespace
 
 std::vector<int> edit_object(WorldData& world, ObjectId object, const Edit& edit) {
-  const std::vector<int> news = compile_again(world, object, edit);
+  std::vector<int> news = compile_again(world, object, edit);
   keep_description(world, object.slot, &edit.object);
   return news;
 }
