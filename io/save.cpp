@@ -236,6 +236,63 @@ void refuse_force_fields(const Scene& scene) {
               "save the State alone, and make the World from the scene in code");
 }
 
+/// The blocks of a fingerprint.
+void add(std::vector<Block>& blocks, const Fingerprint& of) {
+  blocks.push_back({fingerprint_blocks[0], Type::bytes, 1, of.scene.size(), of.scene.data()});
+  blocks.push_back({fingerprint_blocks[1], Type::bytes, 1, of.settings.size(), of.settings.data()});
+}
+
+void require_fingerprint(const Contents& contents, const Fingerprint& of) {
+  if (!contents.has(fingerprint_blocks[0]) || !contents.has(fingerprint_blocks[1]))
+    contents.fail("does not say which scene it was saved with", "save it with its scene, or load it without one");
+  if (contents.text(fingerprint_blocks[0]) != of.scene)
+    contents.fail("was saved with another scene, or this scene has changed since", "use the scene that it was saved with");
+  if (contents.text(fingerprint_blocks[1]) != of.settings) {
+    contents.fail("was saved with other settings of this scene: substeps, iterations, the sweep or contact settings differ",
+                  "use the settings that it was saved with");
+  }
+}
+
+// ---------------------------------------------------------------- a World
+
+void save_world(const std::string& path, const World& world, const Scene& scene, const Fingerprint* of) {
+  refuse_other_scene(world, scene);
+  refuse_force_fields(scene);
+  Settings settings = world.settings();
+  settings.isa.clear();  // another machine may lack it; all levels give the same bits
+  const std::string scene_bytes = bytes_of(scene), settings_bytes = bytes_of(settings),
+                    layout_bytes = bytes_of(world.layout());
+  Columns columns;
+  std::vector<Block> blocks = blocks_of(world.state(), columns);
+  blocks.push_back({scene_block, Type::bytes, 1, scene_bytes.size(), scene_bytes.data()});
+  blocks.push_back({settings_block, Type::bytes, 1, settings_bytes.size(), settings_bytes.data()});
+  blocks.push_back({layout_block, Type::bytes, 1, layout_bytes.size(), layout_bytes.data()});
+  if (of != nullptr) add(blocks, *of);
+  write(path, Content::world, blocks);
+}
+
+Contents world_file(const std::string& path) {
+  Contents contents(path, Content::world);
+  contents.refuse_unknown(
+      with_state_blocks({scene_block, settings_block, layout_block, fingerprint_blocks[0], fingerprint_blocks[1]}));
+  return contents;
+}
+
+LoadedWorld world_in(const std::string& path, const Contents& contents, const Settings& settings) {
+  Scene scene = read_bytes<Scene>(contents, scene_block);
+  scene.settings = settings;
+  const State state = state_in(contents);
+  try {
+    World world(scene, read_bytes<WorldLayout>(contents, layout_block));
+    world.restore(state);
+    return {std::move(scene), std::move(world)};
+  } catch (const Error& error) {
+    Location where = error.where();
+    where.file = path;
+    throw Error(where, error.problem(), "the file is malformed; use an earlier one");
+  }
+}
+
 }  // namespace
 
 // ---------------------------------------------------------------- public functions
@@ -254,8 +311,7 @@ void save(const std::string& path, const State& state) {
 void save(const std::string& path, const State& state, const Fingerprint& of) {
   Columns columns;
   std::vector<Block> blocks = blocks_of(state, columns);
-  blocks.push_back({fingerprint_blocks[0], Type::bytes, 1, of.scene.size(), of.scene.data()});
-  blocks.push_back({fingerprint_blocks[1], Type::bytes, 1, of.settings.size(), of.settings.data()});
+  add(blocks, of);
   write(path, Content::state, blocks);
 }
 
@@ -263,47 +319,35 @@ State load_state(const std::string& path) { return state_in(state_file(path)); }
 
 State load_state(const std::string& path, const Fingerprint& of) {
   const Contents contents = state_file(path);
-  if (!contents.has(fingerprint_blocks[0]) || !contents.has(fingerprint_blocks[1]))
-    contents.fail("does not say which scene it was saved with", "save it with its scene, or load it without one");
-  if (contents.text(fingerprint_blocks[0]) != of.scene)
-    contents.fail("was saved with another scene, or this scene has changed since", "use the scene that it was saved with");
-  if (contents.text(fingerprint_blocks[1]) != of.settings) {
-    contents.fail("was saved with other settings of this scene: substeps, iterations, the sweep or contact settings differ",
-                  "use the settings that it was saved with");
-  }
+  require_fingerprint(contents, of);
   return state_in(contents);
 }
 
-void save(const std::string& path, const World& world, const Scene& scene) {
-  refuse_other_scene(world, scene);
-  refuse_force_fields(scene);
-  Settings settings = world.settings();
-  settings.isa.clear();  // another machine may lack it; all levels give the same bits
-  const std::string scene_bytes = bytes_of(scene), settings_bytes = bytes_of(settings),
-                    layout_bytes = bytes_of(world.layout());
-  Columns columns;
-  std::vector<Block> blocks = blocks_of(world.state(), columns);
-  blocks.push_back({scene_block, Type::bytes, 1, scene_bytes.size(), scene_bytes.data()});
-  blocks.push_back({settings_block, Type::bytes, 1, settings_bytes.size(), settings_bytes.data()});
-  blocks.push_back({layout_block, Type::bytes, 1, layout_bytes.size(), layout_bytes.data()});
-  write(path, Content::world, blocks);
+Scene present_scene(const World& world, Scene scene) {
+  const std::vector<ObjectId> objects = world.objects();
+  if (objects.size() != scene.objects.size())
+    throw Error({}, fmt::format("the World has {} objects and the scene {}", objects.size(), scene.objects.size()),
+                "pass the scene that the World was made from");
+  for (std::size_t o = 0; o < objects.size(); ++o)
+    if (comes_apart(scene.objects[o])) scene.objects[o] = world.object(objects[o]).description();
+  return scene;
+}
+
+void save(const std::string& path, const World& world, const Scene& scene) { save_world(path, world, scene, nullptr); }
+
+void save(const std::string& path, const World& world, const Scene& scene, const Fingerprint& of) {
+  save_world(path, world, scene, &of);
 }
 
 LoadedWorld load_world(const std::string& path) {
-  const Contents contents(path, Content::world);
-  contents.refuse_unknown(with_state_blocks({scene_block, settings_block, layout_block}));
-  Scene scene = read_bytes<Scene>(contents, scene_block);
-  scene.settings = read_bytes<Settings>(contents, settings_block);
-  const State state = state_in(contents);
-  try {
-    World world(scene, read_bytes<WorldLayout>(contents, layout_block));
-    world.restore(state);
-    return {std::move(scene), std::move(world)};
-  } catch (const Error& error) {
-    Location where = error.where();
-    where.file = path;
-    throw Error(where, error.problem(), "the file is malformed; use an earlier one");
-  }
+  const Contents contents = world_file(path);
+  return world_in(path, contents, read_bytes<Settings>(contents, settings_block));
+}
+
+LoadedWorld load_world(const std::string& path, const Fingerprint& of, const Settings& settings) {
+  const Contents contents = world_file(path);
+  require_fingerprint(contents, of);
+  return world_in(path, contents, settings);
 }
 
 }  // namespace pliant

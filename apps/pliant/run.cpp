@@ -61,19 +61,20 @@ void check_files(const RunOptions& options) {
   for (const std::string& file : files) refuse_unwritable(file);
 }
 
-void resume(World& world, const std::string& path, const Scene& scene) {
+/// The World at the start of the run, or at its checkpoint.
+Resumed start_of(const RunOptions& options, const Scene& scene) {
+  if (options.resume.empty()) return {make_world(scene, options.scene), {}};
   try {
-    world.restore(load_state(path, scene));
+    Resumed resumed = resume(options.resume, scene, options.scene);
+    const std::int64_t frame = resumed.world.state().frame;
+    if (frame <= scene.frames) return resumed;
+    throw Error({},
+                fmt::format("is of frame {}, beyond the {} to be simulated", frame,
+                            counted(static_cast<std::size_t>(scene.frames), "frame")),
+                "set --frames to a larger number");
   } catch (const Error& error) {
-    throw of_file(error, path);
+    throw of_file(error, options.resume);
   }
-  if (world.state().frame <= scene.frames) return;
-  Location where;
-  where.file = path;
-  throw Error(where,
-              fmt::format("is of frame {}, beyond the {} to be simulated", world.state().frame,
-                          counted(static_cast<std::size_t>(scene.frames), "frame")),
-              "set --frames to a larger number");
 }
 
 /// Simulates to the end. After a signal the checkpoint has the last complete frame.
@@ -86,7 +87,7 @@ bool simulate_with(Checkpoint& checkpoint, World& world, const Scene& scene, boo
       if (frame.ok()) checkpoint.after_frame(world);
     });
   } catch (const Interrupted&) {
-    checkpoint.write_last();
+    checkpoint.write_last(world);
     throw;
   }
 }
@@ -97,15 +98,14 @@ int run(const RunOptions& options) {
   check_files(options);
   const SceneFile file = read_file_with(options.scene, options.overrides, options.quiet);
   const Scene& scene = file.scene;
-  if (!options.checkpoint.empty() || !options.resume.empty()) refuse_tears(scene, options.scene, "a checkpoint");
-  World world = make_world(scene, options.scene);
-  if (!options.resume.empty()) resume(world, options.resume, scene);
+  Resumed start = start_of(options, scene);
+  World& world = start.world;
   for (const std::string& path : options.out) make_folder_of(path);
   for (const std::string& path : {options.report, options.gauges, options.checkpoint}) make_folder_of(path);
 
   std::vector<std::unique_ptr<FrameWriter>> writers;
   for (const std::string& path : options.out)
-    writers.push_back(make_frame_writer(path, scene, world, {options.liquid_surfaces}));
+    writers.push_back(make_frame_writer(path, start.contents ? *start.contents : scene, world, {options.liquid_surfaces}));
   GaugeTable gauges(options.gauges, file, world);
   std::unique_ptr<AtomicFile> report_file;
   if (!options.report.empty()) report_file = std::make_unique<AtomicFile>(options.report);
@@ -125,7 +125,7 @@ int run(const RunOptions& options) {
   if (finite) {
     for (const auto& writer : writers) writer->finish();
     gauges.finish();
-    checkpoint.write_last();
+    checkpoint.write_last(world);
   }
   if (report_file) {
     report_file->write(report.json(options.scene, scene, world));

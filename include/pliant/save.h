@@ -39,11 +39,18 @@ State load_state(const std::string& path);
 State load_state(const std::string& path, const Fingerprint& of);
 inline State load_state(const std::string& path, const Scene& scene) { return load_state(path, fingerprint(scene)); }
 
-/// Writes a World: a scene that describes its present contents, its settings, ids and State. Pass the original scene if
-/// nothing was added or removed; otherwise one with the present objects in the order of World::objects(), colliders()
-/// and mesh_colliders(). Throws an Error if the scene has force fields, which are functions, or if numbers, names or
+/// The present contents of a World that was made from `scene`: objects that come apart (Object::tearing, cuts, break_force) as they are
+/// now, by ObjectView::description(). Throws an Error if objects were added or removed.
+Scene present_scene(const World& world, Scene scene);
+
+/// Writes a World: a scene that describes its present contents, its settings, ids and State. Pass the original scene, by present_scene
+/// where objects come apart, if nothing was added or removed; otherwise one with the present objects in the order of World::objects(),
+/// colliders() and mesh_colliders(). Throws an Error if the scene has force fields, which are functions, or if numbers, names or
 /// particles of its objects differ from the World's.
 void save(const std::string& path, const World& world, const Scene& scene);
+
+/// Writes a World with the fingerprint of the scene that it was made from.
+void save(const std::string& path, const World& world, const Scene& scene, const Fingerprint& of);
 
 /// A World that was loaded, and the scene that it was saved with; its settings are the World's.
 struct LoadedWorld {
@@ -53,5 +60,9 @@ struct LoadedWorld {
 
 /// Reads a World. All ids that were valid when it was saved are valid in it. Throws as load_state does.
 LoadedWorld load_world(const std::string& path);
+
+/// Reads a World that was made from a scene of this fingerprint; throws an Error if it was not, or if the file does not say so. Its settings
+/// are `settings`, which may differ from the saved ones in what changes no bits, such as threads.
+LoadedWorld load_world(const std::string& path, const Fingerprint& of, const Settings& settings);
 
 }  // namespace pliant

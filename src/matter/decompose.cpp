@@ -249,6 +249,17 @@ BodyInertia inertia_of(const Moments& of) {
           convert<float>(Vec3d{of.mass * c.y * c.z - s[3], of.mass * c.z * c.x - s[4], of.mass * c.x * c.y - s[5]})};
 }
 
+/// One piece for a mesh that fills its hull, without measuring distances.
+std::vector<Piece> pieces_of(const TriangleMesh& mesh, double volume, const DecomposeOptions& options) {
+  constexpr double of_rounding = 1e-5;
+  if (std::optional<ConvexHull> hull = convex_hull(mesh.positions); hull) {
+    if (std::abs(volume_of(*hull) - volume) <= of_rounding * volume) return {{{}, reduced(hull, options.most_corners), 0}};
+  }
+  Divider divider(mesh, options);
+  divider.run();
+  return divider.pieces();
+}
+
 }  // namespace
 
 Decomposition decompose(const TriangleMesh& mesh, const DecomposeOptions& options) {
@@ -258,12 +269,10 @@ Decomposition decompose(const TriangleMesh& mesh, const DecomposeOptions& option
   const Moments volume = moments_of(mesh);
   if (!(volume.mass > 0) || !std::isfinite(volume.mass))
     throw Error({}, "the mesh encloses no volume", "give a closed mesh of a solid");
-  Divider divider(mesh, options);
-  divider.run();
   Decomposition out;
   out.inertia = inertia_of(times(volume, static_cast<double>(options.density)));
   double sum = 0;
-  for (const Piece& piece : divider.pieces()) {
+  for (const Piece& piece : pieces_of(mesh, volume.mass, options)) {
     if (!piece.hull) continue;
     sum += volume_of(*piece.hull);
     out.filled = std::max(out.filled, piece.filled);

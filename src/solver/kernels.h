@@ -29,14 +29,18 @@ struct TensionKernels;    // solver/fluids/tension_kernels.h
 struct ViscosityKernels;  // solver/fluids/viscosity_kernels.h
 struct PairKernels;       // collision/proxies/pair_kernels.h
 
-struct StepKernels {
+/// What projects constraints.
+struct SweepKernels {
   /// Projects every constraint of the segments, segment by segment.
   void (*sweep)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 
   /// Like sweep, with relaxation. If arguments.corrections is set, stores corrections there instead of applying them:
   /// that of a batch's `slot` and `lane` at record 16 (size batch + slot) + correction_place(lane) of its pool's array.
   void (*sweep_general)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
+};
 
+/// What moves particles between the sweeps.
+struct StepKernels {
   /// True if every record is finite.
   bool (*all_finite)(const Record* records, int first, int last);
 
@@ -54,11 +58,13 @@ struct StepKernels {
   int (*find_near)(const NearQuery& query, std::int32_t* near);
 };
 
+PLIANT_DECLARE_LEVELS(SweepKernels, sweep_kernels)
 PLIANT_DECLARE_LEVELS(StepKernels, step_kernels)
+const SweepKernels& sweep_kernels_sequential();
 const StepKernels& step_kernels_sequential();
 
 /// All kernels of one instruction set level. A World picks one table when it is made.
-struct Kernels : StepKernels {
+struct Kernels : SweepKernels, StepKernels {
   const char* isa;  ///< name of the instruction set level
   const ChainKernels& chains;
   const MultigridKernels& multigrid;

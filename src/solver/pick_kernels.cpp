@@ -21,16 +21,14 @@ namespace pliant {
 
 namespace {
 
-#define PLIANT_LEVEL_TABLE(suffix, isa, ...)                                               \
-  const Kernels& kernels_##suffix() {                                                      \
-    static const Kernels table{step_kernels_##suffix(),      isa,                          \
-                               chain_kernels_##suffix(),     multigrid_kernels_##suffix(), \
-                               contact_kernels_##suffix(),   length_kernels_##suffix(),    \
-                               pair_kernels_##suffix(),      manifold_kernels_##suffix(),  \
-                               rod_kernels_##suffix(),       motion_kernels_##suffix(),    \
-                               neighbour_kernels_##suffix(), fluid_kernels_##suffix(),     \
-                               viscosity_kernels_##suffix(), tension_kernels_##suffix()};  \
-    return table;                                                                          \
+#define PLIANT_LEVEL_TABLE(suffix, isa, ...)                                                                          \
+  const Kernels& kernels_##suffix() {                                                                                 \
+    static const Kernels table{sweep_kernels_##suffix(),  step_kernels_##suffix(),      isa,                          \
+                               chain_kernels_##suffix(),  multigrid_kernels_##suffix(), contact_kernels_##suffix(),   \
+                               length_kernels_##suffix(), pair_kernels_##suffix(),      manifold_kernels_##suffix(),  \
+                               rod_kernels_##suffix(),    motion_kernels_##suffix(),    neighbour_kernels_##suffix(), \
+                               fluid_kernels_##suffix(),  viscosity_kernels_##suffix(), tension_kernels_##suffix()};  \
+    return table;                                                                                                     \
   }
 PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_TABLE, )
 
@@ -50,13 +48,11 @@ std::string level_names() {
 }  // namespace
 
 const Kernels& kernels_sequential() {
-  static const Kernels table{step_kernels_sequential(),      "sequential",
-                             chain_kernels_sequential(),     multigrid_kernels_generic(),
-                             contact_kernels_sequential(),   length_kernels_sequential(),
-                             pair_kernels_generic(),         manifold_kernels_sequential(),
-                             rod_kernels_sequential(),       motion_kernels_sequential(),
-                             neighbour_kernels_sequential(), fluid_kernels_sequential(),
-                             viscosity_kernels_sequential(), tension_kernels_sequential()};
+  static const Kernels table{sweep_kernels_sequential(),  step_kernels_sequential(),      "sequential",
+                             chain_kernels_sequential(),  multigrid_kernels_generic(),    contact_kernels_sequential(),
+                             length_kernels_sequential(), pair_kernels_generic(),         manifold_kernels_sequential(),
+                             rod_kernels_sequential(),    motion_kernels_sequential(),    neighbour_kernels_sequential(),
+                             fluid_kernels_sequential(),  viscosity_kernels_sequential(), tension_kernels_sequential()};
   return table;
 }
 

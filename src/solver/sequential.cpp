@@ -146,8 +146,13 @@ bool all_finite(const Record* records, int first, int last) {
 
 }  // namespace
 
+const SweepKernels& sweep_kernels_sequential() {
+  static constexpr SweepKernels table{&sweep<false>, &sweep<true>};
+  return table;
+}
+
 const StepKernels& step_kernels_sequential() {
-  static constexpr StepKernels table{&sweep<false>, &sweep<true>, &all_finite, &update, &predict, &advance, &find_near};
+  static constexpr StepKernels table{&all_finite, &update, &predict, &advance, &find_near};
   return table;
 }
 

@@ -113,6 +113,45 @@ TEST_F(Checkpoint, GeometryIsNumberedByTheFramesOfTheWholeRun) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "g"), fs::directory_iterator()), 6);
 }
 
+/// Cloth of more than one tile, whose schedule is kept when it is cut, and rods that lose joints.
+void write_cut_scene(const fs::path& to) {
+  std::ofstream(to) << R"({"frames": 24, "settings": {"substeps": 2}, "objects": [
+    {"name": "sheet", "cloth": {"mesh": {"grid": {"columns": 50, "rows": 50, "width": 1, "depth": 1}}},
+     "pins": [{"particles": [0, 49]}],
+     "cuts": [{"start": 0.05, "end": 0.3, "point": [0, 0, -0.6], "normal": [1, 0, 0], "along": [0, 0, 2]}]},
+    {"name": "wire", "rod": {"line": {"from": [2, 0, 0], "to": [3, 0, 0], "points": 9}, "radius": 0.01, "material": "rubber cord",
+     "start": {"clamped": "world"}},
+     "cuts": [{"start": 0.1, "end": 0.2, "point": [2.5, 0, -0.1], "normal": [1, 0, 0], "along": [0, 0, 2]}]}]})";
+}
+
+TEST_F(Checkpoint, ObjectsThatWereCutGoOnInTheSameBits) {
+  write_cut_scene(folder_ / "cut.json");
+  Uninterrupted whole(pliant::read_scene(path("cut.json")));
+  for (const int frames : {2, 12, 20}) {
+    ASSERT_EQ(run({"cut.json", "--frames", std::to_string(frames), "--checkpoint", "a"}), 0) << said();
+    ASSERT_EQ(run({"cut.json", "--resume", "a", "--checkpoint", "b", "--threads", "1", "--out", "end.glb"}), 0) << said();
+  }
+  const pliant::LoadedWorld end = pliant::load_world(path("b"));
+  EXPECT_EQ(end.world.state_hash(), whole.after(24));
+  EXPECT_GT(end.world.object(0).info().particles, 2500) << "it was cut";
+  EXPECT_FALSE(end.world.state().broken_joints.empty());
+  EXPECT_EQ(run({"cut.json", "--resume", "b", "--frames", "30", "--substeps", "3"}), 1);
+  EXPECT_NE(said().find("pliant: b: was saved with other settings"), std::string::npos) << said();
+  EXPECT_EQ(run({"small.json", "--resume", "b"}), 1);
+  EXPECT_NE(said().find("pliant: b: "), std::string::npos) << said();
+}
+
+TEST_F(Checkpoint, ASignalLeavesTheLastWholeFrameOfObjectsThatWereCut) {
+  write_cut_scene(folder_ / "cut.json");
+  const pid_t child = start({"cut.json", "--frames", "100000", "--checkpoint", "a", "--every", "100000"});
+  std::this_thread::sleep_for(2s);
+  kill(child, SIGINT);
+  ASSERT_EQ(wait_for(child), 128 + SIGINT) << said();
+  const pliant::LoadedWorld found = pliant::load_world(path("a"));
+  Uninterrupted whole(pliant::read_scene(path("cut.json")));
+  EXPECT_EQ(found.world.state_hash(), whole.after(found.world.state().frame));
+}
+
 TEST_F(Checkpoint, WhatDoesNotFitIsRefusedWithTheReason) {
   ASSERT_EQ(run({"small.json", "--frames", "5", "--checkpoint", "a"}), 0) << said();
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why) {

@@ -180,14 +180,14 @@ double oscillation(const Liquid& liquid, int radius, float step) {
   return frequency(t, q);
 }
 
-// Drops settle into shapes that are not quite round: one of 8 spacings, at half the substep, is 21 % too fast.
+// Drops settle into shapes that are not quite round: one of 8 spacings, at half the substep, is 21 % too fast. One of 10 is within 15 % there
+// too, which takes minutes.
 TEST(Tension, LetsDropsOscillateAsRayleighSays) {
   const Liquid water, mercury{0.002f, 0.485f};
   EXPECT_NEAR(oscillation(water, 8, 0.05f), 1, 0.15);
   EXPECT_NEAR(oscillation(water, 10, 0.05f), 1, 0.15);
-  EXPECT_NEAR(oscillation(water, 10, 0.025f), 1, 0.15);
   EXPECT_NEAR(oscillation(water, 8, 0.025f), 1, 0.25);
-  EXPECT_NEAR(oscillation(mercury, 9, 0.05f), 1, 0.15);
+  EXPECT_NEAR(oscillation(mercury, 8, 0.05f), 1, 0.15);
 }
 
 /// The height of a puddle over that of a wide one that the floor repels: 2 sqrt(sigma / (rho g)).

@@ -55,7 +55,7 @@ TEST_F(FullContact, HasItsMeshColliders) {
 
 TEST_F(FullContact, SaysWhatStandsForAMesh) {
   EXPECT_EQ(scene.mesh_colliders.at(0).as, MeshCollider::As::distance_grid);
-  EXPECT_EQ(scene.mesh_colliders.at(0).grid_spacing, 0.0625f);
+  EXPECT_EQ(scene.mesh_colliders.at(0).grid_spacing, 0.25f);
   EXPECT_EQ(scene.mesh_colliders.at(0).restitution, 0.125f);
   EXPECT_EQ(scene.mesh_colliders.at(1).as, MeshCollider::As::heightfield);
   EXPECT_EQ(scene.mesh_colliders.at(2).as, MeshCollider::As::triangles);
