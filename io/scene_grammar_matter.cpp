@@ -76,7 +76,8 @@ const Record& constraint_record() {
        field("compliances", list(number("depends on the type", 0)), "none",
              "One compliance per constraint; overrides the one in `stiffness`."),
        field("plasticity", record(plasticity_record()), "none",
-             "Deformation that becomes permanent, of tetrahedron_shear, dihedral_bending and rod_joint."),
+             "Deformation that becomes permanent, of tetrahedron_shear, corotational_strain, green_strain, green_trace, "
+             "dihedral_bending and rod_joint."),
        field("keyframes", list(record(rest_keyframe_record()), 1), "none",
              "Factors of the rest data of distance, distance_limit, tetrahedron_volume or fibre, linear between."),
        field("break_force", number("N", 0, largest_quantity), 0.f,

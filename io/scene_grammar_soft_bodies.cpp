@@ -20,6 +20,8 @@ const Record& elastic_solid_record() {
              "Young's modulus: stress per strain of a bar that is pulled."),
        field("poisson_ratio", number("-", 0, 0.495), ElasticSolid{}.poisson_ratio,
              "Poisson's ratio: how much narrower the bar becomes per strain."),
+       field("model", choice({"neo_hookean", "corotational", "st_venant_kirchhoff"}), "neo_hookean",
+             "How its energy grows with the strain: all follow Hooke's law at small strain."),
        field("damping", number("s", 0, 1e6), ElasticSolid{}.damping,
              "Viscous stress over the elastic modulus times the rate of strain."),
        field("static_friction", number("-", 0, 1000), ElasticSolid{}.static_friction, "Coefficient of static friction."),

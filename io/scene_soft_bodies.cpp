@@ -22,6 +22,11 @@ ElasticSolid solid_of(const JsonDocument& document, const JsonValue& at) {
   set(at, "density", solid.density);
   set(at, "youngs_modulus", solid.youngs_modulus);
   set(at, "poisson_ratio", solid.poisson_ratio);
+  std::string model;
+  set(at, "model", model);
+  if (model == "neo_hookean") solid.model = SolidModel::neo_hookean;
+  if (model == "corotational") solid.model = SolidModel::corotational;
+  if (model == "st_venant_kirchhoff") solid.model = SolidModel::st_venant_kirchhoff;
   set(at, "damping", solid.damping);
   set_friction(document, at, solid.static_friction, solid.kinetic_friction);
   set(at, "plasticity", solid.plasticity);

@@ -19,6 +19,13 @@ struct TetrahedralMesh {
   std::vector<std::array<int, 4>> tetrahedra;  ///< indices of positions
 };
 
+/// How the energy of an elastic solid grows with its strain. All agree with Hooke's law at small strain, however much it turns.
+enum class SolidModel {
+  neo_hookean,   ///< rubber and flesh; holds at any strain (Smith, de Goes and Kim 2018)
+  corotational,  ///< stress grows with the strain in the nearest rotation (Stomakhin, Howes, Schroeder and Teran 2012)
+  st_venant_kirchhoff,  ///< stress grows with Green's strain: stiffer where it is pulled; gives way where it is pressed below 0.58 of its length
+};
+
 /// Properties of an elastic solid. They do not depend on a mesh.
 struct ElasticSolid {
   std::string name;
@@ -31,6 +38,7 @@ struct ElasticSolid {
   std::string source;             ///< where the numbers come from
   /// Strain beyond which it keeps the new shape, and how fast that flows; none: elastic. Only its shape flows, its volume does not.
   std::optional<Plasticity> plasticity{};
+  SolidModel model{};
 };
 
 /// Returns a built-in elastic solid: "gelatine", "rubber", "foam" or "muscle". For any other name throws an Error that lists
@@ -61,13 +69,13 @@ struct SoftBodyOptions {
 };
 
 /// Makes an elastic body of a tetrahedral mesh, which becomes its rest shape: of each tetrahedron a quarter of the mass at each
-/// corner, and two constraints, on its shear and on its volume, which together are the neo-Hookean solid of its Lame
-/// coefficients (Smith, de Goes and Kim 2018; Macklin and Mueller 2021). Its border is its surface, and collides with other
+/// corner, and two constraints, on its shape and on its volume, which together are the solid of its model and its Lame
+/// coefficients (as a pair of constraints: Macklin and Mueller 2021). Its border is its surface, and collides with other
 /// objects; with itself only if Object::self_collision is set. Corners that no tetrahedron uses are dropped. Throws an Error that
 /// names a tetrahedron that cannot be used, or an option that is out of range.
 Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& options = {});
 
-/// The tetrahedra of a soft body: particles of the Object, in the order of its shear constraints. Empty for other objects.
+/// The tetrahedra of a soft body: particles of the Object, in the order of its constraints on shape. Empty for other objects.
 std::vector<std::array<int, 4>> tetrahedra_of(const Object& object);
 
 /// The triangles that belong to one tetrahedron alone, counter-clockwise seen from outside. Throws an Error that names a

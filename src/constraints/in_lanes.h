@@ -2,10 +2,12 @@
 // places in this list, and what sweeps them need not know the others.
 #pragma once
 
+#include "constraints/corotational_strain.h"
 #include "constraints/dihedral_bending.h"
 #include "constraints/distance.h"
 #include "constraints/distance_limit.h"
 #include "constraints/fibre.h"
+#include "constraints/green_strain.h"
 #include "constraints/isometric_bending.h"
 #include "constraints/tetrahedron_shear.h"
 #include "constraints/tetrahedron_volume.h"
@@ -17,7 +19,8 @@
 
 namespace pliant {
 
-using LaneConstraints = TypeList<Distance, DihedralBending, IsometricBending, Fibre, TetrahedronShear, TetrahedronVolume,
-                                 TriangleShear, TriangleStretch, DistanceLimit, VolumeAroundEdge>;
+using LaneConstraints =
+    TypeList<Distance, DihedralBending, IsometricBending, Fibre, TetrahedronShear, TetrahedronVolume, TriangleShear,
+             TriangleStretch, DistanceLimit, VolumeAroundEdge, CorotationalStrain, GreenStrain, GreenTrace>;
 
 }  // namespace pliant

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "constraints/all.h"
+#include "constraints/gives_shape.h"
 #include "constraints/traits.h"
 #include "pliant/error.h"
 
@@ -91,6 +92,10 @@ int length_type() {
 bool is_length(const std::string& name) {
   const int type = find_constraint_type(name);
   return type >= 0 && is_length(type);
+}
+
+bool gives_shape(const std::string& name) {
+  return name == TetrahedronShear::name || name == CorotationalStrain::name || name == GreenStrain::name;
 }
 
 bool is_hinge(const std::string& name) { return name == DihedralBending::name || is_flat_hinge(name); }

@@ -12,32 +12,17 @@
 // a sweep that is not converged does not see. C also vanishes where F = 0, a point, which TetrahedronVolume opposes. Compliance in 1/J.
 #pragma once
 
-#include <array>
-
-#include "math/plastic_strain.h"
-#include "pliant/formula.h"
-#include "pliant/vec3.h"
+#include "constraints/tetrahedron_strain.h"
 
 namespace pliant {
 
-struct TetrahedronShear {
+struct TetrahedronShear : TetrahedronStrain {
   static constexpr const char* name = "tetrahedron_shear";
-  using slots = Points<4>;
-  static constexpr int rows = 1;
-
-  template <class R>
-  struct Params {
-    R d00, d01, d02, d10, d11, d12, d20, d21, d22;  ///< D^-1 by rows [1/m]
-  };
-  static constexpr std::array<const char*, 9> fields{"d00", "d01", "d02", "d10", "d11", "d12", "d20", "d21", "d22"};
 
   /// C is zero without a direction at rest, and where all corners are in one place; the gradients are then zero.
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
-    const Vec3<R> a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
-    const Vec3<R> f0 = a * p.d00 + b * p.d10 + c * p.d20;  // the columns of F
-    const Vec3<R> f1 = a * p.d01 + b * p.d11 + c * p.d21;
-    const Vec3<R> f2 = a * p.d02 + b * p.d12 + c * p.d22;
+    const auto [f0, f1, f2] = deformation(x, p);
     const Vec3<R> k0 = cross(f1, f2), k1 = cross(f2, f0), k2 = cross(f0, f1);  // dJ/dF
     const R value = sqrt(max(squared(f0, f1, f2, dot(f0, k0)), R(0)));
     const R per_c = R(1) / max(value, R(1e-7f));
@@ -45,49 +30,11 @@ struct TetrahedronShear {
     const Vec3<R> g0 = (f0 + k0 * of_k) * per_c;  // dC/dF
     const Vec3<R> g1 = (f1 + k1 * of_k) * per_c;
     const Vec3<R> g2 = (f2 + k2 * of_k) * per_c;
-    gradient[1] = g0 * p.d00 + g1 * p.d01 + g2 * p.d02;
-    gradient[2] = g0 * p.d10 + g1 * p.d11 + g2 * p.d12;
-    gradient[3] = g0 * p.d20 + g1 * p.d21 + g2 * p.d22;
-    gradient[0] = -(gradient[1] + gradient[2] + gradient[3]);
+    to_corners({g0, g1, g2}, p, gradient);
     return value;
   }
 
-  /// The inverse of the rest edges; all zero, so that nothing moves, if their volume is below a millionth of their product.
-  template <class R>
-  PLIANT_HD static Params<R> measure(const Vec3<R> (&x)[4]) {
-    const Vec3<R> a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
-    const R six = dot(cross(a, b), c);
-    const R edges = sqrt(dot(a, a)) * sqrt(dot(b, b)) * sqrt(dot(c, c));
-    const auto is_solid = abs(six) > edges * R(1e-6f);
-    const R scale = select(is_solid, R(1) / select(is_solid, six, R(1)), R(0));
-    const Vec3<R> r0 = cross(b, c) * scale, r1 = cross(c, a) * scale, r2 = cross(a, b) * scale;
-    return {r0.x, r0.y, r0.z, r1.x, r1.y, r1.z, r2.x, r2.y, r2.z};
-  }
-
-  /// D^-1 becomes D^-1 U^-1, where U = exp(s e), of volume 1, is the part of the stretch that flows, and e the logarithmic strain at
-  /// constant volume. `yield` and `most` are equivalent strains (von Mises) of it: log(l) for a bar l times as long.
-  static bool flow(const SlotValues<slots, float>& at, Params<float>& p, const Params<float>& start,
-                   const PlasticFlow& by) {
-    const Matrix3d edges = columns(at.point[1] - at.point[0], at.point[2] - at.point[0], at.point[3] - at.point[0]);
-    const Matrix3d f = product(edges, matrix(p));
-    Matrix3d by_flow, by_limit;
-    if (!flow_of(f, static_cast<double>(by.yield), -static_cast<double>(by.share), by_flow)) return false;
-    Matrix3d to = product(matrix(p), by_flow);
-    // The inverse of what is permanent, so of the same size.
-    if (limit_of(product(inverse(matrix(start)), to), static_cast<double>(by.most), by_limit)) to = product(to, by_limit);
-    set(p, to);
-    return true;
-  }
-
  private:
-  static Matrix3d matrix(const Params<float>& p) {
-    return {{p.d00, p.d01, p.d02, p.d10, p.d11, p.d12, p.d20, p.d21, p.d22}};
-  }
-  static void set(Params<float>& p, const Matrix3d& m) {
-    const auto at = [&](int i) { return static_cast<float>(m[i]); };
-    p = {at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8)};
-  }
-
   /// |F|^2 + J^2 - 4 J. Near rest three large terms cancel there, so it is computed from Green's strain E = (F^T F - 1) / 2 with
   /// the invariants of E: 2 d^2 - 4 I2 - 8 I3, where d = J - 1 and J^2 - 1 = 2 I1 + 4 I2 + 8 I3.
   template <class R>

@@ -1,4 +1,4 @@
-// Makes elastic bodies of tetrahedra: masses by volume, and the two constraints of a neo-Hookean solid for each tetrahedron.
+// Makes elastic bodies of tetrahedra: masses by volume, and for each tetrahedron two constraints, on its shape and on its volume.
 #include "pliant/soft_body.h"
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "constraints/gives_shape.h"
 #include "matter/fibres.h"
 #include "matter/strain_limit.h"
 #include "matter/tetrahedron_faces.h"
@@ -219,6 +220,24 @@ Lame lame_of(const ElasticSolid& material) {
   return {e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))};
 }
 
+/// The constraint types of a solid: with the shear modulus mu, and with lambda. Of Green's strain both have the rest shape, so both flow.
+struct Types {
+  const char *shape, *volume;
+  std::optional<Plasticity> flow{};  ///< of the second
+};
+
+Types types_of(const ElasticSolid& material) {
+  switch (material.model) {
+    case SolidModel::neo_hookean:
+      break;
+    case SolidModel::corotational:
+      return {"corotational_strain", "tetrahedron_volume"};
+    case SolidModel::st_venant_kirchhoff:
+      return {"green_strain", "green_trace", material.plasticity};
+  }
+  return {"tetrahedron_shear", "tetrahedron_volume"};
+}
+
 std::vector<std::array<int, 2>> edges_of(const std::vector<Tetrahedron>& tetrahedra) {
   std::vector<std::array<int, 2>> edges;
   for (const Tetrahedron& t : tetrahedra)
@@ -232,7 +251,7 @@ std::vector<std::array<int, 2>> edges_of(const std::vector<Tetrahedron>& tetrahe
 std::vector<std::array<int, 4>> tetrahedra_of(const Object& object) {
   std::vector<Tetrahedron> out;
   for (const ConstraintGroup& group : object.constraints) {
-    if (group.type != "tetrahedron_shear") continue;
+    if (!gives_shape(group.type)) continue;
     const std::size_t first = out.size();
     out.resize(first + group.particles.size() / 4);
     for (std::size_t t = first; t < out.size(); ++t)
@@ -272,8 +291,9 @@ Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& option
   if (!(options.velocity == Vec3f{})) body.velocities.assign(body.positions.size(), options.velocity);
   const Lame lame = lame_of(options.material);
   const double damping = options.material.damping;
-  add_groups("tetrahedron_shear", solid, lame.mu, damping, options.material.plasticity, body);
-  if (lame.lambda > 0) add_groups("tetrahedron_volume", solid, lame.lambda, damping, {}, body);
+  const Types types = types_of(options.material);
+  add_groups(types.shape, solid, lame.mu, damping, options.material.plasticity, body);
+  if (lame.lambda > 0) add_groups(types.volume, solid, lame.lambda, damping, types.flow, body);
   if (options.fibres) add_fibres(*options.fibres, damping, solid.tetrahedra, body);
   if (options.strain_limit)
     body.constraints.push_back(

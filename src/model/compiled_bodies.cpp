@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "constraints/gives_shape.h"
 #include "constraints/registry.h"
-#include "constraints/tetrahedron_shear.h"
 #include "geometry/convex_hull.h"
 #include "math/quat.h"
 #include "model/body_names.h"
@@ -106,7 +106,7 @@ std::vector<double> edge_lengths_of(const Object& object, const std::vector<int>
     }
   };
   for (const ConstraintGroup& group : object.constraints) {
-    const std::size_t corners = is_length(group.type) ? 2 : group.type == TetrahedronShear::name ? 4 : 0;
+    const std::size_t corners = is_length(group.type) ? 2 : gives_shape(group.type) ? 4 : 0;
     if (bodies.attached.empty() || corners == 0) continue;
     for (std::size_t first = 0; first + corners <= group.particles.size(); first += corners)
       for (std::size_t i = 1; i < corners; ++i)

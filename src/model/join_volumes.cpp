@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "constraints/gives_shape.h"
 #include "constraints/registry.h"
-#include "constraints/tetrahedron_shear.h"
 #include "constraints/tetrahedron_volume.h"
 #include "constraints/volume_around_edge.h"
 #include "topology/sort_by_first.h"
@@ -44,9 +44,8 @@ bool is_nearly_incompressible(float shear, float volume) {
 class Shear {
  public:
   explicit Shear(std::vector<ConstraintList>& lists) {
-    const int type = find_constraint_type(TetrahedronShear::name);
     for (ConstraintList& list : lists) {
-      if (list.type != type || list.law == Law::pbd) continue;
+      if (!gives_shape(list.type) || list.law == Law::pbd) continue;
       const std::vector<int>& stencils = list.stencils.own();
       for (int i = 0; i < list.count(); ++i) all_.emplace_back(corners_of(stencils, i), list.response[at(i)]);
     }

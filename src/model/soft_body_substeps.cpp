@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "constraints/fibre.h"
-#include "constraints/tetrahedron_shear.h"
+#include "constraints/gives_shape.h"
 
 namespace pliant {
 
@@ -74,7 +74,7 @@ MeasuredSolid solid_of(const Object& object) {
   MeasuredSolid solid;
   std::vector<bool> is_corner(object.positions.size(), false);
   for (const ConstraintGroup& group : object.constraints) {
-    if (group.type != TetrahedronShear::name || group.stiffness.kind != Stiffness::Kind::compliance) continue;
+    if (!gives_shape(group.type) || group.stiffness.kind != Stiffness::Kind::compliance) continue;
     for (std::size_t t = 0; t < group.particles.size() / 4; ++t) {
       const double compliance = group.compliances.empty() ? group.stiffness.value : group.compliances[t];
       const Measured one = measured(object, &group.particles[4 * t], compliance);
@@ -107,7 +107,7 @@ double rate_squared(const MeasuredSolid& solid) {
 
 bool is_soft_body(const Object& object) {
   return std::any_of(object.constraints.begin(), object.constraints.end(),
-                     [](const ConstraintGroup& group) { return group.type == TetrahedronShear::name; });
+                     [](const ConstraintGroup& group) { return gives_shape(group.type); });
 }
 
 double needed_substeps_of_soft_body(const Object& object, double frame_time) {

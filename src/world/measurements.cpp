@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constraints/gives_shape.h"
 #include "constraints/registry.h"
-#include "constraints/tetrahedron_shear.h"
 #include "constraints/tetrahedron_volume.h"
 #include "constraints/volume_around_edge.h"
 #include "math/matrix.h"
@@ -52,20 +52,24 @@ struct TetrahedronType {
 double given_rest_volume(const ConstraintPlace& at) { return static_cast<double>(at.value(0)); }
 
 /// From D^-1, the inverse of three edges at rest.
-double rest_volume_of_shear(const ConstraintPlace& at) {
+double rest_volume_of_shape(const ConstraintPlace& at) {
   Matrix3d inverse;
   for (int i = 0; i < 9; ++i) inverse[i] = static_cast<double>(at.value(i));
   const double six = determinant(inverse);
   return six == 0 ? 0 : 1 / (6 * six);
 }
 
-/// The volume constraints, or those of shear if the former are joined around edges (model/join_volumes.h).
-TetrahedronType tetrahedron_type(const CompiledObject& object) {
-  const int joined = find_constraint_type(VolumeAroundEdge::name);
-  const bool is_joined =
-      std::any_of(object.pools.begin(), object.pools.end(), [&](const Pool& pool) { return pool.type == joined; });
-  if (is_joined) return {find_constraint_type(TetrahedronShear::name), &rest_volume_of_shear};
-  return {find_constraint_type(TetrahedronVolume::name), &given_rest_volume};
+/// The volume constraints, or those of shape if there are none of the former or they are joined around edges (model/join_volumes.h).
+std::vector<TetrahedronType> tetrahedron_types(const CompiledObject& object) {
+  const int joined = find_constraint_type(VolumeAroundEdge::name), volume = find_constraint_type(TetrahedronVolume::name);
+  const auto has = [&](int type) {
+    return std::any_of(object.pools.begin(), object.pools.end(), [&](const Pool& pool) { return pool.type == type; });
+  };
+  if (!has(joined) && has(volume)) return {{volume, &given_rest_volume}};
+  std::vector<TetrahedronType> types;
+  for (int type = 0; type < constraint_type_count(); ++type)
+    if (gives_shape(type) && has(type)) types.push_back({type, &rest_volume_of_shape});
+  return types;
 }
 
 /// Sums of a TetrahedraMeasure while objects are added.
@@ -74,7 +78,10 @@ struct TetrahedraSum {
   double volume = 0, at_rest = 0;  ///< [m^3]
 
   void add(const CompiledObject& object, ObjectId id, const Record* positions) {
-    const TetrahedronType of = tetrahedron_type(object);
+    for (const TetrahedronType& of : tetrahedron_types(object)) add(object, of, id, positions);
+  }
+
+  void add(const CompiledObject& object, const TetrahedronType& of, ObjectId id, const Record* positions) {
     for_constraints(object, of.type, [&](const ConstraintPlace& at, const std::int32_t* corners) {
       const double rest = of.rest_volume(at);
       if (rest == 0) return;

@@ -1,0 +1,45 @@
+// Green's strain of a tetrahedron: a St. Venant-Kirchhoff solid.
+//
+//          3
+//         /|\          C(x) = sqrt(2) |E|  and  C(x) = tr E,   E = (F^T F - 1) / 2
+//        0-+-2
+//         \|/          F as in tetrahedron_strain.h
+//          1
+//
+// With alpha = 1 / (mu V0) for the first and alpha = 1 / (lambda V0) for the second, C^2 / (2 alpha) together are the energy
+// V0 (mu |E|^2 + lambda / 2 (tr E)^2). Strains as in Hooke's law, for any rotation. A bar that is pressed below 1 / sqrt(3) = 0.58 of its
+// length gets softer, and what is inverted or pressed flat may stay so: E is the same for it. Compliance in 1/J.
+#pragma once
+
+#include "constraints/tetrahedron_strain.h"
+
+namespace pliant {
+
+struct GreenStrain : TetrahedronStrain {
+  static constexpr const char* name = "green_strain";
+
+  /// C is zero without a direction at rest; the gradients are then zero.
+  template <class R>
+  PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
+    const ByColumns<R> f = deformation(x, p);
+    const Symmetric<R> e = green_strain(f);
+    const R value = select(is_solid(p), sqrt(R(2) * e.squares()), R(0));
+    const R scale = R(2) / max(value, R(1e-7f));
+    const ByColumns<R> g = f.times(e);
+    to_corners({g.x * scale, g.y * scale, g.z * scale}, p, gradient);
+    return value;
+  }
+};
+
+struct GreenTrace : TetrahedronStrain {
+  static constexpr const char* name = "green_trace";
+
+  template <class R>
+  PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
+    const ByColumns<R> f = deformation(x, p);
+    to_corners(f, p, gradient);
+    return select(is_solid(p), green_strain(f).trace(), R(0));
+  }
+};
+
+}  // namespace pliant
