@@ -110,7 +110,11 @@ struct Yield {
       return;
     }
     compliance = min(cluster.response * a.inverse_h2, 1e30);
-    gamma = min(cluster.response * cluster.damping * a.inverse_h, 1e30);
+    set_damping(min(cluster.response * cluster.damping * a.inverse_h, 1e30));
+  }
+
+  void set_damping(double value) {
+    gamma = value;
     scale = 1 / (1 + gamma + compliance);
   }
 };
@@ -130,6 +134,7 @@ class Projection {
         now_(fit(clusters, cluster, places_)) {
     if (yield_.gamma > 0) before_ = fit(clusters, cluster, starts_);
     turn_ = multiply(now_.turn, conjugate(before_.turn));
+    if (yield_.gamma > 0 && cluster.mode != Cluster::Mode::rigid && !damping_takes_energy()) yield_.set_damping(0);
     settle();
   }
 
@@ -149,6 +154,19 @@ class Projection {
     if (multipliers_ != nullptr) sum += yield_.compliance * vector(multipliers_[member]);
     if (yield_.gamma > 0) sum -= yield_.gamma * rotate(turn_, starts_.at(particle) - goal(before_, member));
     return sum;
+  }
+
+  /// Where a deformation is large, C can fall while its particles depart, and damping of C would push them on.
+  bool damping_takes_energy() const {
+    double power = 0;
+    for (int m = cluster_.first; m < cluster_.last; ++m) {
+      const ClusterMember& member = clusters_.members[m];
+      const Vec3d now = places_.at(member.particle), before = starts_.at(member.particle);
+      const Vec3d motion = now - now_.centre - rotate(turn_, before - before_.centre);
+      const Vec3d goals = goal(now_, m) - now_.centre - rotate(turn_, goal(before_, m) - before_.centre);
+      power += member.weight * dot(motion, motion - goals);
+    }
+    return power >= 0;
   }
 
   Vec3d start(int member) const { return starts_.at(clusters_.members[member].particle) - start_centre_; }
