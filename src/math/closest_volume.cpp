@@ -1,7 +1,7 @@
 #include "math/closest_volume.h"
 
-#include "math/best_rotation.h"
 #include "math/functions.h"
+#include "math/vector.h"
 
 namespace pliant {
 
@@ -91,44 +91,84 @@ class ClosestOfProduct {
   double s_[3], v_[3] = {}, d_;
 };
 
-/// f = R S with the rotation R nearest to f, so S is symmetric and only its smallest eigenvalue may be negative.
-struct Stretch {
-  Vec3<double> axes[3];  // columns of R
-  Diagonal<3> s;
+using Vec3d = Vec3<double>;
 
-  explicit Stretch(const Matrix3d& f) {
-    const Quatd turn = best_rotation(f);
-    axes[0] = rotate(turn, Vec3<double>{1, 0, 0});
-    axes[1] = rotate(turn, Vec3<double>{0, 1, 0});
-    axes[2] = rotate(turn, Vec3<double>{0, 0, 1});
-    const auto raw = [&](int i, int j) { return axes[i].x * f[j] + axes[i].y * f[3 + j] + axes[i].z * f[6 + j]; };
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) s.a[i][j] = (raw(i, j) + raw(j, i)) / 2;
-    make_diagonal(s);
+/// Rotates columns a and b so that they become orthogonal, and those of `axes` with them. False if they are already.
+bool make_orthogonal(Vec3d (&columns)[3], Vec3d (&axes)[3], int a, int b) {
+  constexpr double precision = 1e-15;
+  const double aa = dot(columns[a], columns[a]), bb = dot(columns[b], columns[b]), ab = dot(columns[a], columns[b]);
+  if (!(abs(ab) > precision * sqrt(aa * bb))) return false;
+  const double tau = (bb - aa) / (2 * ab);
+  const double t = (tau >= 0 ? 1.0 : -1.0) / (abs(tau) + sqrt(1 + tau * tau));
+  const double c = 1 / sqrt(1 + t * t), s = t * c;
+  for (auto* of : {&columns, &axes}) {
+    const Vec3d before = (*of)[a];
+    (*of)[a] = c * before - s * (*of)[b];
+    (*of)[b] = s * before + c * (*of)[b];
+  }
+  return true;
+}
+
+Vec3d perpendicular_to(const Vec3d& v) {
+  const double x = abs(v.x), y = abs(v.y), z = abs(v.z);
+  const Vec3d axis = y <= x && y <= z ? Vec3d{0, 1, 0} : z <= x ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
+  return axis - dot(axis, v) * v;
+}
+
+/// The singular value decomposition f = sum s_k left_k right_k^T by Hestenes' one-sided method, which is exact for small values too. Both
+/// bases are right-handed, and s falls; so only the last of s may be negative.
+struct SingularValues {
+  Vec3d left[3], right[3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  double s[3];
+
+  explicit SingularValues(const Matrix3d& f) {
+    Vec3d columns[3];  // f right
+    for (int i = 0; i < 3; ++i) columns[i] = {f[i], f[3 + i], f[6 + i]};
+    constexpr int most_sweeps = 12;
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+      const bool first = make_orthogonal(columns, right, 0, 1), second = make_orthogonal(columns, right, 0, 2);
+      if (!make_orthogonal(columns, right, 1, 2) && !first && !second) break;
+    }
+    for (const int k : {0, 1, 0}) sort(columns, k);
+    set_left(columns);
+    for (int k = 0; k < 3; ++k) s[k] = dot(left[k], columns[k]);
   }
 
-  /// The eigenvector k, turned: R times column k of s.v.
-  Vec3<double> turned(int k) const { return s.v[0][k] * axes[0] + s.v[1][k] * axes[1] + s.v[2][k] * axes[2]; }
+ private:
+  /// Puts the longer of two columns first, by a quarter turn.
+  void sort(Vec3d (&columns)[3], int k) {
+    if (!(dot(columns[k], columns[k]) < dot(columns[k + 1], columns[k + 1]))) return;
+    for (auto* of : {&columns, &right}) {
+      const Vec3d before = (*of)[k];
+      (*of)[k] = (*of)[k + 1];
+      (*of)[k + 1] = -before;
+    }
+  }
+
+  void set_left(const Vec3d (&columns)[3]) {
+    const double largest = length(columns[0]);
+    left[0] = largest > 0 ? 1 / largest * columns[0] : Vec3d{1, 0, 0};
+    left[1] = columns[1] - dot(columns[1], left[0]) * left[0];
+    constexpr double least = 1e-14;
+    if (!(length(left[1]) > least * largest)) left[1] = perpendicular_to(left[0]);
+    left[1] = 1 / length(left[1]) * left[1];
+    left[2] = cross(left[0], left[1]);
+  }
 };
 
 }  // namespace
 
 Matrix3d closest_of_determinant(const Matrix3d& f, double d) {
-  const Stretch stretch(f);
-  int least = 0;
-  for (int i = 1; i < 3; ++i)
-    if (stretch.s.a[i][i] < stretch.s.a[least][least]) least = i;
-  const int order[3] = {least, (least + 1) % 3, (least + 2) % 3};
-  const auto value = [&](int i) { return stretch.s.a[order[i]][order[i]]; };
-  const ClosestOfProduct closest(value(0), value(1), value(2), d);
+  const SingularValues of(f);
+  const ClosestOfProduct closest(of.s[2], of.s[1], of.s[0], d);
   Matrix3d out;
   for (int k = 0; k < 3; ++k) {
-    const Vec3<double> to = stretch.turned(order[k]);
-    for (int j = 0; j < 3; ++j) {
-      const double along = closest[k] * stretch.s.v[j][order[k]];
-      out[j] += to.x * along;
-      out[3 + j] += to.y * along;
-      out[6 + j] += to.z * along;
+    const Vec3d column = closest[2 - k] * of.left[k], &along = of.right[k];
+    const double rows[3] = {column.x, column.y, column.z};
+    for (int i = 0; i < 3; ++i) {
+      out[3 * i] += rows[i] * along.x;
+      out[3 * i + 1] += rows[i] * along.y;
+      out[3 * i + 2] += rows[i] * along.z;
     }
   }
   return out;
