@@ -28,7 +28,12 @@ inline std::array<double, most_moments> moments_at(const Vec3<double>& q, const 
 bool is_flat(const std::vector<double>& moments, int n);
 
 /// The inverse of a symmetric matrix of moments, n x n, with 1e-10 of its mean diagonal added to the diagonal, so that it exists for
-/// few or flat particles too. Symmetric, as the conservation of angular momentum demands.
+/// flat shapes too.
 std::vector<double> inverse_of_moments(std::vector<double> moments, int n);
+
+/// The lower triangular matrix B, n x n, that makes moments orthonormal in the mean over the mass: the identity = B moments B^T. Row k
+/// takes out of moment k what those before it fit, so `quadratic` fits only what `linear` leaves. Rows are zero for moments that are
+/// combinations of those before them, as some are for few or flat particles.
+std::vector<double> orthonormal_basis(const std::vector<double>& moments, int n);
 
 }  // namespace pliant

@@ -82,8 +82,8 @@ std::span<const ClusterMember> members_of(const CompiledClusters& clusters, cons
       .subspan(static_cast<std::size_t>(cluster.first), static_cast<std::size_t>(cluster.last - cluster.first));
 }
 
-/// The inverse of the moments sum w q q^T of the rest shape, n x n. Sets what else of a cluster follows from them.
-std::vector<double> inverse_moments(std::span<const ClusterMember> members, int n, CompiledCluster& cluster) {
+/// The orthonormal basis of the moments sum w q q^T of the rest shape, n x n. Sets what else of a cluster follows from them.
+std::vector<double> basis_of(std::span<const ClusterMember> members, int n, CompiledCluster& cluster) {
   cluster.means = {};
   for (const ClusterMember& m : members) {
     const std::array<double, 6> products = products_of(m.rest);
@@ -96,17 +96,17 @@ std::vector<double> inverse_moments(std::span<const ClusterMember> members, int 
       for (int j = 0; j < n; ++j) sums[static_cast<std::size_t>(i) * n + j] += m.weight * q[i] * q[j];
   }
   cluster.is_flat = is_flat(sums, n);
-  return inverse_of_moments(std::move(sums), n);
+  return orthonormal_basis(sums, n);
 }
 
-/// Adds the inverse moments of the last cluster, if its mode needs them.
+/// Adds the basis of the last cluster, if its mode needs them.
 void add_moments(CompiledClusters& out) {
   CompiledCluster& cluster = out.clusters.back();
   const int n = moments_of(cluster.mode);
   if (n == 0) return;
-  cluster.inverse_moments = static_cast<int>(out.inverse_moments.size());
-  const std::vector<double> inverse = inverse_moments(members_of(out, cluster), n, cluster);
-  out.inverse_moments.insert(out.inverse_moments.end(), inverse.begin(), inverse.end());
+  cluster.basis = static_cast<int>(out.bases.size());
+  const std::vector<double> basis = basis_of(members_of(out, cluster), n, cluster);
+  out.bases.insert(out.bases.end(), basis.begin(), basis.end());
 }
 
 /// Notes the last cluster as plastic.
@@ -165,8 +165,8 @@ void set_stretch(CompiledClusters& clusters, PlasticCluster& plastic, const std:
   }
   const int n = moments_of(cluster.mode);
   if (n == 0) return;
-  const std::vector<double> inverse = inverse_moments(members_of(clusters, cluster), n, cluster);
-  std::copy(inverse.begin(), inverse.end(), clusters.inverse_moments.begin() + cluster.inverse_moments);
+  const std::vector<double> basis = basis_of(members_of(clusters, cluster), n, cluster);
+  std::copy(basis.begin(), basis.end(), clusters.bases.begin() + cluster.basis);
 }
 
 }  // namespace pliant

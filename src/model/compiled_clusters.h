@@ -25,7 +25,7 @@ struct CompiledCluster {
   double damping = 0;             ///< [1/s]
   double size = 0;                ///< root mean square distance of its members from their centre [m]
   std::array<double, 6> means{};  ///< of the six products of coordinates
-  int inverse_moments = 0;        ///< index in CompiledClusters::inverse_moments of a matrix of 3 x 3 or 9 x 9
+  int basis = 0;                  ///< index in CompiledClusters::bases of a matrix of 3 x 3 or 9 x 9
 };
 
 struct ClusterMember {
@@ -47,7 +47,7 @@ struct PlasticCluster {
 struct CompiledClusters {
   std::vector<CompiledCluster> clusters;
   std::vector<ClusterMember> members;  ///< of each cluster in the order of the State
-  std::vector<double> inverse_moments;
+  std::vector<double> bases;           ///< orthonormal_basis of the moments of each cluster that deforms
   std::vector<std::pair<int, int>> colours;  ///< ranges of clusters, half-open
   bool has_multipliers = false;              ///< a cluster yields, or is damped
   std::vector<PlasticCluster> plastic;

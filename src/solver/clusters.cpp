@@ -4,6 +4,7 @@
 #include <array>
 
 #include "math/best_rotation.h"
+#include "math/closest_volume.h"
 #include "model/cluster_moments.h"
 
 namespace pliant {
@@ -39,30 +40,30 @@ struct Fit {
   }
 };
 
-double determinant(const double (&f)[3][most_moments]) {
-  return f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1]) - f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0]) +
-         f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
+/// Replaces the linear part of a deformation, which is given in an orthonormal basis, by the closest one with the volume of the rest shape.
+/// The closest, so that the pull to it is the gradient of half the squared distance and makes no energy.
+void keep_volume(double (&fitted)[3][most_moments], const double* basis, int n, double size) {
+  Matrix3d linear;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) linear[3 * i + j] = fitted[i][j] / size;
+  linear = closest_of_determinant(linear, 1 / (basis[0] * basis[n + 1] * basis[2 * n + 2]));
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) fitted[i][j] = linear[3 * i + j] * size;
 }
 
-/// The factor that gives a deformation the volume of the rest shape. Where little volume is left, the full factor would throw particles.
-double volume_factor(const double (&f)[3][most_moments], double size) {
-  constexpr double least = 0.1;
-  return 1 / pow(max(determinant(f) / (size * size * size), least), 1.0 / 3);
-}
-
-/// Adds `share` of the fitted deformation to (1 - share) of the rotation that `fit` has. An inverted fit is left out.
-void add_deformation(const CompiledCluster& cluster, const double* inverse, const double (&sums)[3][most_moments],
+/// Adds `share` of the fitted deformation to (1 - share) of the rotation that `fit` has.
+void add_deformation(const CompiledCluster& cluster, const double* basis, const double (&sums)[3][most_moments],
                      Fit& fit) {
   const int n = moments_of(cluster.mode);
-  double fitted[3][most_moments] = {};
+  double fitted[3][most_moments] = {};  // sums basis^T
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < n; ++j)
-      for (int k = 0; k < n; ++k) fitted[i][j] += sums[i][k] * inverse[k * n + j];
-  if (!cluster.is_flat && !(determinant(fitted) > 0)) return;
-  const double factor = cluster.share * (cluster.is_flat ? 1 : volume_factor(fitted, cluster.size));
+      for (int k = 0; k <= j; ++k) fitted[i][j] += sums[i][k] * basis[j * n + k];
+  if (!cluster.is_flat) keep_volume(fitted, basis, n, cluster.size);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) fit.deformation[i][j] *= 1 - cluster.share;
-    for (int j = 0; j < n; ++j) fit.deformation[i][j] += factor * fitted[i][j];
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k <= j; ++k) fit.deformation[i][k] += cluster.share * fitted[i][j] * basis[j * n + k];
   }
   fit.moments = n;
 }
@@ -93,7 +94,7 @@ Fit fit(const CompiledClusters& clusters, const CompiledCluster& cluster, const 
     out.deformation[2][j] = cluster.size * axes[j].z;
   }
   if (cluster.mode != Cluster::Mode::rigid)
-    add_deformation(cluster, clusters.inverse_moments.data() + cluster.inverse_moments, sums, out);
+    add_deformation(cluster, clusters.bases.data() + cluster.basis, sums, out);
   return out;
 }
 
@@ -109,7 +110,11 @@ struct Yield {
       return;
     }
     compliance = min(cluster.response * a.inverse_h2, 1e30);
-    gamma = min(cluster.response * cluster.damping * a.inverse_h, 1e30);
+    set_damping(min(cluster.response * cluster.damping * a.inverse_h, 1e30));
+  }
+
+  void set_damping(double value) {
+    gamma = value;
     scale = 1 / (1 + gamma + compliance);
   }
 };
@@ -129,11 +134,12 @@ class Projection {
         now_(fit(clusters, cluster, places_)) {
     if (yield_.gamma > 0) before_ = fit(clusters, cluster, starts_);
     turn_ = multiply(now_.turn, conjugate(before_.turn));
-    settle_ = torque_free_turn();
+    if (yield_.gamma > 0 && cluster.mode != Cluster::Mode::rigid && !damping_takes_energy()) yield_.set_damping(0);
+    settle();
   }
 
   Vec3d correction(int member) const {
-    const Vec3d arm = goal(now_, member) - now_.centre;
+    const Vec3d arm = turns_goals_ ? goal(now_, member) - now_.centre : start(member);
     return -yield_.scale * (pull(member) - (1 + yield_.gamma) * cross(settle_, arm));
   }
 
@@ -150,31 +156,60 @@ class Projection {
     return sum;
   }
 
-  /// The small rotation of all goals after which corrections have no torque about the start; zero where the shape is far from both.
-  Vec3d torque_free_turn() const {
+  /// Where a deformation is large, C can fall while its particles depart, and damping of C would push them on.
+  bool damping_takes_energy() const {
+    double power = 0;
+    for (int m = cluster_.first; m < cluster_.last; ++m) {
+      const ClusterMember& member = clusters_.members[m];
+      const Vec3d now = places_.at(member.particle), before = starts_.at(member.particle);
+      const Vec3d motion = now - now_.centre - rotate(turn_, before - before_.centre);
+      const Vec3d goals = goal(now_, m) - now_.centre - rotate(turn_, goal(before_, m) - before_.centre);
+      power += member.weight * dot(motion, motion - goals);
+    }
+    return power >= 0;
+  }
+
+  Vec3d start(int member) const { return starts_.at(clusters_.members[member].particle) - start_centre_; }
+
+  /// Finds what makes corrections free of torque about the start: a small rotation of all goals. Where none does, because the shape is far from
+  /// its goals (mirrored, say), the closest torque-free corrections: those less a rotation of the start.
+  void settle() {
+    constexpr double largest = 0.2;  // [rad]
+    if (find_settle(1e-9 * cluster_.size * cluster_.size) && dot(settle_, settle_) < largest * largest) return;
+    turns_goals_ = false;
+    start_centre_ = {};
+    for (int m = cluster_.first; m < cluster_.last; ++m)
+      start_centre_ += clusters_.members[m].weight * starts_.at(clusters_.members[m].particle);
+    find_settle(0);
+  }
+
+  /// Sets settle_ = d so that d cross the arms have the torque of the pulls. False, and zero, where the arms have less than the least moment.
+  bool find_settle(double least) {
     Vec3d torque{};
     double rows[3][3] = {};
     for (int m = cluster_.first; m < cluster_.last; ++m) {
       const ClusterMember& member = clusters_.members[m];
-      const Vec3d x = starts_.at(member.particle) - now_.centre, g = goal(now_, m) - now_.centre;
+      const Vec3d x = turns_goals_ ? starts_.at(member.particle) - now_.centre : start(m);
+      const Vec3d g = turns_goals_ ? goal(now_, m) - now_.centre : x;
       torque += member.weight * cross(x, pull(m));
       const double along = member.weight * dot(x, g), xs[3] = {x.x, x.y, x.z}, gs[3] = {g.x, g.y, g.z};
       for (int i = 0; i < 3; ++i)  // x cross (d cross g) = (x . g) d - (x . d) g
         for (int j = 0; j < 3; ++j) rows[i][j] += (i == j ? along : 0) - member.weight * gs[i] * xs[j];
     }
-    return solve(rows, (1 / (1 + yield_.gamma)) * torque);
+    return solve(rows, (1 / (1 + yield_.gamma)) * torque, least);
   }
 
-  Vec3d solve(double (&m)[3][3], const Vec3d& b) const {
-    const double trace = m[0][0] + m[1][1] + m[2][2], least = 1e-9 * cluster_.size * cluster_.size;
-    if (!(trace > least)) return {};
+  bool solve(double (&m)[3][3], const Vec3d& b, double least) {
+    settle_ = {};
+    const double trace = m[0][0] + m[1][1] + m[2][2];
+    if (!(trace > least)) return false;
     for (int i = 0; i < 3; ++i) m[i][i] += 1e-9 * trace;
     const Vec3d x{m[0][0], m[1][0], m[2][0]}, y{m[0][1], m[1][1], m[2][1]}, z{m[0][2], m[1][2], m[2][2]};
     const double volume = dot(x, cross(y, z)), whole = trace * trace * trace;
-    constexpr double thinnest = 1e-12, largest = 0.2;  // of the matrix; [rad]
-    if (!(volume > thinnest * whole)) return {};
-    const Vec3d turn = (1 / volume) * Vec3d{dot(b, cross(y, z)), dot(x, cross(b, z)), dot(x, cross(y, b))};
-    return dot(turn, turn) < largest * largest ? turn : Vec3d{};
+    constexpr double thinnest = 1e-12;  // of the matrix
+    if (!(volume > thinnest * whole)) return false;
+    settle_ = (1 / volume) * Vec3d{dot(b, cross(y, z)), dot(x, cross(b, z)), dot(x, cross(y, b))};
+    return true;
   }
 
   const CompiledClusters& clusters_;
@@ -184,7 +219,8 @@ class Projection {
   ClusterPlaces places_, starts_;
   Fit now_, before_;
   Quatd turn_;
-  Vec3d settle_{};
+  Vec3d settle_{}, start_centre_{};
+  bool turns_goals_ = true;
 };
 
 }  // namespace
