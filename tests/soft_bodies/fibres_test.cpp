@@ -94,13 +94,22 @@ TEST(Fibres, AMuscleLiftsItsLoadAsFarAsItsForceSays) {
   EXPECT_NEAR(after / length_at_rest, stretch_of(fibre_modulus, 0.9, load), 0.004);
 }
 
+/// Sets the stretch of all fibres of an object as docs/guide/soft_bodies.md does. Returns how many groups there are.
+int set_stretch(const Object& body, float factor, World& world) {
+  int groups = 0;
+  for (std::size_t g = 0; g < body.constraints.size(); ++g) {
+    if (body.constraints[g].type != "fibre") continue;
+    world.object(0).set_rest_factor(static_cast<int>(g), factor);
+    ++groups;
+  }
+  return groups;
+}
+
 TEST(Fibres, ACallActivatesThemAsKeyframesDo) {
   const Muscle by_keyframes = muscle_of({.direction = {0, 1, 0}, .stretch = {{0, 0.9f}}}, 10);
   const Muscle by_call = muscle_of({.direction = {0, 1, 0}}, 10);
   World keyed(by_keyframes.scene), called(by_call.scene);
-  const int group = static_cast<int>(by_call.scene.objects[0].constraints.size()) - 1;
-  EXPECT_EQ(by_call.scene.objects[0].constraints.back().type, "fibre");
-  called.object(0).set_rest_factor(group, 0.9f);
+  EXPECT_EQ(set_stretch(by_call.scene.objects[0], 0.9f, called), 1);
   run(keyed, 20);
   run(called, 20);
   EXPECT_EQ(positions_of(keyed), positions_of(called));
@@ -195,16 +204,24 @@ TEST(Fibres, ACallForEachSizeActivatesDampedOnes) {
   const Object column = damped_column({0.2f, 0.02f, 0.2f}, {});
   Scene by_keyframes = scene_of(damped_column({0.2f, 0.02f, 0.2f}, {{0, 0.9f}}), 100), by_call = scene_of(column, 100);
   World keyed(by_keyframes), called(by_call);
-  int groups = 0;
-  for (std::size_t g = 0; g < column.constraints.size(); ++g) {
-    if (column.constraints[g].type != "fibre") continue;
-    called.object(0).set_rest_factor(static_cast<int>(g), 0.9f);
-    ++groups;
-  }
-  EXPECT_EQ(groups, 2);
+  EXPECT_EQ(set_stretch(column, 0.9f, called), 2);
   run(keyed, 10);
   run(called, 10);
   EXPECT_EQ(positions_of(keyed), positions_of(called));
+}
+
+/// A strain limit comes after the fibres, so that they are not the last group.
+TEST(Fibres, AreFoundByTheirTypeBesideAStrainLimit) {
+  SoftBodyOptions options;
+  options.material = solid_of(1e4f, 0.4f);
+  options.fibres = Fibres{};
+  options.strain_limit = StrainLimit{0.5f, 1.5f};
+  const Object body = make_soft_body(box_tetrahedra({0.2f, 0.1f, 0.1f}, {2, 1, 1}), options);
+  EXPECT_NE(body.constraints.back().type, "fibre");
+  World world(scene_of(body, 20));
+  EXPECT_EQ(set_stretch(body, 0.9f, world), 1);
+  const int last = static_cast<int>(body.constraints.size()) - 1;
+  EXPECT_THROW(world.object(0).set_rest_factor(last, 0.9f), Error) << "as the guide once did";
 }
 
 TEST(Fibres, WrongOnesAreRefused) {
