@@ -91,6 +91,8 @@ void check_object(Problems& problems, const Object& object);
 void doubt_object(Problems& problems, const Object& object, const Scene& scene);
 /// Warns of rods that carry more than contact can bear in the scene's substeps. The scene must have no grave findings.
 void doubt_substeps_of_rods(Problems& problems, const Scene& scene);
+/// Warns of volumes whose surface would jump to their pressure at the start. The scene must have no grave findings.
+void doubt_jumps_of_volumes(Problems& problems, const Scene& scene);
 /// Doubts particles of liquids, gases and grains that start within one another, and emitters that shoot.
 void doubt_flows(Problems& problems, const Scene& scene);
 /// Warns of joints that are probably not as intended.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "pliant/error.h"
 
@@ -66,31 +69,49 @@ struct Edges {
   }
 };
 
+/// Which tetrahedra are about as large, as in soft_body.cpp: by powers of the square root of two.
+int size_class(double volume) {
+  int exponent = 0;
+  const double mantissa = std::frexp(volume, &exponent);
+  return 2 * exponent + (mantissa >= 0.70710678118654752 ? 1 : 0);
+}
+
+/// Fibres of tetrahedra that are about as large, and the sum of their stiffnesses [J].
+struct FibresOfSize {
+  ConstraintGroup group;
+  double stiffness = 0;
+};
+
+void add_fibre(const std::array<int, 4>& tetrahedron, const Vec3d& along, double stiffness, FibresOfSize& to) {
+  to.group.particles.insert(to.group.particles.end(), tetrahedron.begin(), tetrahedron.end());
+  for (const double x : {1.0, along.x, along.y, along.z}) to.group.rest.push_back(static_cast<float>(x));
+  to.group.compliances.push_back(static_cast<float>(std::min(1 / stiffness, largest_response)));
+  to.stiffness += stiffness;
+}
+
 }  // namespace
 
 void add_fibres(const Fibres& fibres, double damping_time, const std::vector<std::array<int, 4>>& tetrahedra,
                 Object& body) {
   require(body, fibres, tetrahedra.size());
-  ConstraintGroup group;
-  group.type = "fibre";
-  group.keyframes = fibres.stretch;
-  if (group.keyframes.empty()) group.keyframes.push_back({});
-  double stiffness = 0;
+  std::map<int, FibresOfSize> sizes;
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
     const Vec3d direction = direction_of(body, fibres, t);
     if (dot(direction, direction) == 0) continue;
     const Edges edges(body, tetrahedra[t]);
-    const Vec3d along = edges.solve(direction);
-    group.particles.insert(group.particles.end(), tetrahedra[t].begin(), tetrahedra[t].end());
-    for (const double x : {1.0, along.x, along.y, along.z}) group.rest.push_back(static_cast<float>(x));
-    const double energy = static_cast<double>(fibres.modulus) * edges.six_volumes() / 6;
-    group.compliances.push_back(static_cast<float>(std::min(1 / energy, largest_response)));
-    stiffness += energy;
+    const double six = edges.six_volumes();
+    const int size = damping_time > 0 ? size_class(six / 6) : 0;
+    add_fibre(tetrahedra[t], edges.solve(direction), static_cast<double>(fibres.modulus) * six / 6, sizes[size]);
   }
-  if (group.compliances.empty()) return;
-  group.stiffness.damping = static_cast<float>(
-      std::min(damping_time * stiffness / static_cast<double>(group.compliances.size()), largest_response));
-  body.constraints.push_back(std::move(group));
+  for (auto& [size, of] : sizes) {
+    ConstraintGroup& group = of.group;
+    group.type = "fibre";
+    group.keyframes = fibres.stretch;
+    if (group.keyframes.empty()) group.keyframes.push_back({});
+    const double mean = of.stiffness / static_cast<double>(group.compliances.size());
+    group.stiffness.damping = static_cast<float>(std::min(damping_time * mean, largest_response));
+    body.constraints.push_back(std::move(group));
+  }
 }
 
 }  // namespace pliant

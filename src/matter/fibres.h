@@ -8,8 +8,9 @@
 
 namespace pliant {
 
-/// Adds a "fibre" constraint for each of a body's tetrahedra that has one, all in one group. Their damping over their stiffness is
-/// `damping_time` [s]. Throws an Error that names a tetrahedron whose direction cannot be used, or a number that is out of range.
+/// Adds a "fibre" constraint for each of a body's tetrahedra that has one. Their damping over their stiffness is `damping_time` [s]; a group
+/// has one damping, so with damping there is a group for each size of tetrahedra, each with the same keyframes. Throws an Error that names a
+/// tetrahedron whose direction cannot be used, or a number that is out of range.
 void add_fibres(const Fibres& fibres, double damping_time, const std::vector<std::array<int, 4>>& tetrahedra, Object& body);
 
 }  // namespace pliant

@@ -13,6 +13,13 @@ namespace pliant {
 
 namespace {
 
+/// True if the volume ever strains its edges. Stresses that stay would turn a free object by themselves (solver/momentum.h).
+bool is_strained(const Volume& volume) {
+  if (volume.keyframes.empty()) return volume.pressure != 1;
+  return std::any_of(volume.keyframes.begin(), volume.keyframes.end(),
+                     [](const PressureKeyframe& key) { return key.pressure != 1; });
+}
+
 /// True if no particle is kinematic, and the triangles connect all of them.
 bool is_one_free_surface(const Object& object, const CompiledObject& out) {
   for (int p = 0; p < out.particles; ++p)
@@ -89,7 +96,7 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
     const bool is_free = out.positions[p].w > 0 && out.surface.corner_begin[p] < out.surface.corner_begin[p + 1];
     out.volume.mass += is_free ? 1.0 / out.positions[p].w : 0;
   }
-  out.volume.keeps_momentum = largest_pressure(*object.volume) > 1 && is_one_free_surface(object, out);
+  out.volume.keeps_momentum = is_strained(*object.volume) && is_one_free_surface(object, out);
 }
 
 std::vector<std::array<int, 2>> lines_of(const Object& object, const std::vector<int>& place) {

@@ -3,8 +3,8 @@
 // A substep conserves angular momentum if sum_i m_i x_i x c_i = 0, where x are the positions at its start and c the
 // corrections, because velocities become the displacement / h. Each projection has no torque about the positions x + d at
 // which its gradient is taken, so it leaves sum_i m_i d_i x c_i. Such errors have second order and cancel out, unless
-// corrections are large in every substep: the volume pushes out what the lengths pull in, without end. Then a balloon
-// at rest starts to turn, by the same torque in each substep.
+// corrections are large in every substep: the volume pushes out what the lengths pull in, without end, or pulls in what
+// they push out. Then a balloon at rest starts to turn, by the same torque in each substep.
 //
 // So what the constraints of such an object change is reduced by its rigid motion: c_i -= p + theta x (x_i - x_c), with
 // M p = sum_i m_i c_i and I theta = sum_i m_i (x_i - x_c) x c_i. Contacts, friction and forces are not affected. Sums are

@@ -219,6 +219,29 @@ TEST(InspectScene, NamesGearsWithoutBearings) {
   EXPECT_EQ(finding(scene, "no other joint guides"), "");
 }
 
+/// A ball of rubber sheet with a volume.
+Scene balloon(float radius, const Volume& volume) {
+  ClothOptions options{.name = "ball", .material = fabric("rubber sheet"), .volume = volume};
+  TriangleMesh mesh = sphere_mesh(2);
+  for (Vec3f& p : mesh.positions) p = p * radius;
+  Scene scene;
+  scene.add_cloth(mesh, options);
+  return scene;
+}
+
+TEST(InspectScene, NamesVolumesThatJumpAtTheStart) {
+  const auto doubt = [](float radius, const Volume& volume) { return finding(balloon(radius, volume), "jumps"); };
+  EXPECT_EQ(doubt(0.2f, {.pressure = 1.4f}), "");
+  EXPECT_EQ(doubt(10, {.pressure = 1}), "");
+  EXPECT_EQ(doubt(10, {.keyframes = {{0, 1}, {1, 1.3f}}}), "");
+  EXPECT_EQ(doubt(10, {.pressure = 1.3f, .stiffness = Stiffness::compliance(1)}), "") << "it yields";
+  const std::string text = doubt(10, {.pressure = 1.3f});
+  EXPECT_NE(text.find("object 'ball', volume: has a pressure of 1.3"), std::string::npos) << text;
+  EXPECT_NE(text.find("{\"time\": 1, \"pressure\": 1.3}"), std::string::npos) << text;
+  EXPECT_NE(doubt(1, {.pressure = 0.5f}), "");
+  EXPECT_NE(doubt(10, {.keyframes = {{0, 1.3f}}}), "");
+}
+
 /// Water of 1 m depth, 30 cm wide.
 Scene water() {
   Scene scene;

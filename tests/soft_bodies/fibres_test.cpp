@@ -1,6 +1,10 @@
 // Fibres in soft bodies against known answers, and rest data that keyframes and calls multiply.
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "pliant/error.h"
 #include "soft_bodies/soft_body_support.h"
@@ -90,13 +94,22 @@ TEST(Fibres, AMuscleLiftsItsLoadAsFarAsItsForceSays) {
   EXPECT_NEAR(after / length_at_rest, stretch_of(fibre_modulus, 0.9, load), 0.004);
 }
 
+/// Sets the stretch of all fibres of an object as docs/guide/soft_bodies.md does. Returns how many groups there are.
+int set_stretch(const Object& body, float factor, World& world) {
+  int groups = 0;
+  for (std::size_t g = 0; g < body.constraints.size(); ++g) {
+    if (body.constraints[g].type != "fibre") continue;
+    world.object(0).set_rest_factor(static_cast<int>(g), factor);
+    ++groups;
+  }
+  return groups;
+}
+
 TEST(Fibres, ACallActivatesThemAsKeyframesDo) {
   const Muscle by_keyframes = muscle_of({.direction = {0, 1, 0}, .stretch = {{0, 0.9f}}}, 10);
   const Muscle by_call = muscle_of({.direction = {0, 1, 0}}, 10);
   World keyed(by_keyframes.scene), called(by_call.scene);
-  const int group = static_cast<int>(by_call.scene.objects[0].constraints.size()) - 1;
-  EXPECT_EQ(by_call.scene.objects[0].constraints.back().type, "fibre");
-  called.object(0).set_rest_factor(group, 0.9f);
+  EXPECT_EQ(set_stretch(by_call.scene.objects[0], 0.9f, called), 1);
   run(keyed, 20);
   run(called, 20);
   EXPECT_EQ(positions_of(keyed), positions_of(called));
@@ -138,6 +151,77 @@ TEST(Fibres, AContractedMuscleDoesNotTurnByItself) {
   const Momentum after = momentum_of(world, masses);
   const double moment_of_inertia = 0.75 * 1060 * 0.05 * 0.05 * 0.3 * 0.3 * 0.3 / 12;
   EXPECT_LT(length(after.angular) / moment_of_inertia, 0.01);  // rad/s
+}
+
+/// A column whose layers have these heights, with damped fibres that contract by 10 %, held at its top.
+Object damped_column(const std::vector<float>& heights, std::vector<RestKeyframe> stretch) {
+  const int layers = static_cast<int>(heights.size());
+  SoftBodyOptions options;
+  options.material = solid_of(2e4f, 0, 300);
+  options.material.damping = 0.05f;
+  options.fibres = Fibres{.direction = {0, 1, 0}, .directions = {}, .modulus = 1e5f, .stretch = std::move(stretch)};
+  TetrahedralMesh mesh = box_tetrahedra({0.1f, 1, 0.1f}, {1, layers, 1});
+  for (Vec3f& p : mesh.positions) {
+    const int layer = static_cast<int>(std::lround((p.y + 0.5f) * static_cast<float>(layers)));
+    p.y = 0;
+    for (int below = 0; below < layer; ++below) p.y += heights[static_cast<std::size_t>(below)];
+  }
+  Object column = make_soft_body(mesh, options);
+  float top = 0;
+  for (const Vec3f& p : column.positions) top = std::max(top, p.y);
+  for (std::size_t i = 0; i < column.positions.size(); ++i)
+    if (column.positions[i].y == top) column.pins.push_back({.particle = static_cast<int>(i), .motion = {}});
+  column.collides = false;
+  return column;
+}
+
+/// The mean length over that at rest of what lies between two heights at rest.
+double stretch_between(const World& world, const Object& column, float low, float high) {
+  const std::vector<Vec3f> now = positions_of(world);
+  double sum[2] = {}, count[2] = {};
+  for (std::size_t i = 0; i < now.size(); ++i)
+    for (const int end : {0, 1}) {
+      if (std::fabs(column.positions[i].y - (end == 0 ? low : high)) > 1e-5f) continue;
+      sum[end] += static_cast<double>(now[i].y);
+      ++count[end];
+    }
+  return (sum[1] / count[1] - sum[0] / count[0]) / static_cast<double>(high - low);
+}
+
+// One damping for all tetrahedra held a thin layer: 0.987 in it, and 0.938 beside it, where all should be 0.947.
+TEST(Fibres, DampingDoesNotDependOnTheMesh) {
+  const Object column = damped_column({0.2f, 0.02f, 0.2f}, {{0, 0.9f}});
+  Scene scene = scene_of(column, 4000);
+  scene.gravity = {};
+  World world(scene);
+  run(world, 3);
+  EXPECT_NEAR(stretch_between(world, column, 0, 0.2f), 0.947, 0.002);
+  EXPECT_NEAR(stretch_between(world, column, 0.2f, 0.22f), 0.947, 0.002);
+  EXPECT_NEAR(stretch_between(world, column, 0.22f, 0.42f), 0.947, 0.002);
+}
+
+TEST(Fibres, ACallForEachSizeActivatesDampedOnes) {
+  const Object column = damped_column({0.2f, 0.02f, 0.2f}, {});
+  Scene by_keyframes = scene_of(damped_column({0.2f, 0.02f, 0.2f}, {{0, 0.9f}}), 100), by_call = scene_of(column, 100);
+  World keyed(by_keyframes), called(by_call);
+  EXPECT_EQ(set_stretch(column, 0.9f, called), 2);
+  run(keyed, 10);
+  run(called, 10);
+  EXPECT_EQ(positions_of(keyed), positions_of(called));
+}
+
+/// A strain limit comes after the fibres, so that they are not the last group.
+TEST(Fibres, AreFoundByTheirTypeBesideAStrainLimit) {
+  SoftBodyOptions options;
+  options.material = solid_of(1e4f, 0.4f);
+  options.fibres = Fibres{};
+  options.strain_limit = StrainLimit{0.5f, 1.5f};
+  const Object body = make_soft_body(box_tetrahedra({0.2f, 0.1f, 0.1f}, {2, 1, 1}), options);
+  EXPECT_NE(body.constraints.back().type, "fibre");
+  World world(scene_of(body, 20));
+  EXPECT_EQ(set_stretch(body, 0.9f, world), 1);
+  const int last = static_cast<int>(body.constraints.size()) - 1;
+  EXPECT_THROW(world.object(0).set_rest_factor(last, 0.9f), Error) << "as the guide once did";
 }
 
 TEST(Fibres, WrongOnesAreRefused) {
