@@ -16,6 +16,7 @@
 #include "world/rest.h"
 #include "world/resting_grains.h"
 #include "world/soaking.h"
+#include "world/target_origins.h"
 
 namespace pliant {
 
@@ -317,10 +318,11 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   note_surfaces(world, number);
   const CompiledObject& old = world.model.objects[number];
   const int particles = old.particles;
-  // Targets of attachments follow the particles in the user's order; an edit does not reorder them.
-  const auto origin = [&](int user) {
-    const int at = user < by.user_particles ? from[user] : user - by.user_particles + old.user_particles;
-    return at < 0 || at >= particles ? -1 : old.place[at];
+  const std::vector<int> targets = target_origins(old, by, from);
+  const auto origin = [&](int user) {  // targets of attachments follow the particles in the user's order
+    if (user < by.user_particles) return from[user] < 0 ? -1 : old.place[from[user]];
+    const int target = targets[user - by.user_particles];
+    return target < 0 ? -1 : old.place[old.user_particles + target];
   };
   Origins origins;
   for (const int user : by.order) origins.particles.push_back(origin(user));
