@@ -177,7 +177,7 @@ class Parting {
     const std::vector<int> with = tetrahedra_with(stencil, type);
     if (group.type == DistanceLimit::name && !with.empty()) return append_to_all(group, number, stencil, type, with, out);
     const auto left = std::find_if(with.begin(), with.end(), [&](int t) { return !is_removed(t); });
-    if (!with.empty() ? left == with.end() : uses_left_over(stencil, type)) return;
+    if (uses_left_over(stencil, type) || (!with.empty() && left == with.end())) return;
     if (!with.empty()) replace_corners(*left, type, stencil);
     append(group, number, stencil, 1, out);
     if (group.type == "body_anchor" && with.empty()) tie_copies(group, number, stencil, out);

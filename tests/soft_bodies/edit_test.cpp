@@ -4,6 +4,7 @@
 #include <numeric>
 #include <set>
 
+#include "pliant/body.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
 #include "soft_bodies/soft_body_support.h"
@@ -159,6 +160,39 @@ TEST(RemoveTetrahedra, LetsGoOfWhatTheyHeld) {
   for (int t = 0; t < static_cast<int>(right.size()); ++t)
     if (right[static_cast<std::size_t>(t)] != 0) some.push_back(t);
   EXPECT_TRUE(remove_tetrahedra(whole, some).object.constraints.back().particles.empty());
+}
+
+/// The numbers of the particles at the place of a block's cut x = 0 that have this height.
+std::vector<int> at_height(const Object& object, float y, int end) {
+  std::vector<int> found;
+  for (int i = 0; i < end; ++i)
+    if (const Vec3f& p = object.positions[static_cast<std::size_t>(i)];
+        std::fabs(p.x) < 1e-4f && std::fabs(p.y - y) < 1e-4f)
+      found.push_back(i);
+  return found;
+}
+
+/// A block, and another one `up` metres above it as its later particles.
+Object two_blocks(float up) {
+  Object both = block();
+  Object other = block();
+  for (Vec3f& p : other.positions) p.y += up;
+  append(both, other);
+  return both;
+}
+
+TEST(RemoveTetrahedra, LetsGoOfWhatIsTiedToAParticleThatIsLeftOver) {
+  Object both = two_blocks(-0.2f);
+  const auto below = static_cast<int>(both.positions.size()) / 2;
+  attach_to_surface(both, at_height(both, -0.1f, below));
+  std::vector<int> first;
+  for (int t = 0; t < static_cast<int>(tetrahedra_of(both).size()) / 2; ++t) first.push_back(t);
+  const Edit edit = remove_tetrahedra(both, first);
+  EXPECT_TRUE(edit.object.constraints.back().particles.empty());
+  World world(scene_of(both, 10));
+  world.edit(0, edit);
+  run(world, 30);
+  EXPECT_LT(world.object(0).positions()[static_cast<std::size_t>(below)].y, -0.9f) << "falls freely";
 }
 
 TEST(EditTetrahedra, WhatCannotBeIsRefused) {
