@@ -7,6 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "constraints/body_anchor.h"
+#include "constraints/point_in_tetrahedron.h"
+#include "constraints/point_on_triangle.h"
 #include "constraints/registry.h"
 #include "math/vector.h"
 #include "pliant/error.h"
@@ -117,6 +120,24 @@ std::vector<int> points_of(const ConstraintType& type, const std::vector<int>& s
     }
   }
   return points;
+}
+
+int tied_slot(const ConstraintType& type) {
+  if (type.name == BodyAnchor::name) return type.stencil_size - 1;
+  return type.name == PointOnTriangle::name || type.name == PointInTetrahedron::name ? 0 : -1;
+}
+
+void append_for_copies(const ConstraintGroup& from, int number, std::vector<int> stencil, const ConstraintType& type,
+                       const std::vector<int>& origins, int first, ConstraintGroup& to) {
+  const int slot = tied_slot(type);
+  if (slot < 0) return;
+  int& tied = stencil[static_cast<std::size_t>(slot)];
+  const int origin = tied;
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    if (origins[i] != origin) continue;
+    tied = first + static_cast<int>(i);
+    append(from, number, stencil, 1, to);
+  }
 }
 
 std::vector<int> constraints_at(const ConstraintGroup& group, const std::vector<char>& marks, const Object& object) {

@@ -1,7 +1,9 @@
 // Soft bodies that are cut: what tetrahedra keep, and how the parts go on.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "pliant/body.h"
@@ -193,6 +195,40 @@ TEST(RemoveTetrahedra, LetsGoOfWhatIsTiedToAParticleThatIsLeftOver) {
   world.edit(0, edit);
   run(world, 30);
   EXPECT_LT(world.object(0).positions()[static_cast<std::size_t>(below)].y, -0.9f) << "falls freely";
+}
+
+TEST(PartTetrahedra, BothHalvesStayTied) {
+  Object both = two_blocks(0.2f);
+  const auto below = static_cast<int>(both.positions.size()) / 2;
+  for (int i = below; i < 2 * below; ++i) both.pins.push_back({i});
+  attach_to_surface(both, at_height(both, 0.1f, below));
+  std::vector<int> part = sides(both, 0);
+  std::fill(part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2), part.end(), 0);
+  const Edit edit = part_tetrahedra(both, part);
+  EXPECT_EQ(both.constraints.back().particles.size(), 3u * 4);
+  EXPECT_EQ(edit.object.constraints.back().particles.size(), 6u * 4);
+  World world(scene_of(both, 10));
+  world.edit(0, edit);
+  run(world, 60);
+  for (const Vec3f& p : world.object(0).positions()) EXPECT_GT(p.y, -0.3f);
+}
+
+TEST(MakeCuts, BothHalvesOfClothStayTiedToABodyThatIsCutToo) {
+  for (const bool inside : {false, true}) {
+    Object both = block();
+    const int first = append(both, make_cloth(grid_mesh(5, 5, 0.2f, 0.2f)));
+    std::vector<int> middle;
+    for (int row = 0; row < 5; ++row) middle.push_back(first + 5 * row + 2);
+    if (inside)
+      attach_inside(both, middle);
+    else
+      attach_to_surface(both, middle);
+    both.cuts.push_back({0, 0, {0, 1, 0}, {1, 0, 0}, {0, -1, 0}});
+    const std::optional<Edit> edit = make_cuts(both, 0);
+    ASSERT_TRUE(edit.has_value());
+    EXPECT_EQ(edit->object.positions.size(), both.positions.size() + 9 + 5);
+    EXPECT_EQ(edit->object.constraints.back().particles.size(), 2 * both.constraints.back().particles.size());
+  }
 }
 
 TEST(EditTetrahedra, WhatCannotBeIsRefused) {

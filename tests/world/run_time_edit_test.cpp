@@ -126,6 +126,19 @@ TEST(Cut, BothHalvesStayTiedAndAttached) {
   EXPECT_EQ(attached, (std::vector<int>{first + 76, first + 76}));
 }
 
+TEST(Cut, CopiesOfAParticleThatIsTiedToASurfaceStayTied) {
+  Object both = sheet().objects[0];
+  Object other = both;
+  for (Vec3f& p : other.positions) p.y += 0.01f;
+  append(both, other);
+  attach_to_surface(both, {4, 40, 41});
+  const Edit edit = cut(both, middle_column());
+  std::vector<int> tied;
+  const std::vector<int>& particles = edit.object.constraints.back().particles;
+  for (std::size_t i = 0; i < particles.size(); i += 4) tied.push_back(edit.from[static_cast<std::size_t>(particles[i])]);
+  EXPECT_EQ(tied, (std::vector<int>{4, 4, 40, 40, 41}));
+}
+
 TEST(Cut, RefusesWhatIsNoEdge) {
   const Object whole = sheet().objects[0];
   EXPECT_THROW(cut(whole, std::vector<int>{0, 2}), Error);
