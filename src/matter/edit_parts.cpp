@@ -195,14 +195,27 @@ void replace_constraints(ConstraintGroup& group, int slots, const std::vector<in
   group = std::move(out);
 }
 
-std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3f> positions) {
-  const Vec3d origin = convert<double>(positions[static_cast<std::size_t>(particles[0])]);
+namespace {
+
+template <class R>
+std::vector<double> relative_places(const std::vector<int>& particles, std::span<const Vec3<R>> positions) {
+  const auto at = [&](int particle) { return convert<double>(positions[static_cast<std::size_t>(particle)]); };
   std::vector<double> out;
   for (const int particle : particles) {
-    const Vec3d x = convert<double>(positions[static_cast<std::size_t>(particle)]) - origin;
+    const Vec3d x = at(particle) - at(particles[0]);
     out.insert(out.end(), {x.x, x.y, x.z, 0});
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3f> positions) {
+  return relative_places(particles, positions);
+}
+
+std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3d> positions) {
+  return relative_places(particles, positions);
 }
 
 std::vector<double> rest_of(const ConstraintGroup& group, int number, const Object& object) {

@@ -40,6 +40,7 @@ std::vector<double> rest_of(const ConstraintGroup& group, int number, const Obje
 /// The places of particles as a ConstraintDefinition takes them, relative to the first, so that rounding does not grow with the distance
 /// from the origin.
 std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3f> positions);
+std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3d> positions);
 
 /// A group without constraints, otherwise alike.
 ConstraintGroup empty_like(const ConstraintGroup& group);

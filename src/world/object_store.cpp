@@ -9,6 +9,7 @@
 
 #include "collision/fields/solid_fields.h"
 #include "math/motion.h"
+#include "matter/break_constraints.h"
 #include "solver/bodies/joint_load.h"
 #include "solver/sweeps/sweep.h"
 #include "world/flow.h"
@@ -30,6 +31,13 @@ Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
   if (more_passes || settings.measure) return Multipliers::needed;
   const bool is_limited = solves_chains(sweep) && settings.sweep_options.most_overstretch > 0;
   return is_limited ? Multipliers::lengths : Multipliers::lengths_in_last;
+}
+
+/// True if constraints of an object break by their force, which their multipliers tell.
+bool breaks(const WorldData& world, int number) {
+  if (world.descriptions.empty()) return false;
+  const auto found = world.descriptions.find(world.ids.objects.id_of(number).slot);
+  return found != world.descriptions.end() && can_break(found->second.object);
 }
 
 /// The part of the State that belongs to one object, in storage order.
@@ -264,8 +272,9 @@ void add_field(WorldData& world, const MeshCollider& collider, std::shared_ptr<c
 void prepare_object(WorldData& world, int number) {
   world.state.rest_times.clear();  // what lay on the object, or may touch it now, wakes
   wake_all_grains(world);
-  pliant::prepare(world.model, number, kept_multipliers(world.settings, world.model.objects[number].sweep),
-                  world.workspace);
+  const Multipliers kept =
+      breaks(world, number) ? Multipliers::all : kept_multipliers(world.settings, world.model.objects[number].sweep);
+  pliant::prepare(world.model, number, kept, world.workspace);
   prepare_sweep(world.model, number, world.settings, world.executor.threads(), world.workspace);
   world.groups.objects_changed = true;
   world.groups.changed.push_back(number);
