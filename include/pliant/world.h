@@ -84,7 +84,7 @@ class World {
   void remove(MeshColliderId collider);
 
   /// Changes an object that moves: its id stays valid, and every particle with an origin keeps position and velocity
-  /// exactly. Pass a changed copy of the description with which it was added, or of description() if it tears. Returns for
+  /// exactly; so do targets of attachments that go on: with the same particle and target, or else the same target. Pass a changed copy of the description with which it was added, or of description() if it tears. Returns for
   /// each old particle the first new index, or -1. If the old particles of an object of more than 2048 are the first of the new ones, as after tears and cuts, and
   /// most constraints have the particles that they had, only the others are scheduled again; otherwise the cost is that of compiling it.
   /// Throws an Error if the description cannot be simulated or `from` does not fit.

@@ -1,12 +1,17 @@
 // Errors in how an object tears, is cut, and what skin it has.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "constraints/distance_limit.h"
 #include "constraints/registry.h"
 #include "inspect/problems.h"
 #include "math/vector.h"
+#include "matter/break_constraints.h"
+#include "matter/edit_parts.h"
+#include "model/object_sets.h"
 #include "model/rods.h"
 #include "model/soft_body_substeps.h"
 
@@ -95,6 +100,38 @@ void check_skin(Problems& problems, const Object& object) {
   problems.grave(bad_triangles, "skin triangle", "uses a vertex that does not exist", "indices count from 0");
 }
 
+/// By how much rounding changes the force of constraint `number` that the World knows [N]: by its elongation or by its multiplier, whichever
+/// is more exact.
+double error_of_force(const Object& object, const ConstraintGroup& group, int number, double h) {
+  const std::vector<int> stencil = stencil_of(group, slots_of(group, object), number);
+  double extent = 0, mass = std::numeric_limits<double>::infinity();
+  for (const int p : points_of(type_of(group, object), stencil, object)) {
+    const Vec3f& x = object.positions[static_cast<std::size_t>(p)];
+    const Vec3f& first = object.positions[static_cast<std::size_t>(stencil[0])];
+    extent = std::max(extent, length(convert<double>(x) - convert<double>(first)));
+    mass = std::min(mass, static_cast<double>(object.masses[static_cast<std::size_t>(p)]));
+  }
+  const auto alpha = static_cast<double>(group.compliances.empty() ? group.stiffness.value
+                                                                   : group.compliances[static_cast<std::size_t>(number)]);
+  return rounding_of_elongation(extent) * std::min(1 / alpha, mass / (h * h));
+}
+
+void doubt_break_forces(Problems& problems, const Object& object, const Scene& scene) {
+  const double h = static_cast<double>(scene.frame_time) / most_substeps_of(scene.settings);
+  constexpr double most_error = 0.1;  // as a share of the force
+  for (const ConstraintGroup& group : object.constraints) {
+    if (!(group.break_force > 0) || !breaks_by_force(group.type)) continue;
+    const int count = static_cast<int>(group.particles.size()) / slots_of(group, object);
+    double error = 0;
+    for (int c = 0; c < count; ++c) error = std::max(error, error_of_force(object, group, c, h));
+    if (error > most_error * static_cast<double>(group.break_force))
+      problems.doubtful(group.type + " constraints",
+                        "break at " + words(static_cast<double>(group.break_force)) +
+                            " N, but rounding changes their force by " + words(error) + " N",
+                        "give a greater compliance or fewer substeps");
+  }
+}
+
 }  // namespace
 
 void doubt_tears(Problems& problems, const Object& object, const Scene& scene) {
@@ -103,6 +140,7 @@ void doubt_tears(Problems& problems, const Object& object, const Scene& scene) {
                       "is " + words(static_cast<double>(object.tearing->stretch)) +
                           ", which the error of the solve exceeds, so it may tear by itself",
                       "give 1.05 or more");
+  doubt_break_forces(problems, object, scene);
   for (std::size_t i = 0; i < object.cuts.size(); ++i) {
     const PlaneCut& cut = object.cuts[i];
     const std::string name = "cut " + std::to_string(i);

@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "pliant/edit.h"
 
@@ -15,9 +17,19 @@ bool breaks_by_force(const std::string& type);
 /// True if constraints of an object can break.
 bool can_break(const Object& object);
 
-/// The Edit that removes the constraints whose force at these positions is beyond that at which they break; nothing if all hold.
-/// `factor(group)` is the present factor of a group's rest data.
-std::optional<Edit> break_constraints(const Object& object, std::span<const Vec3f> positions,
-                                      const std::function<float(int group)>& factor);
+/// What the forces of an object's constraints are known from.
+struct KnownForces {
+  std::span<const Vec3d> positions;        ///< with what floats cannot hold [m]
+  std::function<float(int group)> factor;  ///< the present factor of a group's rest data
+  /// Multipliers over h^2 [N] of all constraints of a type, row by row, in the order of the groups; empty: unknown.
+  std::function<std::vector<float>(const std::string& type)> multipliers;
+};
+
+/// By how much rounding in the solve changes the elongation of a constraint between points at most that far apart [m].
+double rounding_of_elongation(double distance);
+
+/// The Edit that removes the constraints whose force is beyond that at which they break; nothing if all hold. The force is |C| over the
+/// compliance. Where rounding hides whether that is beyond, multipliers tell it.
+std::optional<Edit> break_constraints(const Object& object, const KnownForces& known);
 
 }  // namespace pliant

@@ -139,11 +139,13 @@ class Cut {
 
   /// A constraint on one side of the cut follows it, an edge on the cut is doubled, others are removed.
   void split(const ConstraintGroup& group, const ConstraintType& type, int number, ConstraintGroup& out) const {
-    const int slots = type.stencil_size;
-    const std::vector<int> stencil = stencil_of(group, slots, number), points = points_of(type, stencil, object_),
-                           triangles = triangles_of(points, object_, around_);
-    if (triangles.empty()) return append_for_copies(group, number, stencil, out);
+    const int slots = type.stencil_size, tied = tied_slot(type);
+    const std::vector<int> stencil = stencil_of(group, slots, number);
+    std::vector<int> points = points_of(type, stencil, object_);
+    if (tied >= 0) points[static_cast<std::size_t>(tied)] = -1;  // it may be of other triangles
+    const std::vector<int> triangles = triangles_of(points, object_, around_);
     std::map<std::vector<int>, double> sides;  // area of the triangles on each side; key: stencil on that side
+    if (triangles.empty()) sides[stencil] = 0;
     double whole = 0;
     for (const int t : triangles) {
       std::vector<int> side = copies(points, t, triangles);
@@ -153,19 +155,9 @@ class Cut {
       whole += area_of(object_, t);
     }
     if (sides.size() > 1 && slots > 2) return;
-    for (const auto& [side, area] : sides)
+    for (const auto& [side, area] : sides) {
       append(group, number, side, sides.size() > 1 && area > 0 ? whole / area : 1, out);
-  }
-
-  /// Appends a constraint that belongs to no triangle. What ties a particle to a body also ties its copies.
-  void append_for_copies(const ConstraintGroup& group, int number, std::vector<int> stencil, ConstraintGroup& out) const {
-    append(group, number, stencil, 1, out);
-    if (group.type != "body_anchor") return;
-    const int tied = stencil.back();
-    for (std::size_t i = 0; i < origins_.size(); ++i) {
-      if (origins_[i] != tied) continue;
-      stencil.back() = particles() + static_cast<int>(i);
-      append(group, number, stencil, 1, out);
+      append_for_copies(group, number, side, type, origins_, particles(), out);
     }
   }
 

@@ -7,6 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "constraints/body_anchor.h"
+#include "constraints/point_in_tetrahedron.h"
+#include "constraints/point_on_triangle.h"
 #include "constraints/registry.h"
 #include "math/vector.h"
 #include "pliant/error.h"
@@ -119,6 +122,24 @@ std::vector<int> points_of(const ConstraintType& type, const std::vector<int>& s
   return points;
 }
 
+int tied_slot(const ConstraintType& type) {
+  if (type.name == BodyAnchor::name) return type.stencil_size - 1;
+  return type.name == PointOnTriangle::name || type.name == PointInTetrahedron::name ? 0 : -1;
+}
+
+void append_for_copies(const ConstraintGroup& from, int number, std::vector<int> stencil, const ConstraintType& type,
+                       const std::vector<int>& origins, int first, ConstraintGroup& to) {
+  const int slot = tied_slot(type);
+  if (slot < 0) return;
+  int& tied = stencil[static_cast<std::size_t>(slot)];
+  const int origin = tied;
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    if (origins[i] != origin) continue;
+    tied = first + static_cast<int>(i);
+    append(from, number, stencil, 1, to);
+  }
+}
+
 std::vector<int> constraints_at(const ConstraintGroup& group, const std::vector<char>& marks, const Object& object) {
   const ConstraintType& type = type_of(group, object);
   const auto slots = static_cast<std::size_t>(type.stencil_size), count = group.particles.size() / slots;
@@ -174,14 +195,27 @@ void replace_constraints(ConstraintGroup& group, int slots, const std::vector<in
   group = std::move(out);
 }
 
-std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3f> positions) {
-  const Vec3d origin = convert<double>(positions[static_cast<std::size_t>(particles[0])]);
+namespace {
+
+template <class R>
+std::vector<double> relative_places(const std::vector<int>& particles, std::span<const Vec3<R>> positions) {
+  const auto at = [&](int particle) { return convert<double>(positions[static_cast<std::size_t>(particle)]); };
   std::vector<double> out;
   for (const int particle : particles) {
-    const Vec3d x = convert<double>(positions[static_cast<std::size_t>(particle)]) - origin;
+    const Vec3d x = at(particle) - at(particles[0]);
     out.insert(out.end(), {x.x, x.y, x.z, 0});
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3f> positions) {
+  return relative_places(particles, positions);
+}
+
+std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3d> positions) {
+  return relative_places(particles, positions);
 }
 
 std::vector<double> rest_of(const ConstraintGroup& group, int number, const Object& object) {

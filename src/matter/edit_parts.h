@@ -23,6 +23,12 @@ std::vector<int> stencil_of(const ConstraintGroup& group, int slots, int number)
 /// The particles of a constraint; -1 in place of frames. Throws an Error if one does not exist.
 std::vector<int> points_of(const ConstraintType& type, const std::vector<int>& stencil, const Object& object);
 
+/// The slot of the particle that a constraint ties to a body, a triangle or a tetrahedron; -1 if it is no tie.
+int tied_slot(const ConstraintType& type);
+/// Appends a copy of a tie for each copy of the particle that is tied. Copies have numbers from `first` on, and are of `origins`.
+void append_for_copies(const ConstraintGroup& from, int number, std::vector<int> stencil, const ConstraintType& type,
+                       const std::vector<int>& origins, int first, ConstraintGroup& to);
+
 /// The constraints of a group that use a particle with 1 in `marks`, one for each particle: ascending numbers. Throws an Error if one of the
 /// group uses a particle that does not exist.
 std::vector<int> constraints_at(const ConstraintGroup& group, const std::vector<char>& marks, const Object& object);
@@ -34,6 +40,7 @@ std::vector<double> rest_of(const ConstraintGroup& group, int number, const Obje
 /// The places of particles as a ConstraintDefinition takes them, relative to the first, so that rounding does not grow with the distance
 /// from the origin.
 std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3f> positions);
+std::vector<double> places_of(const std::vector<int>& particles, std::span<const Vec3d> positions);
 
 /// A group without constraints, otherwise alike.
 ConstraintGroup empty_like(const ConstraintGroup& group);

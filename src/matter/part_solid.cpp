@@ -12,8 +12,6 @@
 #include <utility>
 
 #include "constraints/distance_limit.h"
-#include "constraints/point_in_tetrahedron.h"
-#include "constraints/point_on_triangle.h"
 #include "matter/around.h"
 #include "matter/edit_parts.h"
 #include "matter/solid_border.h"
@@ -177,10 +175,10 @@ class Parting {
     const std::vector<int> with = tetrahedra_with(stencil, type);
     if (group.type == DistanceLimit::name && !with.empty()) return append_to_all(group, number, stencil, type, with, out);
     const auto left = std::find_if(with.begin(), with.end(), [&](int t) { return !is_removed(t); });
-    if (!with.empty() ? left == with.end() : uses_left_over(stencil, type)) return;
+    if (uses_left_over(stencil, type) || (!with.empty() && left == with.end())) return;
     if (!with.empty()) replace_corners(*left, type, stencil);
     append(group, number, stencil, 1, out);
-    if (group.type == "body_anchor" && with.empty()) tie_copies(group, number, stencil, out);
+    append_for_copies(group, number, stencil, type, origins_, static_cast<int>(object_.positions.size()), out);
   }
 
   /// A limit of an edge holds for all of its copies.
@@ -205,8 +203,7 @@ class Parting {
   std::vector<int> tetrahedra_with(const std::vector<int>& stencil, const ConstraintType& type) const {
     std::vector<int> points, out;
     for (std::size_t slot = 0; slot < stencil.size(); ++slot)
-      if (type.slots[slot] == SlotKind::point) points.push_back(stencil[slot]);
-    if (type.name == PointOnTriangle::name || type.name == PointInTetrahedron::name) points.erase(points.begin());
+      if (type.slots[slot] == SlotKind::point && static_cast<int>(slot) != tied_slot(type)) points.push_back(stencil[slot]);
     if (points.size() < 2) return out;
     for (const int t : around_[points.back()])
       if (std::all_of(points.begin(), points.end(), [&](int p) { return holds(at(t), p); })) out.push_back(t);
@@ -215,20 +212,10 @@ class Parting {
 
   void replace_corners(int t, const ConstraintType& type, std::vector<int>& stencil) const {
     for (std::size_t slot = 0; slot < stencil.size(); ++slot) {
-      if (type.slots[slot] != SlotKind::point) continue;
+      if (type.slots[slot] != SlotKind::point || static_cast<int>(slot) == tied_slot(type)) continue;
       const auto corner = std::find(at(t).begin(), at(t).end(), stencil[slot]) - at(t).begin();
       if (corner == 4) continue;
       stencil[slot] = after_[static_cast<std::size_t>(t)][static_cast<std::size_t>(corner)];
-    }
-  }
-
-  /// What ties a particle to a body also ties its copies.
-  void tie_copies(const ConstraintGroup& group, int number, std::vector<int> stencil, ConstraintGroup& out) const {
-    const int tied = stencil.back();
-    for (std::size_t i = 0; i < origins_.size(); ++i) {
-      if (origins_[i] != tied) continue;
-      stencil.back() = static_cast<int>(object_.positions.size() + i);
-      append(group, number, stencil, 1, out);
     }
   }
 

@@ -9,6 +9,7 @@
 
 #include "collision/fields/solid_fields.h"
 #include "math/motion.h"
+#include "matter/break_constraints.h"
 #include "solver/bodies/joint_load.h"
 #include "solver/sweeps/sweep.h"
 #include "world/flow.h"
@@ -16,6 +17,7 @@
 #include "world/rest.h"
 #include "world/resting_grains.h"
 #include "world/soaking.h"
+#include "world/target_origins.h"
 
 namespace pliant {
 
@@ -29,6 +31,13 @@ Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
   if (more_passes || settings.measure) return Multipliers::needed;
   const bool is_limited = solves_chains(sweep) && settings.sweep_options.most_overstretch > 0;
   return is_limited ? Multipliers::lengths : Multipliers::lengths_in_last;
+}
+
+/// True if constraints of an object break by their force, which their multipliers tell.
+bool breaks(const WorldData& world, int number) {
+  if (world.descriptions.empty()) return false;
+  const auto found = world.descriptions.find(world.ids.objects.id_of(number).slot);
+  return found != world.descriptions.end() && can_break(found->second.object);
 }
 
 /// The part of the State that belongs to one object, in storage order.
@@ -263,8 +272,9 @@ void add_field(WorldData& world, const MeshCollider& collider, std::shared_ptr<c
 void prepare_object(WorldData& world, int number) {
   world.state.rest_times.clear();  // what lay on the object, or may touch it now, wakes
   wake_all_grains(world);
-  pliant::prepare(world.model, number, kept_multipliers(world.settings, world.model.objects[number].sweep),
-                  world.workspace);
+  const Multipliers kept =
+      breaks(world, number) ? Multipliers::all : kept_multipliers(world.settings, world.model.objects[number].sweep);
+  pliant::prepare(world.model, number, kept, world.workspace);
   prepare_sweep(world.model, number, world.settings, world.executor.threads(), world.workspace);
   world.groups.objects_changed = true;
   world.groups.changed.push_back(number);
@@ -317,10 +327,11 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   note_surfaces(world, number);
   const CompiledObject& old = world.model.objects[number];
   const int particles = old.particles;
-  // Targets of attachments follow the particles in the user's order; an edit does not reorder them.
-  const auto origin = [&](int user) {
-    const int at = user < by.user_particles ? from[user] : user - by.user_particles + old.user_particles;
-    return at < 0 || at >= particles ? -1 : old.place[at];
+  const std::vector<int> targets = target_origins(old, by, from);
+  const auto origin = [&](int user) {  // targets of attachments follow the particles in the user's order
+    if (user < by.user_particles) return from[user] < 0 ? -1 : old.place[from[user]];
+    const int target = targets[user - by.user_particles];
+    return target < 0 ? -1 : old.place[old.user_particles + target];
   };
   Origins origins;
   for (const int user : by.order) origins.particles.push_back(origin(user));

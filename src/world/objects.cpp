@@ -126,9 +126,9 @@ ObjectId World::add(const Object& object) {
   CompiledObject compiled = compile(object, compile_options(*data_, sweep));
   refuse_intersections(*data_, compiled, {object.groups, object.mask}, false);
   const int number = data_->model.add(std::move(compiled));
-  place_object(*data_, number);
   const ObjectId id = data_->ids.objects.add(number);
-  keep_description(*data_, id.slot, &object);
+  keep_description(*data_, id.slot, &object);  // first, because the multipliers of what breaks are stored
+  place_object(*data_, number);
   return id;
 }
 
@@ -155,8 +155,13 @@ MeshColliderId World::add(const MeshCollider& collider) {
 
 namespace {
 
-/// Edits an object, but for its description.
-std::vector<int> compile_again(WorldData& world, ObjectId object, const Edit& edit) {
+/// What replaces an object that is edited.
+struct Replacement {
+  CompiledObject object;
+  std::vector<int> news;  ///< for each old particle the first new index, or -1
+};
+
+Replacement compile_again(WorldData& world, ObjectId object, const Edit& edit) {
   const int number = world.number(object);
   refuse_grave(edit.object);
   require_origins(world, number, edit);
@@ -170,21 +175,22 @@ std::vector<int> compile_again(WorldData& world, ObjectId object, const Edit& ed
   const std::optional<KeptSchedule> kept =
       sweep == old.sweep ? follow_edit(old, edit.object, edit.from) : std::optional<KeptSchedule>{};
   const KeptSchedule* const to_keep = kept ? &*kept : nullptr;
-  replace_object(world, number, compile(edit.object, compile_options(world, sweep), to_keep), edit.from);
-  return news;
+  return {compile(edit.object, compile_options(world, sweep), to_keep), std::move(news)};
 }
 
 }  // namespace
 
 std::vector<int> edit_object(WorldData& world, ObjectId object, const Edit& edit) {
-  std::vector<int> news = compile_again(world, object, edit);
+  Replacement by = compile_again(world, object, edit);
   keep_description(world, object.slot, &edit.object);
-  return news;
+  replace_object(world, world.number(object), std::move(by.object), edit.from);
+  return std::move(by.news);
 }
 
 void edit_object(WorldData& world, ObjectId object, Edit&& edit) {
-  compile_again(world, object, edit);
+  Replacement by = compile_again(world, object, edit);
   keep_description(world, object.slot, std::move(edit.object));
+  replace_object(world, world.number(object), std::move(by.object), edit.from);
 }
 
 std::vector<int> World::edit(ObjectId object, const Edit& edit) { return edit_object(*data_, object, edit); }

@@ -170,6 +170,32 @@ void open_up(WorldData& world, ObjectId id, Edit&& edit, Report& report) {
   same->lost_constraints += torn.lost_constraints;
 }
 
+/// The positions of an object's particles with what floats cannot hold, in the user's order.
+std::vector<Vec3d> exact_positions(const WorldData& world, int number) {
+  const CompiledObject& object = world.model.objects[number];
+  std::vector<Vec3d> positions;
+  for (int user = 0; user < object.user_particles; ++user) {
+    const auto at = static_cast<std::size_t>(world.model.first[number] + object.place[user]);
+    const Record &x = world.state.positions[at], &r = world.state.remainders[at];
+    positions.push_back(convert<double>(Vec3f{x.x, x.y, x.z}) + convert<double>(Vec3f{r.x, r.y, r.z}));
+  }
+  return positions;
+}
+
+/// The Edit that breaks what carries too much; nothing if all holds.
+std::optional<Edit> broken_by_force(const WorldData& world, ObjectId id, const Object& object) {
+  const int number = world.number(id);
+  const std::vector<Vec3d> positions = exact_positions(world, number);
+  const auto factor = [&](int group) { return rest_factor_of(world, number, group); };
+  const auto multipliers = [&](const std::string& type) {
+    const float h = world.workspace.last_h[number];  // 0 after an edit, until the next step
+    std::vector<float> values = h > 0 ? ObjectView(world, id).multipliers(type) : std::vector<float>{};
+    for (float& value : values) value /= h * h;
+    return values;
+  };
+  return break_constraints(object, {positions, factor, multipliers});
+}
+
 void tear_object(WorldData& world, ObjectId id, Report& report) {
   const double now = world.state.time;
   TornObject& torn = world.descriptions.at(id.slot);
@@ -179,13 +205,8 @@ void tear_object(WorldData& world, ObjectId id, Report& report) {
   if (is_being_cut)
     if (std::optional<Edit> edit = make_cuts(torn.object, now)) open_up(world, id, std::move(*edit), report);
   torn.cut_until = now;
-  if (can_break(torn.object)) {
-    const int number = world.number(id);
-    const auto factor = [&](int group) { return rest_factor_of(world, number, group); };
-    const std::vector<Vec3f> positions = ObjectView(world, id).positions();
-    if (std::optional<Edit> edit = break_constraints(torn.object, positions, factor))
-      open_up(world, id, std::move(*edit), report);
-  }
+  if (can_break(torn.object))
+    if (std::optional<Edit> edit = broken_by_force(world, id, torn.object)) open_up(world, id, std::move(*edit), report);
   if (torn.object.tearing)
     if (std::optional<Edit> edit = tear(torn.object, ObjectView(world, id).positions()))
       open_up(world, id, std::move(*edit), report);

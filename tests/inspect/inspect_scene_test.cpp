@@ -189,6 +189,28 @@ TEST(InspectScene, SaysThatDampingOfRigidConstraintsHasNoEffect) {
   EXPECT_EQ(doubt(1e-4f), "");
 }
 
+TEST(InspectScene, DoubtsBreakForcesThatRoundingHides) {
+  const auto doubt = [](float compliance, float break_force, int substeps) {
+    Object object;
+    object.positions = {{0, 0, 0}, {0, -0.5f, 0}};
+    object.masses = {std::numeric_limits<float>::infinity(), 1};
+    ConstraintGroup link;
+    link.type = "distance";
+    link.particles = {0, 1};
+    link.stiffness = Stiffness::compliance(compliance);
+    link.break_force = break_force;
+    object.constraints = {link};
+    Scene scene;
+    scene.settings.substeps = substeps;
+    scene.add(object);
+    return finding(scene, "rounding changes their force");
+  };
+  EXPECT_EQ(doubt(1e-9f, 5, 20), "") << "the multiplier tells it";
+  EXPECT_EQ(doubt(1e-5f, 0.2f, 1000), "") << "the elongation tells it";
+  EXPECT_NE(doubt(1e-9f, 0.2f, 20).find("break at 0.2 N"), std::string::npos);
+  EXPECT_NE(doubt(1e-9f, 5, 1000).find("fewer substeps"), std::string::npos);
+}
+
 TEST(InspectScene, TakesAnchorsAnywhereOnTheAxisOfASlider) {
   Scene scene;
   Object bead = make_body({{Sphere{0.005f}}}, {.name = "bead", .position = {1, 0, 0}});

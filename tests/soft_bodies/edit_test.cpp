@@ -1,9 +1,12 @@
 // Soft bodies that are cut: what tetrahedra keep, and how the parts go on.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
+#include "pliant/body.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
 #include "soft_bodies/soft_body_support.h"
@@ -159,6 +162,73 @@ TEST(RemoveTetrahedra, LetsGoOfWhatTheyHeld) {
   for (int t = 0; t < static_cast<int>(right.size()); ++t)
     if (right[static_cast<std::size_t>(t)] != 0) some.push_back(t);
   EXPECT_TRUE(remove_tetrahedra(whole, some).object.constraints.back().particles.empty());
+}
+
+/// The numbers of the particles at the place of a block's cut x = 0 that have this height.
+std::vector<int> at_height(const Object& object, float y, int end) {
+  std::vector<int> found;
+  for (int i = 0; i < end; ++i)
+    if (const Vec3f& p = object.positions[static_cast<std::size_t>(i)];
+        std::fabs(p.x) < 1e-4f && std::fabs(p.y - y) < 1e-4f)
+      found.push_back(i);
+  return found;
+}
+
+/// A block, and another one `up` metres above it as its later particles.
+Object two_blocks(float up) {
+  Object both = block();
+  Object other = block();
+  for (Vec3f& p : other.positions) p.y += up;
+  append(both, other);
+  return both;
+}
+
+TEST(RemoveTetrahedra, LetsGoOfWhatIsTiedToAParticleThatIsLeftOver) {
+  Object both = two_blocks(-0.2f);
+  const auto below = static_cast<int>(both.positions.size()) / 2;
+  attach_to_surface(both, at_height(both, -0.1f, below));
+  std::vector<int> first;
+  for (int t = 0; t < static_cast<int>(tetrahedra_of(both).size()) / 2; ++t) first.push_back(t);
+  const Edit edit = remove_tetrahedra(both, first);
+  EXPECT_TRUE(edit.object.constraints.back().particles.empty());
+  World world(scene_of(both, 10));
+  world.edit(0, edit);
+  run(world, 30);
+  EXPECT_LT(world.object(0).positions()[static_cast<std::size_t>(below)].y, -0.9f) << "falls freely";
+}
+
+TEST(PartTetrahedra, BothHalvesStayTied) {
+  Object both = two_blocks(0.2f);
+  const auto below = static_cast<int>(both.positions.size()) / 2;
+  for (int i = below; i < 2 * below; ++i) both.pins.push_back({i});
+  attach_to_surface(both, at_height(both, 0.1f, below));
+  std::vector<int> part = sides(both, 0);
+  std::fill(part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2), part.end(), 0);
+  const Edit edit = part_tetrahedra(both, part);
+  EXPECT_EQ(both.constraints.back().particles.size(), 3u * 4);
+  EXPECT_EQ(edit.object.constraints.back().particles.size(), 6u * 4);
+  World world(scene_of(both, 10));
+  world.edit(0, edit);
+  run(world, 60);
+  for (const Vec3f& p : world.object(0).positions()) EXPECT_GT(p.y, -0.3f);
+}
+
+TEST(MakeCuts, BothHalvesOfClothStayTiedToABodyThatIsCutToo) {
+  for (const bool inside : {false, true}) {
+    Object both = block();
+    const int first = append(both, make_cloth(grid_mesh(5, 5, 0.2f, 0.2f)));
+    std::vector<int> middle;
+    for (int row = 0; row < 5; ++row) middle.push_back(first + 5 * row + 2);
+    if (inside)
+      attach_inside(both, middle);
+    else
+      attach_to_surface(both, middle);
+    both.cuts.push_back({0, 0, {0, 1, 0}, {1, 0, 0}, {0, -1, 0}});
+    const std::optional<Edit> edit = make_cuts(both, 0);
+    ASSERT_TRUE(edit.has_value());
+    EXPECT_EQ(edit->object.positions.size(), both.positions.size() + 9 + 5);
+    EXPECT_EQ(edit->object.constraints.back().particles.size(), 2 * both.constraints.back().particles.size());
+  }
 }
 
 TEST(EditTetrahedra, WhatCannotBeIsRefused) {

@@ -148,6 +148,37 @@ TEST(BreakForce, IsTheForceThatAThreadBears) {
   }
 }
 
+/// How many constraints a weight of 1 kg breaks that hangs at height y from one that is so stiff.
+int broken_by_a_weight(float y, const std::string& type, float alpha, float break_force) {
+  Object object;
+  object.positions = {{0, y, 0}, {0, y - 0.5f, 0}};
+  object.masses = {INFINITY, 1};
+  object.damping = 5;
+  ConstraintGroup group;
+  group.type = type;
+  group.particles = {0, 1};
+  if (type == "distance_limit") group.rest = {0.5f, 0};
+  group.stiffness = Stiffness::compliance(alpha);
+  group.break_force = break_force;
+  object.constraints = {group};
+  World world(scene_of(object, true));
+  int lost = 0;
+  for (int i = 0; i < 120; ++i)
+    for (const Torn& torn : world.step(1.f / 60).torn) lost += torn.lost_constraints;
+  return lost;
+}
+
+/// Elongations that are less than a position's rounding, and far from the origin.
+TEST(BreakForce, OfAStiffThreadIsNotHiddenByRounding) {
+  for (const std::string type : {"distance", "distance_limit"})
+    for (const float y : {0.f, 10.f, 100.f})
+      for (const float alpha : {1e-6f, 1e-7f, 1e-8f, 1e-9f}) {
+        EXPECT_EQ(broken_by_a_weight(y, type, alpha, 0.98f * g), 1) << type << " at " << y << " m, " << alpha << " m/N";
+        EXPECT_EQ(broken_by_a_weight(y, type, alpha, 1.02f * g), 0) << type << " at " << y << " m, " << alpha << " m/N";
+        EXPECT_EQ(broken_by_a_weight(y, type, alpha, 0.5f * g), 1) << type << " at " << y << " m, " << alpha << " m/N";
+      }
+}
+
 /// Of a rope the link breaks that bears most: the uppermost.
 TEST(BreakForce, TakesTheUppermostLinkOfARope) {
   RopeOptions options;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "math/vector.h"
 #include "pliant/body.h"
 #include "pliant/error.h"
 #include "world/run_time_support.h"
@@ -125,6 +126,19 @@ TEST(Cut, BothHalvesStayTiedAndAttached) {
   EXPECT_EQ(attached, (std::vector<int>{first + 76, first + 76}));
 }
 
+TEST(Cut, CopiesOfAParticleThatIsTiedToASurfaceStayTied) {
+  Object both = sheet().objects[0];
+  Object other = both;
+  for (Vec3f& p : other.positions) p.y += 0.01f;
+  append(both, other);
+  attach_to_surface(both, {4, 40, 41});
+  const Edit edit = cut(both, middle_column());
+  std::vector<int> tied;
+  const std::vector<int>& particles = edit.object.constraints.back().particles;
+  for (std::size_t i = 0; i < particles.size(); i += 4) tied.push_back(edit.from[static_cast<std::size_t>(particles[i])]);
+  EXPECT_EQ(tied, (std::vector<int>{4, 4, 40, 40, 41}));
+}
+
 TEST(Cut, RefusesWhatIsNoEdge) {
   const Object whole = sheet().objects[0];
   EXPECT_THROW(cut(whole, std::vector<int>{0, 2}), Error);
@@ -217,6 +231,67 @@ TEST(Edit, PinsAndMassesChangeInPlace) {
   for (int frame = 0; frame < 20; ++frame) ASSERT_TRUE(world.step(dt).ok());
   EXPECT_EQ(world.object(0).positions()[80], place);
   EXPECT_LT(world.object(0).positions()[8].y, other.y - 0.1f);
+}
+
+/// A sheet whose corners and middle are attached where they are.
+Scene attached_sheet() {
+  Scene scene = sheet(0);
+  Object& object = scene.objects[0];
+  for (const int particle : {0, 8, 40, 72, 80})
+    object.attachments.push_back({particle, object.positions[static_cast<std::size_t>(particle)]});
+  return scene;
+}
+
+TEST(Edit, AttachmentsStayWhereTheyAreWhenOthersComeAndGo) {
+  const Scene scene = attached_sheet();
+  const Object& at_rest = scene.objects[0];
+  for (const bool inserts : {false, true}) {
+    World world(scene);
+    world.step(dt);
+    Edit edit = unchanged(at_rest);
+    std::vector<Attachment>& attachments = edit.object.attachments;
+    if (inserts)
+      attachments.insert(attachments.begin(), {20, at_rest.positions[20]});
+    else
+      attachments.erase(attachments.begin());
+    world.edit(0, edit);
+    for (int frame = 0; frame < 20; ++frame) ASSERT_TRUE(world.step(dt).ok());
+    const std::vector<Vec3f> now = world.object(0).positions();
+    for (std::size_t i = 0; i < now.size(); ++i) EXPECT_NEAR(length(now[i] - at_rest.positions[i]), 0, 1e-5) << i;
+  }
+}
+
+TEST(Edit, ATargetThatWasMovedKeepsItsPlaceAndANewOneStartsAtItsOwn) {
+  const Scene scene = attached_sheet();
+  const Vec3f up{0, 0.05f, 0}, middle = scene.objects[0].positions[40] + up;
+  World world(scene);
+  world.object(0).set_attachment_targets(std::vector<int>{2}, std::vector<Vec3f>{middle});
+  world.step(dt);
+  Edit edit = unchanged(scene.objects[0]);
+  edit.object.attachments.erase(edit.object.attachments.begin());
+  edit.object.attachments[3].target += up;  // of particle 80
+  world.edit(0, edit);
+  for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(dt).ok());
+  const std::vector<Vec3f> now = world.object(0).positions();
+  EXPECT_NEAR(length(now[40] - middle), 0, 1e-4);
+  EXPECT_NEAR(length(now[80] - scene.objects[0].positions[80] - up), 0, 1e-4);
+  EXPECT_NEAR(length(now[72] - scene.objects[0].positions[72]), 0, 1e-4);
+}
+
+TEST(Edit, CopiesOfAnAttachedParticleGoToTheTargetWhereItIs) {
+  const Scene scene = attached_sheet();
+  const Vec3f middle = scene.objects[0].positions[40] + Vec3f{0, 0.05f, 0};
+  World world(scene);
+  world.object(0).set_attachment_targets(std::vector<int>{2}, std::vector<Vec3f>{middle});
+  world.step(dt);
+  const Edit edit = cut(scene.objects[0], middle_column());
+  world.edit(0, edit);
+  for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(dt).ok());
+  const std::vector<Vec3f> now = world.object(0).positions();
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (edit.from[i] == 40) {
+      EXPECT_NEAR(length(now[i] - middle), 0, 5e-3) << i;
+    }
 }
 
 TEST(Edit, OthersKeepTheirBitsAndSurfacesMeetAsBefore) {
