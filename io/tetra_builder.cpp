@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "pliant/error.h"
+#include "tetra_parts.h"
 
 namespace pliant {
 
@@ -84,6 +85,8 @@ TetrahedralMeshFile TetraBuilder::result() {
   if (const std::size_t unused = nodes_.size() - out.mesh.positions.size(); unused > 0)
     out.repairs.push_back(unused == 1 ? "1 node that no tetrahedron uses was left out"
                                       : std::to_string(unused) + " nodes that no tetrahedron uses were left out");
+  if (std::string touching = note_of_touching_parts(out.mesh); !touching.empty())
+    out.repairs.push_back(std::move(touching));
   return out;
 }
 

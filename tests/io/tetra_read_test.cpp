@@ -152,6 +152,22 @@ TEST(TetrahedralFiles, NameNodesThatNoTetrahedronUses) {
   EXPECT_EQ(read_tetrahedral_mesh(write("two.mesh", medit)).repairs[1], "1 node that no tetrahedron uses was left out");
 }
 
+/// Two tetrahedra with equal corners of a face, which are nodes of their own.
+TEST(TetrahedralFiles, SayWherePartsTouchThatAreNotConnected) {
+  const std::string parts =
+      "Vertex 0 0 0 0\nVertex 1 1 0 0\nVertex 2 0 1 0\nVertex 3 0 0 1\nVertex 4 0 0 0\nVertex 5 1 0 0\nVertex 6 0 1 0\n"
+      "Vertex 7 0 0 -1\nTet 0 0 1 2 3\nTet 1 4 6 5 7\n";
+  const TetrahedralMeshFile file = read_tetrahedral_mesh(write("parts.t", parts));
+  EXPECT_EQ(file.mesh.positions.size(), 8u) << "they stay two";
+  ASSERT_EQ(file.repairs.size(), 1u);
+  EXPECT_EQ(file.repairs[0],
+            "3 nodes are at positions of nodes of another part, but not connected to it: the parts come apart; merge equal "
+            "nodes if they are one body");
+  const std::string cracked = replaced(replaced(parts, "4 6 5 7", "4 6 5 3"), "Vertex 7 0 0 -1\n", "");
+  for (const std::string& repair : read_tetrahedral_mesh(write("cracked.t", cracked)).repairs)
+    EXPECT_EQ(repair.find("part"), std::string::npos) << "they share node 3: " << repair;
+}
+
 std::string message(const std::string& path) {
   try {
     read_tetrahedral_mesh(path);
