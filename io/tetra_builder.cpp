@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "far_mesh.h"
 #include "pliant/error.h"
+#include "tetra_parts.h"
 
 namespace pliant {
 
@@ -78,12 +80,17 @@ TetrahedralMeshFile TetraBuilder::result() {
     out.mesh.tetrahedra.push_back(t);
   }
   out.repairs = std::move(repairs_);
+  const Rounding rounding = rounding_of(out.mesh.positions, out.mesh.tetrahedra);
+  if (rounding.is_too_coarse()) throw Error({.file = name_}, rounding.in_words(), move_nearer);
+  if (rounding.is_noticeable()) out.repairs.push_back(rounding.in_words() + ": " + move_nearer);
   if (turned > 0)
     out.repairs.push_back(turned == 1 ? "1 tetrahedron was inside out, and was turned"
                                       : std::to_string(turned) + " tetrahedra were inside out, and were turned");
   if (const std::size_t unused = nodes_.size() - out.mesh.positions.size(); unused > 0)
     out.repairs.push_back(unused == 1 ? "1 node that no tetrahedron uses was left out"
                                       : std::to_string(unused) + " nodes that no tetrahedron uses were left out");
+  if (std::string touching = note_of_touching_parts(out.mesh); !touching.empty())
+    out.repairs.push_back(std::move(touching));
   return out;
 }
 

@@ -30,6 +30,8 @@ class Source {
 
   /// Goes to the next section, and returns its name without the '$'; empty at the end.
   std::string section();
+  /// Throws an Error if anything but the end of a section follows, where its count is too small.
+  void expect_end(const std::string& section);
 
   std::int64_t tag(const char* what);    ///< an int
   std::int64_t index(const char* what);  ///< a size_t; in version 2 an int
@@ -99,6 +101,17 @@ std::string Source::section() {
     if (word.front() == '$' && word.substr(0, 4) != "$End") return std::string(word.substr(1));
     words_.skip_line();
   }
+}
+
+void Source::expect_end(const std::string& section) {
+  std::string_view found;
+  if (is_binary_)
+    while (found.empty() && bytes_.remaining() > 0) found = bytes_.line();
+  else
+    found = words_.word();
+  if (found.empty() || found.substr(0, 4) == "$End") return;
+  fail("has more in $" + section + " than its counts say: " + quoted(found) + " is where $End" + section + " should be",
+       "correct the counts, or export it again");
 }
 
 // ------------------------------------------------------------------------------------------------ sections
@@ -191,8 +204,10 @@ TetrahedralMeshFile read_gmsh(std::string_view bytes, const std::string& name) {
   from.read_format();
   bool has_elements = false;
   for (std::string section = from.section(); !section.empty(); section = from.section()) {
+    const bool is_read = section == "Nodes" || section == "Elements";
     if (section == "Nodes") from.is_version_2() ? read_nodes_2(from, builder) : read_nodes_4(from, builder);
     if (section == "Elements") from.is_version_2() ? read_elements_2(from, builder) : read_elements_4(from, builder);
+    if (is_read) from.expect_end(section);
     has_elements = has_elements || section == "Elements";
   }
   if (!has_elements) from.fail("has no $Elements", "export the mesh with its elements");

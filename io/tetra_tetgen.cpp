@@ -10,6 +10,12 @@ namespace {
 
 constexpr const char* again = "export it again with TetGen, or check the first line";
 
+/// Throws an Error if rows follow the last one that the first line announces. Comments may.
+void expect_end(WordReader& words, std::int64_t count) {
+  if (words.next_line())
+    words.fail("has more rows than the " + std::to_string(count) + " that its first line announces", again);
+}
+
 void read_nodes(const NamedText& file, TetraBuilder& builder) {
   WordReader words(file.bytes, file.name);
   const std::int64_t count = words.count("the number of nodes");
@@ -24,6 +30,7 @@ void read_nodes(const NamedText& file, TetraBuilder& builder) {
     builder.add_node(number, {x, y, z}, words.line());
     words.skip_line();
   }
+  expect_end(words, count);
 }
 
 void read_elements(const NamedText& file, TetraBuilder& builder) {
@@ -42,6 +49,7 @@ void read_elements(const NamedText& file, TetraBuilder& builder) {
     builder.add_tetrahedron(corners, words.line());
     words.skip_line();
   }
+  expect_end(words, count);
 }
 
 }  // namespace

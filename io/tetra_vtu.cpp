@@ -1,8 +1,11 @@
 // Reads VTK unstructured grids in XML files (.vtu; Kitware, "VTK file formats"): Points and Cells of all pieces, as text, base64 or raw bytes,
-// whole or compressed. Data of points and cells are not read.
+// whole or compressed. Data of points and cells are not read. Pieces of a parallel run touch: points of several pieces that are equal
+// become one, and points of one piece stay as they are.
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,6 +27,7 @@ namespace pliant {
 namespace {
 
 using Element = tinyxml2::XMLElement;
+using Position = std::array<float, 3>;
 
 /// What follows the XML at the end of a file, to which arrays refer by offsets.
 struct Appended {
@@ -45,9 +49,12 @@ class VtuReader {
     const Element* grid = root->FirstChildElement("UnstructuredGrid");
     if (grid == nullptr) fail(root->GetLineNum(), "has no UnstructuredGrid", "write tetrahedra as an unstructured grid");
     read_encoding(*root);
-    for (const Element* piece = grid->FirstChildElement("Piece"); piece != nullptr;
-         piece = piece->NextSiblingElement("Piece"))
-      read_piece(*piece);
+    const Element* first = grid->FirstChildElement("Piece");
+    has_several_ = first != nullptr && first->NextSiblingElement("Piece") != nullptr;
+    for (const Element* piece = first; piece != nullptr; piece = piece->NextSiblingElement("Piece")) read_piece(*piece);
+    if (merged_ > 0)
+      builder_.note("merged " + std::to_string(merged_) + (merged_ == 1 ? " point" : " points") +
+                    " with others of another piece at the same position");
     return builder_.result();
   }
 
@@ -211,19 +218,38 @@ class VtuReader {
                   &ends_at = array(piece, "Cells", "offsets"), &types_at = array(piece, "Cells", "types");
     const std::vector<float> x = reals(at);
     require(at, x, 3 * points);
-    for (std::int64_t i = 0; i < points; ++i) {
-      const float* p = &x[static_cast<std::size_t>(3 * i)];
-      builder_.add_node(first_ + i, {p[0], p[1], p[2]}, at.GetLineNum());
-    }
+    const std::vector<std::int64_t> numbers = add_points(x, at.GetLineNum());
     const std::vector<std::int64_t> corners = integers(corners_at), ends = integers(ends_at), types = integers(types_at);
     require(ends_at, ends, cells);
     require(types_at, types, cells);
-    add_cells(corners, ends, types, points, piece.GetLineNum());
-    first_ += points;
+    add_cells(corners, ends, types, numbers, piece.GetLineNum());
+  }
+
+  /// Returns the number of each point. Where a piece has several at one position, the first goes with the first of another piece there,
+  /// and so on: a crack stays open.
+  std::vector<std::int64_t> add_points(const std::vector<float>& x, int line) {
+    std::map<Position, std::size_t> of_piece;
+    std::vector<std::int64_t> numbers;
+    for (std::size_t i = 0; i < x.size(); i += 3) {
+      numbers.push_back(next_);
+      if (has_several_) {
+        const Position at{x[i], x[i + 1], x[i + 2]};
+        std::vector<std::int64_t>& there = seen_[at];
+        const std::size_t nth = of_piece[at]++;
+        if (nth == there.size()) there.push_back(next_);
+        numbers.back() = there[nth];
+      }
+      if (numbers.back() == next_)
+        builder_.add_node(next_++, {x[i], x[i + 1], x[i + 2]}, line);
+      else
+        ++merged_;
+    }
+    return numbers;
   }
 
   void add_cells(const std::vector<std::int64_t>& corners, const std::vector<std::int64_t>& ends,
-                 const std::vector<std::int64_t>& types, std::int64_t points, int line) {
+                 const std::vector<std::int64_t>& types, const std::vector<std::int64_t>& numbers, int line) {
+    const auto points = static_cast<std::int64_t>(numbers.size());
     VtkCells cells;
     std::int64_t begin = 0;
     for (std::size_t i = 0; i < ends.size(); begin = ends[i], ++i) {
@@ -235,7 +261,7 @@ class VtuReader {
         if (corner < 0 || corner >= points)
           fail(line, "cell " + std::to_string(i) + " has the corner " + std::to_string(corner),
                "points run from 0 to " + std::to_string(points - 1));
-        corner += first_;
+        corner = numbers[static_cast<std::size_t>(corner)];
       }
       cells.add(std::move(cell), line);
     }
@@ -258,7 +284,9 @@ class VtuReader {
   tinyxml2::XMLDocument document_;
   Appended appended_;
   VtuEncoding encoding_;
-  std::int64_t first_ = 0;  ///< number of the present piece's first point
+  bool has_several_ = false;                            ///< pieces
+  std::map<Position, std::vector<std::int64_t>> seen_;  ///< the points at each position, if there are several pieces
+  std::int64_t next_ = 0, merged_ = 0;
 };
 
 }  // namespace

@@ -31,7 +31,8 @@ struct AdviseOptions {
   std::function<bool()> stops{};  ///< called after every frame; if it returns true, trials end as if time were up
 };
 
-/// Settings, and the result of a trial run with them.
+/// Settings, and the result of a trial run with them. Of other settings than the scene's own, `worst` is infinite if tetrahedra are
+/// inside out at the end.
 struct Trial {
   Settings settings;
   int frames = 0;           ///< number of frames that the trial completed

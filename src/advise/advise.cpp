@@ -20,6 +20,7 @@
 #include "advise/passed_through.h"
 #include "matter/advice_settings.h"
 #include "model/object_sets.h"
+#include "model/soft_body_substeps.h"
 #include "solver/substep_law.h"
 #include "world/advice.h"
 
@@ -36,10 +37,23 @@ constexpr double clearly_better = 0.8;
 /// Share of the time that the trial of the scene's own settings may take; the rest is for the others.
 constexpr double own_share = 0.3;
 
+/// The largest number of substeps that the default chooses for a soft body; 0: the scene has none.
+int default_substeps_of_soft_bodies(const Scene& scene) {
+  Scene by_default = scene;
+  by_default.settings = left_open(scene.settings);
+  const std::vector<int> substeps = chosen_substeps(by_default);
+  int most = 0;
+  for (std::size_t o = 0; o < substeps.size(); ++o)
+    if (is_soft_body(scene.objects[o])) most = std::max(most, substeps[o]);
+  return most;
+}
+
 /// The fewest substeps that are tried. Multigrid keeps lengths with any number, so overstretch alone would advise one. But
 /// long substeps damp motion: cloth of 32 x 32 that swings down from two pins reaches 60 % of the kinetic energy of 20
-/// substeps with 1 substep, 85 % with 2, and 92 % with 4.
-int least_substeps_of(const Settings& settings) { return settings.sweep == Sweep::multigrid ? 4 : 1; }
+/// substeps with 1 substep, 85 % with 2, and 92 % with 4. Soft bodies become softer with fewer than `of_soft_bodies`.
+int least_substeps_of(const Settings& settings, int of_soft_bodies) {
+  return std::max(of_soft_bodies, settings.sweep == Sweep::multigrid ? 4 : 1);
+}
 
 /// Frames between searches for objects that pass through one another.
 constexpr int frames_between_looks = 4;
@@ -58,6 +72,12 @@ void keep_worst(const Report& report, Trial& trial) {
   trial.worst = report.worst_overstretch.overstretch;
   trial.frame = report.worst_overstretch.frame_of_largest;
   if (!report.ok()) trial.worst.largest = trial.worst.p99 = std::numeric_limits<double>::infinity();
+}
+
+/// Settings under which tetrahedra end inside out are no advice, however long the edges are.
+void refuse_inverted(const World& world, Trial& trial) {
+  if (trial.complete && world.measure().tetrahedra().inverted > 0)
+    trial.worst.largest = trial.worst.p99 = std::numeric_limits<double>::infinity();
 }
 
 /// Runs trials of a scene, with the data that they share.
@@ -110,14 +130,15 @@ class Trials {
       const bool is_looked_at =
           found != nullptr && last.ok() && (trial.frames % frames_between_looks == 0 || trial.frames == frames_);
       if (is_looked_at) passing.look(world, [&] { return is_over(end_); });
-      const bool may_warn = found != nullptr && !scene_.objects.empty();  // which takes time, too
-      const bool measurable = trial.worst.constraints > 0 || may_warn;
+      // Without objects there are no lengths and no warnings. Other trials must show that they remain finite.
+      const bool measurable = found == nullptr || !scene_.objects.empty();
       trial.worse = excess(trial.worst) > std::max(bound, 1.);
       const bool is_own = found != nullptr && !is_tolerable(trial.worst);
       goes_on = measurable && last.ok() && !trial.worse && !is_over(is_own ? own_end_ : end_);
       trial.complete = last.ok() && (trial.frames == frames_ || !measurable);
     }
     if (found != nullptr) tell(world, trial, last, warnings.lines(), passing, *found);
+    if (found == nullptr) refuse_inverted(world, trial);
     return trial;
   }
 
@@ -143,6 +164,7 @@ class Trials {
 /// Trials with the same sweep and tethers, and more and more substeps.
 struct Family {
   Settings settings;  ///< settings for the next trial
+  int least = 1;      ///< substeps that are tried
   bool open = true;   ///< true while it is not good, but may be with more substeps
   int good = -1;      ///< index of its last good trial; -1: none
 
@@ -164,10 +186,12 @@ std::vector<Family> families_of(const Scene& scene) {
   Settings own = scene.settings;
   own.substeps = most_substeps_of(own);  // a number is needed, so that it can be doubled
   const bool may = may_tether(scene);
+  const int of_soft_bodies = default_substeps_of_soft_bodies(scene);
   std::vector<Family> families;
   const auto add = [&](Settings settings) {
-    settings.substeps = std::max(settings.substeps, least_substeps_of(settings));
-    families.push_back({settings});
+    const int least = least_substeps_of(settings, of_soft_bodies);
+    settings.substeps = std::max(settings.substeps, least);
+    families.push_back({settings, least});
   };
   for (Sweep alternative : better_sweeps(scene)) {
     Settings other = own;
@@ -258,12 +282,12 @@ class Search {
     Settings least = advice_.others[family.good].settings;
     least.substeps = 3 * least.substeps / 4;
     family.settings = least;
-    if (least.substeps >= least_substeps_of(least) && has_time()) try_out(family);
+    if (least.substeps >= family.least && has_time()) try_out(family);
   }
 
   bool halve(Family& family) {
     family.settings.substeps = advice_.others[family.good].settings.substeps / 2;
-    return family.settings.substeps >= least_substeps_of(family.settings) && try_out(family);
+    return family.settings.substeps >= family.least && try_out(family);
   }
 
   const Trials& trials_;

@@ -60,8 +60,15 @@ std::string json_of_best(const Advice& advice, const Departures& departs) {
   return lead + "add to the scene's \"settings\": " + in_json(best.settings, advice.own.settings) + both;
 }
 
+/// True if a trial measured lengths, which it does in each complete frame.
+bool has_lengths(const Advice& advice) {
+  const auto measured = [](const Trial& trial) { return trial.worst.constraints > 0; };
+  return measured(advice.own) || std::any_of(advice.others.begin(), advice.others.end(), measured);
+}
+
 /// What a good trial does, after "keep" or "keeps".
-std::string tolerance_in_words() {
+std::string tolerance_in_words(const Advice& advice) {
+  if (!has_lengths(advice)) return " all values finite and no tetrahedron inside out";
   return " all edges within " + percent(tolerated_overstretch) + " and 99 in 100 within " + percent(tolerated_p99) +
          " of the length that their force explains";
 }
@@ -78,11 +85,14 @@ std::string of_the_nearest(const Advice& advice, const Departures& departs) {
   if (judged(advice) == 0) return "no other setting was tried" + in_time;
   const int count = judged(advice);
   const std::string tried = std::to_string(count) + " other setting" + (count == 1 ? "" : "s") + " tried" + in_time;
+  if (advice.best < 0 && !has_lengths(advice))
+    return "of " + tried + " none keeps" + tolerance_in_words(advice) +
+           ": pins or colliders may force this, or it needs even more substeps";
   if (advice.best < 0)
     return "of " + tried +
            " none is clearly better: pins or colliders may force this stretch, or it needs even more substeps";
   const Trial& best = advice.others[advice.best];
-  return "of " + tried + " none keeps" + tolerance_in_words() + "; the best of them, " +
+  return "of " + tried + " none keeps" + tolerance_in_words(advice) + "; the best of them, " +
          setting_and_cost(advice, advice.best) + ", leaves at most " + percent(best.worst.largest) +
          ", and 1 edge in 100 " + percent(best.worst.p99) + " or more; the present settings take " +
          cost_in_words(advice.own) + "; " + json_of_best(advice, departs);
@@ -94,7 +104,7 @@ std::string of_the_good(const Advice& advice, const Departures& departs) {
   const bool one = other < 0 && advice.others[advice.best].settings.substeps == 1;
   const std::string keep = one || (other < 0 && is_default(advice.others[advice.best])) ? " keeps" : " keep";
   return setting_and_cost(advice, advice.best) + (other < 0 ? "" : " or " + setting_and_cost(advice, other)) + keep +
-         tolerance_in_words() + "; the present settings take " + cost_in_words(advice.own) +
+         tolerance_in_words(advice) + "; the present settings take " + cost_in_words(advice.own) +
          (advice.cut_short ? "; there was no time to search for cheaper ones" : "") +
          (other < 0 ? "; " : "; for the first, ") + json_of_best(advice, departs);
 }

@@ -2,6 +2,7 @@
 #include "constraints/registry.h"
 #include "matter/object_facts.h"
 #include "model/object_sets.h"
+#include "model/soft_body_substeps.h"
 
 #include <algorithm>
 #include <utility>
@@ -48,20 +49,33 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-bool has_pins(const Scene& scene) {
-  return std::any_of(scene.objects.begin(), scene.objects.end(), [](const Object& o) { return !o.pins.empty(); });
+bool has_lengths(const Object& object) {
+  return std::any_of(object.constraints.begin(), object.constraints.end(),
+                     [](const ConstraintGroup& group) { return is_length(group.type) && !group.particles.empty(); });
+}
+
+bool hangs_by_lengths(const Object& object) { return !object.pins.empty() && has_lengths(object); }
+
+/// True if a soft body has no lengths, or no object has any: what corrects lengths does nothing for it.
+bool lacks_lengths(const Scene& scene) {
+  const auto is_without = [](const Object& object) { return is_soft_body(object) && !has_lengths(object); };
+  return std::none_of(scene.objects.begin(), scene.objects.end(), has_lengths) ||
+         std::any_of(scene.objects.begin(), scene.objects.end(), is_without);
 }
 
 }  // namespace
 
 bool may_tether(const Scene& scene) {
   const auto hangs_and_stretches = [](const Object& object) {
-    return (!object.pins.empty() && !is_rigid(object)) || has_changing_lengths(object);
+    const bool stretches = !is_rigid(object) || is_soft_body(object);
+    return (!object.pins.empty() && stretches) || has_changing_lengths(object);
   };
-  return has_pins(scene) && std::none_of(scene.objects.begin(), scene.objects.end(), hangs_and_stretches);
+  return std::any_of(scene.objects.begin(), scene.objects.end(), hangs_by_lengths) &&
+         std::none_of(scene.objects.begin(), scene.objects.end(), hangs_and_stretches);
 }
 
 std::vector<Sweep> better_sweeps(const Scene& scene) {
+  if (lacks_lengths(scene)) return {};
   std::vector<Sweep> better{Sweep::chains, Sweep::multigrid};
   if (chosen_settings(scene, left_open(scene.settings)).sweep == Sweep::multigrid) std::swap(better[0], better[1]);
   better.erase(std::remove(better.begin(), better.end(), scene.settings.sweep), better.end());

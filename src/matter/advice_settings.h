@@ -8,12 +8,13 @@
 
 namespace pliant {
 
-/// True if tethers may help: some object hangs from pins, and all such objects are rigid. Tethers limit the length of
-/// inextensible objects; they would hold back objects that are meant to stretch.
+/// True if tethers may help: some object with lengths hangs from pins, and all objects that hang are rigid. Tethers limit the
+/// length of inextensible objects; they would hold back objects that are meant to stretch, and soft bodies.
 bool may_tether(const Scene& scene);
 
 /// Other sweeps that may need less time for the same stretch. The default for the scene comes first, because there may be
-/// time to try only one. Multigrid is left out where the choice leaves it out: cloth sticks to colliders by it.
+/// time to try only one. Multigrid is left out where the choice leaves it out: cloth sticks to colliders by it. There are none
+/// where a soft body has no lengths, because these sweeps correct lengths alone.
 std::vector<Sweep> better_sweeps(const Scene& scene);
 
 /// The settings with sweep, substeps and their bounds left open, so that the default is used.

@@ -186,13 +186,39 @@ TEST(VtkXmlFiles, OfEachEncodingGiveTheSameMesh) {
   expect_two(write("raw.vtu", raw()));
 }
 
+/// `as_text` with a second piece, of the same cells and other points.
+std::string two_pieces(const std::string& points) {
+  const std::string of_first = "0 0 0 1 0 0\n0 1 0 0 0 1 0 0 -2 9 9 9";
+  const std::size_t begin = as_text.find("<Piece"), end = as_text.find("</UnstructuredGrid>");
+  std::string piece = as_text.substr(begin, end - begin), text = as_text;
+  return text.insert(end, piece.replace(piece.find(of_first), of_first.size(), points));
+}
+
 TEST(VtkXmlFiles, MayHaveSeveralPieces) {
-  std::string two = as_text;
-  const std::size_t begin = two.find("<Piece"), end = two.find("</UnstructuredGrid>");
-  two.insert(end, two.substr(begin, end - begin));
-  const TetrahedralMeshFile file = read_tetrahedral_mesh(write("pieces.vtu", two));
+  const TetrahedralMeshFile file =
+      read_tetrahedral_mesh(write("apart.vtu", two_pieces("5 0 0 6 0 0 5 1 0 5 0 1 5 0 -2 9 9 9")));
   EXPECT_EQ(file.mesh.positions.size(), 10u);
   EXPECT_EQ(file.mesh.tetrahedra.size(), 4u);
+}
+
+/// The second piece has a face in common with the first: (0, 0, 0), (0, 1, 0), (0, 0, 1).
+TEST(VtkXmlFiles, AreOneBodyWherePiecesTouch) {
+  const TetrahedralMeshFile file =
+      read_tetrahedral_mesh(write("touch.vtu", two_pieces("0 -0 0 0 1 0 -1 0 0 0 0 1 -1 0 -1 9 9 9")));
+  EXPECT_EQ(file.mesh.positions.size(), 7u);
+  EXPECT_EQ(file.mesh.tetrahedra.size(), 4u);
+  ASSERT_FALSE(file.repairs.empty());
+  EXPECT_EQ(file.repairs[0], "merged 4 points with others of another piece at the same position");
+  EXPECT_EQ(border_triangles(file.mesh).size(), 10u) << "two faces inside of it";
+}
+
+/// A crack has two points at one position of one piece. They stay two, and each goes with one of the other piece.
+TEST(VtkXmlFiles, KeepCracksOfAPieceOpen) {
+  const std::string cracked = "0 0 0 1 0 0 0 1 0 0 0 1 0 0 1 9 9 9";
+  std::string text = two_pieces(cracked);
+  text.replace(text.find("0 0 0 1 0 0\n0 1 0 0 0 1 0 0 -2 9 9 9"), 37, cracked);
+  const TetrahedralMeshFile file = read_tetrahedral_mesh(write("crack.vtu", text));
+  EXPECT_EQ(file.mesh.positions.size(), 5u);
 }
 
 TEST(MeditFiles, OfEachBinaryVersionGiveTheSameMesh) {
