@@ -79,7 +79,7 @@ struct RodOptions {
   bool straight = false;
   RodEnd start{}, end{};
   Vec3f velocity{};        ///< at the start [m/s]
-  float break_force = 0;   ///< it breaks where it carries a greater force; 0: never [N]
+  float break_force = 0;   ///< it breaks where it carries most, if that is a greater force; 0: never [N]
   float break_torque = 0;  ///< or a greater torque; 0: never [N m]
 };
 

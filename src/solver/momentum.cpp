@@ -131,11 +131,24 @@ RigidStep rigid_step(const RigidSums& sums) {
   return is_finite(rotation) && is_finite(translation) ? RigidStep{translation, rotation} : RigidStep{};
 }
 
-void note_momentum(Substep& s, const std::vector<char>* only) {
+void note_momentum(Substep& s, Since since, const std::vector<char>* only) {
   const Inflated inflated{s, only};
   if (inflated.empty()) return;
-  for_tiles_of(inflated, s,
-               [&](int task) { s.work.tiles[task].noted = sums_of(particles(s, task), Since::note).corrections; });
+  if (since == Since::prediction) {
+    for_each_tile(s, [&](int task) {
+      if (inflated.has_object_of(task)) s.work.tiles[task].noted = {};
+    });
+    return;
+  }
+  for_tiles_of(inflated, s, [&](int task) { s.work.tiles[task].noted = sums_of(particles(s, task), since).corrections; });
+}
+
+void note_impulse_on_body(Substep& s, int object, const Vec3f& place, const Vec3f& impulse) {
+  if (!s.model.objects[object].volume.keeps_momentum) return;
+  const std::vector<Task>& tiles = s.model.tiles();  // by object
+  const auto first = std::lower_bound(tiles.begin(), tiles.end(), object,
+                                      [](const Task& tile, int number) { return tile.object < number; });
+  add(convert<double>(place), -convert<double>(impulse), s.work.tiles[first - tiles.begin()].noted);
 }
 
 void conserve_momentum(Substep& s, Since since, const std::vector<char>* only) {
@@ -144,7 +157,6 @@ void conserve_momentum(Substep& s, Since since, const std::vector<char>* only) {
   for_tiles_of(inflated, s, [&](int task) {
     RigidSums& sums = s.work.tiles[task].rigid;
     sums = sums_of(particles(s, task), since);
-    if (since == Since::prediction) return;
     const DisplacementMomentum& noted = s.work.tiles[task].noted;
     sums.corrections.linear -= noted.linear;
     sums.corrections.angular -= noted.angular;

@@ -7,8 +7,9 @@
 // they push out. Then a balloon at rest starts to turn, by the same torque in each substep.
 //
 // So what the constraints of such an object change is reduced by its rigid motion: c_i -= p + theta x (x_i - x_c), with
-// M p = sum_i m_i c_i and I theta = sum_i m_i (x_i - x_c) x c_i. Contacts, friction and forces are not affected. Sums are
-// in double precision, by tiles and then over tiles in order, so any number of threads gives the same bits.
+// M p = sum_i m_i c_i and I theta = sum_i m_i (x_i - x_c) x c_i. Contacts, friction and forces are not affected. What chains
+// give to rigid bodies that their particles carry (bodies/point_loads.h) is left out of these sums, so Newton's third law holds.
+// Sums are in double precision, by tiles and then over tiles in order, so any number of threads gives the same bits.
 #pragma once
 
 #include <vector>
@@ -45,11 +46,17 @@ RigidStep rigid_step(const RigidSums& sums);
 /// What an object's own constraints have changed since.
 enum class Since { prediction, note };
 
-/// Notes the momentum of the displacements of inflated objects, of all that are swept or of those with 1 in `only`.
-void note_momentum(Substep& s, const std::vector<char>* only = nullptr);
+/// Starts conserve_momentum() of inflated objects, of all that are swept or of those with 1 in `only`. With Since::note it
+/// notes the momentum of their displacements.
+void note_momentum(Substep& s, Since since, const std::vector<char>* only = nullptr);
 
-/// Removes the rigid motion from what has changed since prediction, or since note_momentum(). Nothing but the objects' own
-/// constraints may have moved them in between.
+/// Keeps an impulse on a body, times the duration of a substep [kg m], that an object's own constraints have given it: the
+/// object keeps the opposite one. `place` is where it acts, relative to the object's first particle.
+void note_impulse_on_body(Substep& s, int object, const Vec3f& place, const Vec3f& impulse);
+
+/// Removes the rigid motion from what has changed since prediction, or since note_momentum(), which must have been called with
+/// the same arguments. Nothing but the objects' own constraints may have moved them in between; impulses that these have given
+/// to bodies must have been noted.
 void conserve_momentum(Substep& s, Since since, const std::vector<char>* only = nullptr);
 
 }  // namespace pliant

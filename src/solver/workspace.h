@@ -40,7 +40,7 @@ struct alignas(64) TileScratch {
   CorrectionEnergy energy;
   double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
   RigidSums rigid;                                                    ///< of inflated objects
-  DisplacementMomentum noted;                                         ///< before an iteration, likewise
+  DisplacementMomentum noted;                                         ///< before an iteration, less impulses on bodies
 };
 
 /// For how long gravity of this frame has acted on an object's particles, reduced by damping [s].

@@ -149,6 +149,14 @@ TEST(RodInMotion, ThatIsStraightWithoutLoadSpringsOpen) {
   EXPECT_NEAR(std::sqrt(length_squared(lone.position(segments - 1) - lone.position(0))), length, 0.002 * length);
 }
 
+/// The names of all joints that break in so many frames.
+std::vector<std::string> broken_in(World& world, int frames) {
+  std::vector<std::string> names;
+  for (int frame = 0; frame < frames; ++frame)
+    for (const JointBreak& one : world.step(frame_time).broken_joints) names.push_back(one.name);
+  return names;
+}
+
 TEST(RodInMotion, BreaksWhereItCarriesTooMuch) {
   RodOptions options = clamped_rod(material_of(1e9, 3.5e8, 1000), 0.005f);
   options.break_force = 20;
@@ -162,10 +170,44 @@ TEST(RodInMotion, BreaksWhereItCarriesTooMuch) {
   add_joint(rod, joint);
   const int ball = rod.bodies[static_cast<std::size_t>(joint.b)].particle;
   Lone lone(std::move(rod));
-  std::size_t broken = 0;
-  for (int frame = 0; frame < 30; ++frame) broken += lone.world.step(frame_time).broken_joints.size();
-  EXPECT_GT(broken, 0u);
+  EXPECT_EQ(broken_in(lone.world, 30), std::vector<std::string>{"rod start"}) << "the top carries most";
   EXPECT_LT(lone.position(ball).y, -0.5);
+}
+
+/// Two wires hang side by side on the world by `kind`, with a weight on each.
+Object weights_on_wires(RodEnd::Kind kind) {
+  Object object;
+  for (const float x : {0.f, 0.5f}) {
+    BodyOptions weight;
+    weight.mass = 10;
+    weight.position = {x, -0.55f, 0};
+    RodOptions options;
+    options.name = x > 0 ? "b" : "a";
+    options.material = rod_material("steel wire");
+    options.radius = 0.002f;
+    options.break_force = 93;
+    options.start = {kind, -1};
+    options.end = {kind, add_body(object, {{Sphere{0.05f}}}, weight)};
+    add_rod(object, line({x, 0, 0}, {x, -0.5f, 0}, 10), options);
+  }
+  return object;
+}
+
+TEST(RodInMotion, BreaksAtOneJoint) {
+  for (const RodEnd::Kind kind : {RodEnd::Kind::clamped, RodEnd::Kind::ball}) {
+    Lone lone(weights_on_wires(kind));
+    const std::vector<std::string> both{"a start", "b start"};
+    EXPECT_EQ(broken_in(lone.world, 60), both) << "each wire by itself";
+  }
+}
+
+TEST(RodInMotion, BreaksWhereItIsWeakest) {
+  Object object = weights_on_wires(RodEnd::Kind::clamped);
+  for (ObjectJoint& joint : object.joints)
+    if (joint.name == "a 6-7" || joint.name == "b 2-3") joint.break_force = 80;
+  Lone lone(std::move(object));
+  const std::vector<std::string> both{"a 6-7", "b 2-3"};
+  EXPECT_EQ(broken_in(lone.world, 60), both);
 }
 
 TEST(RodInMotion, DoesNotPushItselfApartWhereItBreaks) {

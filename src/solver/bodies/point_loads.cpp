@@ -6,6 +6,7 @@
 
 #include "constraints/registry.h"
 #include "solver/bodies/body_math.h"
+#include "solver/momentum.h"
 #include "solver/substep.h"
 #include "solver/sweeps/sweep.h"
 #include "solver/visit.h"
@@ -236,6 +237,19 @@ Vec3f PointLoads::impulse_of(Load& load, const Vec3f& moved) const {
   return load.axis * -push;
 }
 
+namespace {
+
+/// Lets the particle's object keep the momentum that its chains have given to a body. `apart` is the displacement of the
+/// particle less that of the body: so, with the arm of the present, the angular momentum about any point adds up.
+void note_impulse(Substep& s, int particle, const Vec3f& apart, const Vec3f& impulse) {
+  const int object = s.model.object_of(particle);
+  const auto& x = s.state.positions;
+  const Vec3f from_first = xyz(x[at(particle)]) - xyz(x[at(s.model.first[at(object)])]);
+  note_impulse_on_body(s, object, from_first + apart, impulse);
+}
+
+}  // namespace
+
 void PointLoads::end_chains(Substep& s, const std::vector<BodyMotion>& motions, std::vector<float>& impulses) {
   for (std::size_t i = 0; i < loads_.size(); ++i) {
     Load& load = loads_[i];
@@ -249,6 +263,7 @@ void PointLoads::end_chains(Substep& s, const std::vector<BodyMotion>& motions, 
     Record& of_body = s.work.displacements[at(body.particle)];
     const Vec3f arm =
         (xyz(s.state.positions[at(load.particle)]) + xyz(d)) - (xyz(s.state.positions[at(body.particle)]) + xyz(of_body));
+    note_impulse(s, load.particle, xyz(d) - xyz(of_body), impulse);
     of_body = plus(of_body, impulse * motion.inverse_mass);
     const Vec3f turned = times(motion.inverse_inertia, cross(arm, impulse));
     Record& corrections = s.work.frames.corrections[at(body.frame)];

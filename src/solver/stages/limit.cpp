@@ -125,7 +125,7 @@ void limit(Substep& s) {
   if (s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
   for (int round = 0; round < most_rounds && choose_searched(s, round, scratch) && find_all(s, scratch); ++round) {
     list_all(s, scratch);
-    note_momentum(s, &scratch.is_moved);
+    note_momentum(s, Since::note, &scratch.is_moved);
     shorten_all(s, scratch.limited);
     conserve_momentum(s, Since::note, &scratch.is_moved);
     project_contacts_of(s, "limit: contacts", scratch.is_moved, overlap_left);

@@ -38,13 +38,15 @@ void walk_stencils(Substep& s, bool first, const std::vector<char>& tied) {
   }
 }
 
-/// Conserves the momentum of what a sweep has done. Objects with 1 in `pressed` have been moved since their prediction.
-void conserve_sweep(Substep& s, bool is_first, const std::vector<char>& pressed) {
-  if (!is_first || pressed.empty()) return conserve_momentum(s, is_first ? Since::prediction : Since::note);
+using MomentumFunction = void (*)(Substep& s, Since since, const std::vector<char>* only);
+
+/// Notes or conserves the momentum of what a sweep does. Objects with 1 in `pressed` have been moved since their prediction.
+void treat_momentum(Substep& s, bool is_first, const std::vector<char>& pressed, MomentumFunction treat) {
+  if (!is_first || pressed.empty()) return treat(s, is_first ? Since::prediction : Since::note, nullptr);
   std::vector<char> others(pressed.size());
   std::transform(pressed.begin(), pressed.end(), others.begin(), [](char is_pressed) { return is_pressed == 0; });
-  conserve_momentum(s, Since::prediction, &others);
-  conserve_momentum(s, Since::note, &pressed);
+  treat(s, Since::prediction, &others);
+  treat(s, Since::note, &pressed);
 }
 
 /// Runs one iteration: for each sweep group its phases and acceleration, then the phases of all groups together.
@@ -58,9 +60,9 @@ void iterate(Substep& s, int iteration) {
     if (!uses(s, sweep)) continue;
     s.group = &group;
     if (group.acceleration) keep_iterate(s, iteration);
-    if (!is_first || !pressed.empty()) note_momentum(s, is_first ? &pressed : nullptr);
+    treat_momentum(s, is_first, pressed, note_momentum);
     group.method->iterate(s, iteration == 0);
-    conserve_sweep(s, is_first, pressed);
+    treat_momentum(s, is_first, pressed, conserve_momentum);
     if (group.acceleration) accelerate(s, iteration);
   }
   s.group = nullptr;

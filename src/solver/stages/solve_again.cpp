@@ -58,7 +58,7 @@ void solve_again(Substep& s) {
   std::vector<char>& is_pressed = s.own->limit.is_moved;
   if (!find_pressed(s, is_pressed)) return;
   for (int round = 0; round < rounds; ++round) {
-    note_momentum(s, &is_pressed);
+    note_momentum(s, Since::note, &is_pressed);
     if (s.bodies != nullptr) s.bodies->find_loads(s);
     solve_chains(s, is_pressed);
     conserve_momentum(s, Since::note, &is_pressed);
