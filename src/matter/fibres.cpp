@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "matter/size_class.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -68,13 +69,6 @@ struct Edges {
     return {dot(cross(d, b), c) * s, dot(cross(a, d), c) * s, dot(cross(a, b), d) * s};
   }
 };
-
-/// Which tetrahedra are about as large, as in soft_body.cpp: by powers of the square root of two.
-int size_class(double volume) {
-  int exponent = 0;
-  const double mantissa = std::frexp(volume, &exponent);
-  return 2 * exponent + (mantissa >= 0.70710678118654752 ? 1 : 0);
-}
 
 /// Fibres of tetrahedra that are about as large, and the sum of their stiffnesses [J].
 struct FibresOfSize {

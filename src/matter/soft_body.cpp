@@ -11,6 +11,7 @@
 
 #include "constraints/gives_shape.h"
 #include "matter/fibres.h"
+#include "matter/size_class.h"
 #include "matter/strain_limit.h"
 #include "matter/tetrahedron_faces.h"
 #include "pliant/error.h"
@@ -171,13 +172,6 @@ std::vector<int> drop_unused(std::size_t corners, std::vector<Tetrahedron>& tetr
   for (Tetrahedron& t : tetrahedra)
     for (int& corner : t) corner = number[static_cast<std::size_t>(corner)];
   return kept;
-}
-
-/// Which tetrahedra are about as large: by powers of the square root of two.
-int size_class(double volume) {
-  int exponent = 0;
-  const double mantissa = std::frexp(volume, &exponent);
-  return 2 * exponent + (mantissa >= 0.70710678118654752 ? 1 : 0);
 }
 
 /// Adds a constraint for each tetrahedron, whose compliance is 1 / (modulus volume). All of a group have one damping, which is to be the
