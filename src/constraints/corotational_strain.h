@@ -28,7 +28,7 @@ struct CorotationalStrain : TetrahedronStrain {
     const Symmetric<R> e = green_strain(f);
     const ByColumns<R> far = less_rotation(f), near = f.times(less_inverse_stretch(e));
     const R volume = dot(f.x, cross(f.y, f.z));  // a mirrored one has the same E
-    const auto is_near = e.squares() < select(volume > R(0), R(near_rest<R>), R(-1));
+    const auto is_near = e.squares() < select(volume > R(0), near_rest<R>(), R(-1));
     const ByColumns<R> g{select(is_near, near.x, far.x), select(is_near, near.y, far.y), select(is_near, near.z, far.z)};
     const R value = sqrt(R(2) * g.squares());
     const R scale = R(2) / max(value, R(1e-7f));
@@ -39,7 +39,12 @@ struct CorotationalStrain : TetrahedronStrain {
  private:
   /// Up to which square of the strain the series of `less_inverse_stretch` is more exact than the difference F - R.
   template <class R>
-  static constexpr double near_rest = std::is_same_v<R, double> ? 1e-9 : 4e-4;
+  PLIANT_HD static R near_rest() {
+    if constexpr (std::is_same_v<R, double>)
+      return 1e-9;
+    else
+      return R(4e-4f);
+  }
   /// Of Newton. Where two singular values nearly cancel, as in a mirrored tetrahedron, many are needed and R hardly has a meaning.
   template <class R>
   static constexpr int iterations = std::is_same_v<R, double> ? 60 : 12;
