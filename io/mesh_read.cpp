@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "far_mesh.h"
 #include "file_bytes.h"
 #include "mesh_polygons.h"
 #include "pliant/error.h"
@@ -119,6 +120,8 @@ MeshFile parse_mesh(std::string_view bytes, const std::string& name, const MeshR
   file.mesh.triangles = triangulate(polygons, name, file.repairs);
   file.mesh.positions = std::move(polygons.positions);
   repair(file, polygons.is_soup, options);
+  const Rounding rounding = rounding_of(file.mesh.positions, file.mesh.triangles);
+  if (rounding.is_noticeable()) file.repairs.push_back(rounding.in_words() + ": " + move_nearer);
   if (!file.mesh.triangles.empty()) return file;
   fail(name, "has only degenerate triangles", "the corners of each lie on one line or coincide; check the scale");
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "far_mesh.h"
 #include "pliant/error.h"
 #include "tetra_parts.h"
 
@@ -79,6 +80,9 @@ TetrahedralMeshFile TetraBuilder::result() {
     out.mesh.tetrahedra.push_back(t);
   }
   out.repairs = std::move(repairs_);
+  const Rounding rounding = rounding_of(out.mesh.positions, out.mesh.tetrahedra);
+  if (rounding.is_too_coarse()) throw Error({.file = name_}, rounding.in_words(), move_nearer);
+  if (rounding.is_noticeable()) out.repairs.push_back(rounding.in_words() + ": " + move_nearer);
   if (turned > 0)
     out.repairs.push_back(turned == 1 ? "1 tetrahedron was inside out, and was turned"
                                       : std::to_string(turned) + " tetrahedra were inside out, and were turned");

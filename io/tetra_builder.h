@@ -20,7 +20,7 @@ class TetraBuilder {
   void note(std::string repair) { repairs_.push_back(std::move(repair)); }
 
   /// The mesh: tetrahedra of negative volume are turned, nodes of none left out, touching parts noted. Throws an Error if there is no
-  /// tetrahedron, a node is there twice, or a tetrahedron uses one that does not exist.
+  /// tetrahedron, a node is there twice, a tetrahedron uses one that does not exist, or floats are too coarse so far from the origin.
   TetrahedralMeshFile result();
 
  private:

@@ -45,7 +45,8 @@ struct TetrahedralMeshFile {
 /// Reads a mesh of linear tetrahedra: TetGen .node and .ele (either is given, both are read), Gmsh .msh 2.2 and 4.1 as text or binary,
 /// VTK .vtk (legacy) and .vtu (XML), Medit .mesh (text) and .meshb (binary), and .t with lines "Vertex" and "Tet". Points, lines and polygons
 /// are passed over. Tetrahedra that are inside out are turned, nodes that none uses are left out, and equal points of several pieces of a .vtu
-/// file are merged. Throws an Error with file and line (or byte) if the file cannot be read, is damaged or cut off, or has other elements.
+/// file are merged. Throws an Error with file and line (or byte) if the file cannot be read, is damaged or cut off, has other elements, or
+/// is so far from the origin that floats lose its shape.
 TetrahedralMeshFile read_tetrahedral_mesh(const std::string& path);
 
 /// Writes a mesh as .obj or .ply. If writing fails, an existing file stays unchanged, and the Error names the path.

@@ -48,6 +48,12 @@ TEST(MeshRepair, DropsIsolatedVerticesAndRenumbers) {
   EXPECT_EQ(read(text, {true, true, false}).mesh.positions.size(), 5u) << "what merging emptied goes all the same";
 }
 
+TEST(MeshRepair, SaysWhereFloatsAreCoarse) {
+  const MeshFile file = read("v 500000 0 0\nv 500000.1 0 0\nv 500000 0.1 0\nf 1 2 3\n");
+  EXPECT_TRUE(contains(joined(file.repairs), "lies 500000.1 from the origin, where floats are 0.031 apart, 28 % of its"));
+  EXPECT_TRUE(read("v 5000 0 0\nv 5000.1 0 0\nv 5000 0.1 0\nf 1 2 3\n").repairs.empty());
+}
+
 /// A grid of columns x rows vertices in the xz-plane at height 0, as OBJ text.
 std::string sheet(int columns, int rows, int first_index) {
   std::string text;

@@ -240,6 +240,27 @@ TEST(TetrahedralFiles, ThatAreDamagedAreRefusedWithTheirLine) {
   }
 }
 
+/// `vertex_tet`, moved along x.
+std::string moved(const std::string& x, const std::string& next) {
+  std::string text = vertex_tet;
+  for (const std::string number : {"0", "2", "3", "5"})
+    text = replaced(text, "Vertex " + number + " 0", "Vertex " + number + " " + x);
+  return replaced(text, "Vertex 1 1", "Vertex 1 " + next);
+}
+
+/// Floats round the shape far from the origin, which `fit` cannot undo.
+TEST(TetrahedralFiles, SayWhereFloatsAreTooCoarse) {
+  EXPECT_EQ(read_tetrahedral_mesh(write("near.t", moved("100000", "100001"))).repairs.size(), 2u);
+  const std::vector<std::string> notes = read_tetrahedral_mesh(write("far.t", moved("200000", "200001"))).repairs;
+  ASSERT_EQ(notes.size(), 3u);
+  EXPECT_EQ(notes[0],
+            "lies 200001 from the origin, where floats are 0.016 apart, 1 % of its mean edge: move it to the origin before "
+            "it is exported");
+  EXPECT_NE(message(write("farther.t", moved("5000000", "5000000.3")))
+                .find("farther.t: lies 5000000 from the origin, where floats are 0.5 apart, "),
+            std::string::npos);
+}
+
 TEST(TetrahedralFiles, OfGmshMayHaveBlankLinesAndOmitTheLastEnd) {
   expect_two(write("blank.msh", replaced(gmsh_2, "$EndNodes", "\n \n$EndNodes")));
   expect_two(write("no_end.msh", replaced(gmsh_4, "$EndElements\n", "")));
