@@ -20,7 +20,7 @@ struct Rounding {
   bool is_noticeable() const { return mean_edge > 0 && distance > 1e5 * mean_edge; }
   /// Here about 10 % of an edge: the shape is lost, and tetrahedra become flat.
   bool is_too_coarse() const { return mean_edge > 0 && distance > 1e6 * mean_edge; }
-  /// "lies 500000 from the origin, where floats are 0.03125 apart, 27 % of its mean edge"
+  /// "lies 500000 from the origin, where floats are 0.031 apart, 25 % of its mean edge"
   std::string in_words() const;
 };
 
