@@ -46,8 +46,8 @@ struct PlasticCluster {
 /// The clusters of an object, by colour; those of one colour share no particle.
 struct CompiledClusters {
   std::vector<CompiledCluster> clusters;
-  std::vector<ClusterMember> members;  ///< of each cluster in the order of the State
-  std::vector<double> bases;           ///< orthonormal_basis of the moments of each cluster that deforms
+  std::vector<ClusterMember> members;        ///< of each cluster in the order of the State
+  std::vector<double> bases;                 ///< orthonormal_basis of the moments of each cluster that deforms
   std::vector<std::pair<int, int>> colours;  ///< ranges of clusters, half-open
   bool has_multipliers = false;              ///< a cluster yields, or is damped
   std::vector<PlasticCluster> plastic;

@@ -52,8 +52,7 @@ void keep_volume(double (&fitted)[3][most_moments], const double* basis, int n, 
 }
 
 /// Adds `share` of the fitted deformation to (1 - share) of the rotation that `fit` has.
-void add_deformation(const CompiledCluster& cluster, const double* basis, const double (&sums)[3][most_moments],
-                     Fit& fit) {
+void add_deformation(const CompiledCluster& cluster, const double* basis, const double (&sums)[3][most_moments], Fit& fit) {
   const int n = moments_of(cluster.mode);
   double fitted[3][most_moments] = {};  // sums basis^T
   for (int i = 0; i < 3; ++i)
@@ -93,8 +92,7 @@ Fit fit(const CompiledClusters& clusters, const CompiledCluster& cluster, const 
     out.deformation[1][j] = cluster.size * axes[j].y;
     out.deformation[2][j] = cluster.size * axes[j].z;
   }
-  if (cluster.mode != Cluster::Mode::rigid)
-    add_deformation(cluster, clusters.bases.data() + cluster.basis, sums, out);
+  if (cluster.mode != Cluster::Mode::rigid) add_deformation(cluster, clusters.bases.data() + cluster.basis, sums, out);
   return out;
 }
 

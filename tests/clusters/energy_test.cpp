@@ -101,7 +101,8 @@ TEST(ClusterEnergy, NeverGrows) {
         const ClusterOptions options{.mode = mode, .share = share, .stiffness = Stiffness::compliance(compliance)};
         const auto where = [&] { return testing::Message() << int(mode) << ", " << share << ", " << compliance; };
         EXPECT_LT(most_energy(spinning(options), 300), 1.0001) << where();
-        for (const bool is_tilted : {false, true}) EXPECT_LT(most_energy(dropped(options, is_tilted), 120), 1.0001) << where();
+        for (const bool is_tilted : {false, true})
+          EXPECT_LT(most_energy(dropped(options, is_tilted), 120), 1.0001) << where();
       }
 }
 

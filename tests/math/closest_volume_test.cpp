@@ -36,8 +36,9 @@ class ClosestVolume : public ::testing::Test {
 
 TEST_F(ClosestVolume, HasTheDeterminantAndIsTheClosest) {
   for (const double d : {1., 0.19, 1e-4})
-    for (const Matrix3d& f : {diagonal(1, 1, 1), diagonal(0.3, 1, 1), diagonal(1, 1, 0), diagonal(-1, 1, 1), diagonal(0, 0, 0),
-                              diagonal(0, 2, 0), diagonal(1.8, 1.9, 1.8), diagonal(3, 3, 3), diagonal(9, 2.1, 2), any(1), any(3)}) {
+    for (const Matrix3d& f :
+         {diagonal(1, 1, 1), diagonal(0.3, 1, 1), diagonal(1, 1, 0), diagonal(-1, 1, 1), diagonal(0, 0, 0),
+          diagonal(0, 2, 0), diagonal(1.8, 1.9, 1.8), diagonal(3, 3, 3), diagonal(9, 2.1, 2), any(1), any(3)}) {
       const Matrix3d found = closest_of_determinant(f, d);
       EXPECT_NEAR(determinant(found) / d, 1, 1e-9);
       const double distance = half_square(f, found);
@@ -73,8 +74,9 @@ TEST_F(ClosestVolume, TheDifferenceIsTheGradientOfHalfTheSquaredDistance) {
       Matrix3d more = f, less = f;
       more[k] += step;
       less[k] -= step;
-      const double slope = (half_square(more, closest_of_determinant(more, 1)) - half_square(less, closest_of_determinant(less, 1))) /
-                           (2 * step);
+      const double slope =
+          (half_square(more, closest_of_determinant(more, 1)) - half_square(less, closest_of_determinant(less, 1))) /
+          (2 * step);
       EXPECT_NEAR(slope, f[k] - difference[k], 1e-6);
     }
   }
