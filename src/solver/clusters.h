@@ -2,7 +2,7 @@
 //
 //   c = sum w x          A = sum w (x - c) q^T          R = the rotation nearest to A
 //   rigid                g = c + R q
-//   linear, quadratic    g = c + (share F + (1 - share) (R 0)) q,  F q = V u + W p,  V = the matrix of the rest volume closest to sum w (x - c) u^T
+//   linear, quadratic    g = c + (share F + (1 - share) (R 0)) q,  F q = V u + W p,  V = the closest matrix of the rest volume to sum w (x - c) u^T
 //
 // with w the shares of mass, and q the rest place, for `quadratic` with its products (Mueller, Heidelberger, Teschner, Gross 2005). u are
 // the coordinates of q, and p what products do not share with them, made orthonormal: sum w u u^T = 1. W = sum w (x - c) p^T.
