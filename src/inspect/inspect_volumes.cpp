@@ -66,11 +66,13 @@ void doubt_jumps_of_volumes(Problems& problems, const Scene& scene) {
     if (!(jump > most_speed * substep)) continue;
     const std::string pressure = words(pressure_at(*object.volume, 0));
     problems.at(object.name);
-    problems.doubtful("volume",
-                      "has a pressure of " + pressure + " at the start, so its surface jumps by about " + words(std::round(1000 * jump) / 1000) +
-                          " m in the first substep, at " + words(std::round(jump / substep)) + " m/s, and may be thrown about",
-                      "let the pressure rise from 1 by keyframes: \"keyframes\": [{\"time\": 0, \"pressure\": 1}, {\"time\": " +
-                          words(ramp) + ", \"pressure\": " + pressure + "}]");
+    problems.doubtful(
+        "volume",
+        "has a pressure of " + pressure + " at the start, so its surface jumps by about " +
+            words(std::round(1000 * jump) / 1000) + " m in the first substep, at " + words(std::round(jump / substep)) +
+            " m/s, and may be thrown about",
+        "let the pressure rise from 1 by keyframes: \"keyframes\": [{\"time\": 0, \"pressure\": 1}, {\"time\": " +
+            words(ramp) + ", \"pressure\": " + pressure + "}]");
   }
   problems.at("");
 }

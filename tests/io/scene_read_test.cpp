@@ -139,7 +139,8 @@ TEST_F(FullScene, HasItsConstraintsAsStiffAsTold) {
 
 /// The motion of a collider with these keyframes.
 Motion motion_of(const std::string& keyframes, const std::string& others = "") {
-  const std::string text = R"({"objects": [], "colliders": [{"plane": {}, "motion": {"keyframes": [)" + keyframes + "]" + others + "}}]}";
+  const std::string text =
+      R"({"objects": [], "colliders": [{"plane": {}, "motion": {"keyframes": [)" + keyframes + "]" + others + "}}]}";
   return parse_scene(text, "x.json", ".").colliders.at(0).motion;
 }
 
