@@ -42,12 +42,15 @@ const Record& rotation_record() {
 namespace {
 
 const Record& keyframe_record() {
-  static const Record result{"keyframe",
-                             "A rigid pose at a time.",
-                             {needed("time", number("s", 0, 1e9), "Time of the pose; increases along the list."),
-                              field("position", place(), Keyframe{}.position, "Translation from the rest position."),
-                              field("rotation", record(rotation_record()), "none", "Rotation about the motion's `pivot`.")},
-                             {}};
+  static const Record result{
+      "keyframe",
+      "A rigid pose at a time.",
+      {needed("time", number("s", 0, 1e9), "Time of the pose; increases along the list."),
+       field("position", place(), Keyframe{}.position, "Translation from the rest position."),
+       field("rotation", record(rotation_record()), "none",
+             "Rotation about the motion's `pivot`. From one keyframe to the next about the same axis it turns by all the "
+             "degrees between them, so 0 to 720 are two turns; about another one by the shorter arc.")},
+      {}};
   return result;
 }
 

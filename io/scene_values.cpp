@@ -2,6 +2,7 @@
 #include "scene_values.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace pliant::scene_file {
@@ -55,18 +56,26 @@ const std::vector<JsonValue>& elements(const JsonValue& at, const char* name) {
   return value != nullptr ? value->items : none;
 }
 
+namespace {
+
+/// The axis of a rotation, scaled so that its largest component is 1, because the square of a tiny axis underflows.
+Vec3f axis_of(const JsonDocument& document, const JsonValue& turn) {
+  Vec3f axis;
+  set(turn, "axis", axis);
+  const float largest = std::max({axis.x, -axis.x, axis.y, -axis.y, axis.z, -axis.z});
+  if (largest < std::numeric_limits<float>::min())
+    document.fail(*turn.find("axis"), "this axis has length 0", "[0, 1, 0] is upright");
+  return {axis.x / largest, axis.y / largest, axis.z / largest};
+}
+
+}  // namespace
+
 bool set(const JsonDocument& document, const JsonValue& at, const char* name, Quatf& target) {
   const JsonValue* value = at.find(name);
   if (value == nullptr) return false;
-  Vec3f axis;
   float degrees = 0;
-  set(*value, "axis", axis);
   set(*value, "degrees", degrees);
-  // The axis is scaled so that its largest component is 1, because the square of a tiny axis underflows.
-  const float largest = std::max({axis.x, -axis.x, axis.y, -axis.y, axis.z, -axis.z});
-  if (largest < std::numeric_limits<float>::min())
-    document.fail(*value->find("axis"), "this axis has length 0", "[0, 1, 0] is upright");
-  target = rotation({axis.x / largest, axis.y / largest, axis.z / largest}, degrees);
+  target = rotation(axis_of(document, *value), degrees);
   return true;
 }
 
@@ -85,17 +94,76 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, St
   return true;
 }
 
+namespace {
+
+/// Of one motion, with those that are inserted: so that a small file cannot fill the memory.
+constexpr std::size_t most_keyframes = 1000000;
+
+/// A rotation as the file gives it. Without one the degrees are 0, about any axis.
+struct Turn {
+  Vec3f axis{};
+  double degrees = 0;
+};
+
+Turn turn_of(const JsonDocument& document, const JsonValue& keyframe) {
+  const JsonValue* turn = keyframe.find("rotation");
+  return turn == nullptr ? Turn{} : Turn{axis_of(document, *turn), turn->find("degrees")->number};
+}
+
+Vec3d in_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
+
+/// The degrees from one rotation to another about the axis of both; 0 if they have none in common. Sets that axis in `from`.
+double degrees_between(Turn& from, const Turn& to) {
+  if (from.degrees == 0) from.axis = to.axis;
+  if (to.degrees == 0) return -from.degrees;
+  const Vec3d a = in_double(from.axis), b = in_double(to.axis);
+  constexpr double parallel = 1e-12;  // the square of an angle: axes are in single precision
+  if (length_squared(cross(a, b)) > parallel * length_squared(a) * length_squared(b)) return 0;
+  return (dot(a, b) < 0 ? -to.degrees : to.degrees) - from.degrees;
+}
+
+/// Appends keyframes up to `next` that turn by a quarter turn each, where it turns by half a turn or more: between two keyframes a Motion
+/// takes the shorter arc. They are evenly spaced, and share in position and angle what their rounded times do.
+void append_turns(const JsonDocument& document, const JsonValue& at, Turn from, const Turn& to, const Keyframe& next,
+                  std::vector<Keyframe>& keys) {
+  const double degrees = degrees_between(from, to);
+  if (std::fabs(degrees) < 180) return;
+  const Keyframe start = keys.back();
+  const double time = start.time, duration = static_cast<double>(next.time) - time;
+  const Vec3d place = in_double(start.position), way = in_double(next.position) - place;
+  const int steps = static_cast<int>(std::ceil(std::fabs(degrees) / 90));
+  for (int i = 1; i < steps; ++i) {
+    Keyframe key;
+    key.time = static_cast<float>(time + duration * i / steps);
+    if (!(key.time > keys.back().time && key.time < next.time) || keys.size() >= most_keyframes)
+      document.fail(at, "this turns by too many degrees since the keyframe before", "turn less, or give it more time");
+    const double share = (static_cast<double>(key.time) - time) / duration;
+    const Vec3d position = place + way * share;
+    key.position = {static_cast<float>(position.x), static_cast<float>(position.y), static_cast<float>(position.z)};
+    key.rotation = rotation(from.axis, static_cast<float>(std::fmod(from.degrees + degrees * share, 360)));
+    keys.push_back(key);
+  }
+}
+
+}  // namespace
+
 bool set(const JsonDocument& document, const JsonValue& at, const char* name, Motion& target) {
   const JsonValue* value = at.find(name);
   if (value == nullptr) return false;
+  Turn before;
   for (const JsonValue& item : elements(*value, "keyframes")) {
     Keyframe keyframe;
     set(item, "time", keyframe.time);
     set(item, "position", keyframe.position);
     set(document, item, "rotation", keyframe.rotation);
-    if (!target.keyframes.empty() && !(keyframe.time > target.keyframes.back().time))
-      document.fail(*item.find("time"), "this time is not after the previous one", "times must increase");
+    const Turn turn = turn_of(document, item);
+    if (!target.keyframes.empty()) {
+      if (!(keyframe.time > target.keyframes.back().time))
+        document.fail(*item.find("time"), "this time is not after the previous one", "times must increase");
+      append_turns(document, item, before, turn, keyframe, target.keyframes);
+    }
     target.keyframes.push_back(keyframe);
+    before = turn;
   }
   set(*value, "pivot", target.pivot);
   set(*value, "repeat", target.repeat);

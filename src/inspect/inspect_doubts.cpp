@@ -321,6 +321,7 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
     if (is_hinge(group.type)) doubt_hinges(doubts, group);
     doubt_damping(doubts, group);
   }
+  doubt_elements(problems, object);
   doubt_surface(doubts);
   doubt_volume(doubts);
   doubt_overlaps(doubts);

@@ -6,6 +6,7 @@
 
 #include "inspect/problems.h"
 #include "math/functions.h"
+#include "math/vector.h"
 #include "model/compile_surface.h"
 #include "model/object_sets.h"
 

@@ -89,6 +89,8 @@ void doubt_absorbency(Problems& problems, const Object& object, const Scene& sce
 void check_object(Problems& problems, const Object& object);
 /// Reports doubtful settings of an object that has no grave findings.
 void doubt_object(Problems& problems, const Object& object, const Scene& scene);
+/// Warns of constraints on flat tetrahedra and triangles, and of those without rest data that act.
+void doubt_elements(Problems& problems, const Object& object);
 /// Warns of rods that carry more than contact can bear in the scene's substeps. The scene must have no grave findings.
 void doubt_substeps_of_rods(Problems& problems, const Scene& scene);
 /// Warns of volumes whose surface would jump to their pressure at the start. The scene must have no grave findings.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pliant/body.h"
@@ -239,6 +240,46 @@ TEST(InspectScene, NamesGearsWithoutBearings) {
   EXPECT_EQ(text.find("body 'sun'"), std::string::npos) << text;
   add_joint(scene.objects[0], HingeJoint{.b = planet, .anchor = {0.2f, 0, 0}});
   EXPECT_EQ(finding(scene, "no other joint guides"), "");
+}
+
+/// An object with a distance and, in group 1, a constraint on its first particles: as many as `type` takes.
+Scene element(const std::string& type, const std::vector<Vec3f>& positions, std::vector<float> rest = {}) {
+  Object object;
+  object.name = "one";
+  object.positions = positions;
+  object.masses.assign(positions.size(), 1);
+  object.constraints.push_back({.type = "distance", .particles = {0, 1}});
+  ConstraintGroup group{.type = type, .particles = {0, 1, 2}, .rest = std::move(rest)};
+  if (positions.size() == 4) group.particles.push_back(3);
+  object.constraints.push_back(std::move(group));
+  Scene scene;
+  scene.add(std::move(object));
+  return scene;
+}
+
+TEST(InspectScene, NamesConstraintsOnFlatElements) {
+  const std::vector<Vec3f> flat{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
+      solid{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const char* type : {"tetrahedron_shear", "tetrahedron_volume", "fibre"}) {
+    const std::string text = finding(element(type, flat), "in one plane at rest");
+    EXPECT_NE(text.find("object 'one', constraint group 1, " + std::string(type) + " constraint 0: "), std::string::npos)
+        << text;
+    EXPECT_EQ(finding(element(type, solid), "constraint group"), "") << type;
+  }
+  const std::vector<Vec3f> line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, triangle{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
+  for (const char* type : {"triangle_stretch", "triangle_shear"}) {
+    const std::string text = finding(element(type, line), "on one line at rest");
+    EXPECT_NE(text.find("object 'one', constraint group 1, " + std::string(type) + " constraint 0: "), std::string::npos)
+        << text;
+    EXPECT_EQ(finding(element(type, triangle), "constraint group"), "") << type;
+  }
+}
+
+TEST(InspectScene, NamesElementsWhoseRestDataAreZero) {
+  const std::vector<Vec3f> flat{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  EXPECT_NE(finding(element("fibre", flat, {1, 0, 0, 0}), "has rest data of 0"), "");
+  EXPECT_NE(finding(element("tetrahedron_volume", flat, {0}), "has rest data of 0"), "");
+  EXPECT_EQ(finding(element("tetrahedron_volume", flat, {0.5f}), "constraint group"), "") << "it starts pressed flat";
 }
 
 /// A ball of rubber sheet with a volume.

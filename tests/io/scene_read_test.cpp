@@ -137,6 +137,63 @@ TEST_F(FullScene, HasItsConstraintsAsStiffAsTold) {
   EXPECT_EQ(sheet.constraints[1].stiffness.value, 0.5f);
 }
 
+/// The motion of a collider with these keyframes.
+Motion motion_of(const std::string& keyframes, const std::string& others = "") {
+  const std::string text =
+      R"({"objects": [], "colliders": [{"plane": {}, "motion": {"keyframes": [)" + keyframes + "]" + others + "}}]}";
+  return parse_scene(text, "x.json", ".").colliders.at(0).motion;
+}
+
+/// By how many degrees a motion about z turns from its first keyframe to its last, by the shorter arc from each to the next.
+double turned_about_z(const Motion& motion) {
+  double degrees = 0;
+  for (std::size_t k = 1; k < motion.keyframes.size(); ++k) {
+    const Quatf &a = motion.keyframes[k - 1].rotation, &b = motion.keyframes[k].rotation;
+    const double sine = double{b.z} * double{a.w} - double{a.z} * double{b.w},
+                 cosine = double{a.z} * double{b.z} + double{a.w} * double{b.w};
+    degrees += 2 * std::atan(sine / cosine) * 180 / 3.14159265358979;
+  }
+  return degrees;
+}
+
+TEST(SceneMotion, TurnsByAsManyDegreesAsItSays) {
+  const std::string end = R"({"time": 2, "position": [3, 0, 0], "rotation": {"axis": [0, 0, 2], "degrees": )";
+  for (const int degrees : {90, 179, 180, 190, 270, 360, 720, -360, 100000}) {
+    const Motion motion = motion_of(R"({"time": 1}, )" + end + std::to_string(degrees) + "}}");
+    EXPECT_NEAR(turned_about_z(motion), degrees, 1e-5 * std::abs(degrees)) << degrees;
+    const int steps = std::abs(degrees) < 180 ? 1 : (std::abs(degrees) + 89) / 90;
+    EXPECT_EQ(static_cast<int>(motion.keyframes.size()), steps + 1) << degrees;
+  }
+}
+
+TEST(SceneMotion, InsertsKeyframesEvenlyInTimeAndPlace) {
+  const Motion motion = motion_of(R"({"time": 1, "position": [1, 0, 0]}, )"
+                                  R"({"time": 3, "position": [5, 8, 0], "rotation": {"axis": [0, 0, 1], "degrees": 720}},
+                                      {"time": 4}, {"time": 5, "rotation": {"axis": [0, 0, -1], "degrees": 360}})",
+                                  R"(, "pivot": [1, 2, 3], "repeat": true)");
+  EXPECT_NEAR(turned_about_z(motion), -360, 1e-3) << "two turns there, two back and one more";
+  ASSERT_EQ(motion.keyframes.size(), 4u + 7 + 7 + 3);
+  EXPECT_EQ(motion.keyframes[1].time, 1.25f);
+  EXPECT_EQ(motion.keyframes[1].position, (Vec3f{1.5f, 1, 0}));
+  EXPECT_EQ(motion.keyframes[8].time, 3.f);
+  EXPECT_EQ(motion.pivot, (Vec3f{1, 2, 3}));
+  EXPECT_TRUE(motion.repeat);
+}
+
+TEST(SceneMotion, TakesTheShorterArcBetweenOtherAxes) {
+  EXPECT_EQ(motion_of(R"({"time": 0, "rotation": {"axis": [1, 0, 0], "degrees": 90}},
+                         {"time": 1, "rotation": {"axis": [0, 1, 0], "degrees": 400}})")
+                .keyframes.size(),
+            2u);
+}
+
+TEST(SceneMotion, RefusesMoreTurnsThanThereAreTimes) {
+  EXPECT_NE(test::scene_message(R"({"objects": [], "colliders": [{"plane": {}, "motion": {"keyframes": [{"time": 1000000},
+                {"time": 1000000.125, "rotation": {"axis": [0, 0, 1], "degrees": 720}}]}}]})")
+                .find("turns by too many degrees"),
+            std::string::npos);
+}
+
 TEST_F(FullScene, HasItsPinsAndAttachments) {
   const Object& sheet = scene.objects.at(0);
   std::vector<int> pinned;
