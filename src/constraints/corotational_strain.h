@@ -14,12 +14,12 @@
 #include <type_traits>
 
 #include "constraints/tetrahedron_strain.h"
-#include "math/unroll.h"
 
 namespace pliant {
 
 struct CorotationalStrain : TetrahedronStrain {
   static constexpr const char* name = "corotational_strain";
+  static constexpr bool is_arithmetic = true;
 
   /// C is zero without a direction at rest, and where all corners are in one place; the gradients are then zero.
   template <class R>
@@ -80,7 +80,6 @@ struct CorotationalStrain : TetrahedronStrain {
     const ByColumns<R> k{cross(f.y, f.z), cross(f.z, f.x), cross(f.x, f.y)};
     const R j = R(8) * dot(f.x, k.x), rest = R(1) - R(4) * k.squares();
     R s(1.7320508f);
-    PLIANT_UNROLL
     for (int i = 0; i < iterations<R>; ++i) {
       const R square = s * s;
       const R slope = max(R(4) * s * (square - R(1)) - j, R(1e-4f));

@@ -17,6 +17,7 @@ namespace pliant {
 
 struct GreenStrain : TetrahedronStrain {
   static constexpr const char* name = "green_strain";
+  static constexpr bool is_arithmetic = true;
 
   /// C is zero without a direction at rest; the gradients are then zero.
   template <class R>
@@ -33,6 +34,7 @@ struct GreenStrain : TetrahedronStrain {
 
 struct GreenTrace : TetrahedronStrain {
   static constexpr const char* name = "green_trace";
+  static constexpr bool is_arithmetic = true;
 
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
