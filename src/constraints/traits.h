@@ -16,6 +16,12 @@ inline constexpr int rest_fields = static_cast<int>(T::fields.size());
 template <class T>
 inline constexpr bool in_lanes = T::slots::frames == 0 && T::rows == 1;
 
+/// True if a type computes so much that how its points are loaded does not count: it is compiled for fewer cases.
+template <class T>
+inline constexpr bool is_arithmetic = requires {
+  T::is_arithmetic;
+};
+
 /// True if every gradient has length one unless it vanishes, so the driver skips its norm.
 template <class T>
 inline constexpr bool has_unit_gradients = [] {

@@ -173,12 +173,14 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
   }
 }
 
+/// Which slots are contiguous is a template argument where loads and stores take much of the time.
 template <class T, Law law, bool keeps_multipliers, bool general>
 void sweep_either(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   const auto with = [&]<std::int32_t fixed>(std::integral_constant<std::int32_t, fixed>) {
     sweep_segment<T, law, keeps_multipliers, fixed, general>(pool, segment, multipliers, a);
   };
-  if constexpr (general || slot_count < T >> 4) return with(std::integral_constant<std::int32_t, any_set>{});
+  constexpr bool is_large = 4 < slot_count<T>;
+  if constexpr (general || is_large || is_arithmetic<T>) return with(std::integral_constant<std::int32_t, any_set>{});
   constexpr std::int32_t all = (1 << slot_count<T>)-1;
   if (segment.runs == all) return with(std::integral_constant<std::int32_t, all>{});
   if (segment.runs == 0) return with(std::integral_constant<std::int32_t, 0>{});
