@@ -3,7 +3,7 @@
 // C is that of the present positions, its gradients are those of the substep's start, which keeps energy (SHAKE; Ryckaert,
 // Ciccotti, Berendsen 1977). Where joints pull so hard that a body would oscillate faster than substeps can follow, gradients
 // are those of the present, and the geometric stiffness of the joint forces is added to the body's inertia (Tournier, Nesme,
-// Gilles, Faure 2015).
+// Gilles, Faure 2015). What that takes from the angular momentum of a tree that holds on to nothing is given back (free_tree.h).
 //
 // Limits, motors and friction of a joint in a tree are further rows of that joint. Which of them act at a bound is found by
 // repeated solves (an active set). Joints that close loops remain with the stencil driver.

@@ -1,8 +1,10 @@
 // Solves the trees of joints of an object in a substep.
 #include <algorithm>
+#include <optional>
 
 #include "math/quat.h"
 #include "solver/bodies/body_math.h"
+#include "solver/bodies/free_tree.h"
 #include "solver/bodies/joint_forest_work.h"
 #include "solver/bodies/joint_formulas.h"
 #include "solver/bodies/rod_bundle.h"
@@ -100,8 +102,9 @@ void apply(JointWork& work) {
   store_multipliers(work);
 }
 
-/// Solves again with the present gradients, and with the stiffness of the pulls that were found last.
-void solve_stiffly(JointWork& work) {
+/// Solves again with the present gradients, and with the stiffness of the pulls that were found last. A free tree is noted before.
+void solve_stiffly(JointWork& work, std::optional<FreeTree>& free) {
+  if (is_free(work.forest)) free.emplace(work.forest.bodies, work.points, work.frames);
   stiffen(work);
   fill_rows(work, false);
   solve_within_bounds(work.forest);
@@ -118,7 +121,7 @@ void keep_pulls(JointWork& work) {
 }
 
 /// Solves with the gradients of the substep's start, and again where that finds that the pulls need stiffness.
-void solve_softly(JointWork& work) {
+void solve_softly(JointWork& work, std::optional<FreeTree>& free) {
   JointForest& forest = work.forest;
   fill_rows(work, true);
   solve_within_bounds(forest);
@@ -126,7 +129,7 @@ void solve_softly(JointWork& work) {
   for (std::size_t j = 0; j < forest.pulls.size() && !work.points.first_pass; ++j)
     for (std::size_t side = 0; side < 2; ++side)
       forest.pulls_of_pass[j][side] = forest.pulls[j][side] + forest.pulls_of_pass[j][side];
-  if (find_stiffness(work, forest.pulls_of_pass) > largest_advance) solve_stiffly(work);
+  if (find_stiffness(work, forest.pulls_of_pass) > largest_advance) solve_stiffly(work, free);
 }
 
 /// Where the joints of the last substep pulled hard, they do so now, and one solve is enough. What is kept is of this frame
@@ -142,13 +145,15 @@ bool was_pulled_hard(JointWork& work, const Substep& s) {
 /// Solves the trees of an object.
 void solve_object(const Substep& s, JointWork& work) {
   fill_masses(work);
+  std::optional<FreeTree> free;
   if (was_pulled_hard(work, s))
-    solve_stiffly(work);
+    solve_stiffly(work, free);
   else
-    solve_softly(work);
+    solve_softly(work, free);
   keep_pulls(work);
   work.forest.inverse_h2_of_pulls = work.points.inverse_h2;
   apply(work);
+  if (free) free->restore();
 }
 
 /// Forests that one task solves: of one object, from `first` on.

@@ -6,6 +6,7 @@
 
 #include "constraints/registry.h"
 #include "solver/bodies/body_math.h"
+#include "solver/bodies/free_tree.h"
 #include "solver/bodies/joint_forest_work.h"
 #include "solver/stencil.h"
 
@@ -126,6 +127,7 @@ class RodSolver {
   }
 
   void solve(RodBits which) {
+    free_.clear();
     kernels().fill_masses(view_);
     const RodBits hard = padded(pulled_hard() & which);
     if (hard != 0) stiffen(hard);
@@ -135,6 +137,7 @@ class RodSolver {
     if (soft != 0) solve_again(soft);
     keep_pulls(which);
     kernels().apply(view_, which);
+    for (const FreeTree& rod : free_) rod.restore();
     store_multipliers(which);
   }
 
@@ -232,8 +235,22 @@ class RodSolver {
     bundle_.inverse_h2_of_pulls = view_.points.inverse_h2;
   }
 
-  /// Adds the stiffness to the inertia, and takes away the part of the predicted rotation that it prevents.
+  /// True if the rods hold on to nothing.
+  bool is_free() const {
+    return std::all_of(bundle_.nodes.begin(), bundle_.nodes.end(),
+                       [](const RodNode& node) { return node.ends[0] >= 0 && node.ends[1] >= 0; });
+  }
+  std::vector<JointForest::Body> bodies_of(int lane) const {
+    std::vector<JointForest::Body> bodies;
+    for (const RodBody& body : bundle_.bodies) bodies.push_back({body.point[lane], body.frame[lane]});
+    return bodies;
+  }
+
+  /// Adds the stiffness to the inertia, and takes away the part of the predicted rotation that it prevents. Free rods are noted
+  /// before.
   void stiffen(RodBits which) {
+    for (int lane = 0; lane < bundle_.rods && is_free(); ++lane)
+      if ((which >> lane & 1) != 0) free_.emplace_back(bodies_of(lane), view_.points, view_.frames);
     for (std::size_t b = 0; b < bundle_.bodies.size(); ++b)
       for (int lane = 0; lane < bundle_.rods; ++lane)
         if ((which >> lane & 1) != 0) stiffen_body(b, lane);
@@ -263,6 +280,7 @@ class RodSolver {
   const CompiledObject& object_;
   RodBundle& bundle_;
   RodBundleView view_;
+  std::vector<FreeTree> free_;  ///< rods of this solve that need stiffness and hold on to nothing
 };
 
 /// Calls a function for each bundle of the objects that take part, on all threads.
