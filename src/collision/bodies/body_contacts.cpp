@@ -11,6 +11,7 @@
 #include "collision/bodies/kept_side.h"
 #include "collision/bodies/manifold.h"
 #include "collision/bodies/mesh_contacts.h"
+#include "collision/bodies/round_contact.h"
 #include "geometry/convex_contact.h"
 #include "parallel/ranges.h"
 
@@ -70,11 +71,18 @@ void renew_gaps(const Posed& a, const Posed& b, BodyContact& c) {
                                   (dot(in_b, convert<double>(c.anchor_b[i])) - dot(in_a, convert<double>(c.anchor_a[i]))));
 }
 
+/// How far points move until contacts are found again [m].
+struct Reach {
+  double margin = 0, turning = 0;
+  Rocking rocking{};
+};
+
 /// Contact points of two parts in the frame of body a.
-Touch touch_of(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, double reach, double turning) {
+Touch touch_of(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Reach& reach) {
   const Posed pose = relative_pose(a.pose, compose(b_in_a, b.pose));
-  Touch found =
-      a.is_half_space ? touch_half_space(b.shape, pose, reach, turning) : touch(a.shape, b.shape, pose, reach, turning);
+  Touch found = a.is_half_space ? touch_half_space(b.shape, pose, reach.margin, reach.turning)
+                                : touch(a.shape, b.shape, pose, reach.margin, reach.turning);
+  if (!a.is_half_space) found = with_corners(a.shape, b.shape, pose, found, reach.rocking);
   found.normal = rotate(a.pose.rotation, found.normal);
   for (int i = 0; i < found.count; ++i) {
     TouchPoint& point = found.points[at(i)];
@@ -339,7 +347,8 @@ struct BodyContacts::Task {
       ++found.count;
     };
     if (one.mesh == nullptr) {
-      const Touch now = touch_of(one, other, apart(relative, one.body, other.body, size), reach, turning);
+      const Touch now =
+          touch_of(one, other, apart(relative, one.body, other.body, size), {reach, turning, rocking_of(a, b, dt, faster)});
       if (one.is_half_space || !has_changed_sides(now, a.pose, old)) return add(now, 0);
       const Vec3d kept = rotate(conjugate(a.pose.rotation), convert<double>(old.front().normal));
       return add(touch_along(one, other, relative, kept, turning), 0);
