@@ -248,8 +248,13 @@ Scene element(const std::string& type, const std::vector<Vec3f>& positions, std:
   object.name = "one";
   object.positions = positions;
   object.masses.assign(positions.size(), 1);
-  object.constraints.push_back({.type = "distance", .particles = {0, 1}});
-  ConstraintGroup group{.type = type, .particles = {0, 1, 2}, .rest = std::move(rest)};
+  ConstraintGroup length, group;
+  length.type = "distance";
+  length.particles = {0, 1};
+  object.constraints.push_back(length);
+  group.type = type;
+  group.particles = {0, 1, 2};
+  group.rest = std::move(rest);
   if (positions.size() == 4) group.particles.push_back(3);
   object.constraints.push_back(std::move(group));
   Scene scene;

@@ -140,5 +140,17 @@ TEST(SceneSoftBodies, AreRefusedWithAReason) {
   }
 }
 
+TEST(SceneSoftBodies, HaveTheModelThatIsNamed) {
+  const auto type_of = [](const std::string& model) {
+    const std::string text = R"({"objects": [{"soft_body": {"tetrahedra": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
+      "material": {"model": ")" +
+                             model + R"("}}}]})";
+    return parse_scene(text, "x.json", ".").objects.at(0).constraints.at(0).type;
+  };
+  EXPECT_EQ(type_of("neo_hookean"), "tetrahedron_shear");
+  EXPECT_EQ(type_of("corotational"), "corotational_strain");
+  EXPECT_EQ(type_of("st_venant_kirchhoff"), "green_strain");
+}
+
 }  // namespace
 }  // namespace pliant
