@@ -18,17 +18,20 @@ namespace pliant {
 struct GreenStrain : TetrahedronStrain {
   static constexpr const char* name = "green_strain";
   static constexpr bool is_arithmetic = true;
+  /// Largest change of F in one projection, by which C is held: it matters beyond 16 times the length and where a tetrahedron is pressed
+  /// nearly flat, since the gradient vanishes there, and C does not.
+  static constexpr float most_step = 8;
 
   /// C is zero without a direction at rest; the gradients are then zero.
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
     const ByColumns<R> f = deformation(x, p);
     const Symmetric<R> e = green_strain(f);
-    const R value = select(is_solid(p), sqrt(R(2) * e.squares()), R(0));
-    const R scale = R(2) / max(value, R(1e-7f));
+    const R value = select(is_solid(p), sqrt(R(2) * e.squares()), R(0)), share = held(f);
+    const R scale = share * R(2) / max(value, R(1e-7f));
     const ByColumns<R> g = f.times(e);
     to_corners({g.x * scale, g.y * scale, g.z * scale}, p, gradient);
-    return value;
+    return min(value * share, R(most_step) * sqrt(g.squares()) * scale);
   }
 };
 
@@ -39,8 +42,9 @@ struct GreenTrace : TetrahedronStrain {
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
     const ByColumns<R> f = deformation(x, p);
-    to_corners(f, p, gradient);
-    return select(is_solid(p), green_strain(f).trace(), R(0));
+    const R scale = held(f);
+    to_corners({f.x * scale, f.y * scale, f.z * scale}, p, gradient);
+    return select(is_solid(p), green_strain(f).trace() * scale, R(0));
   }
 };
 

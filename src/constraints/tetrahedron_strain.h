@@ -101,6 +101,13 @@ struct TetrahedronStrain {
     gradient[0] = -(gradient[1] + gradient[2] + gradient[3]);
   }
 
+  /// 1, or less where F is so large that squares of gradients in proportion to it would overflow: a factor of C and its gradients.
+  template <class R>
+  PLIANT_HD static R held(const ByColumns<R>& f) {
+    constexpr float most_squared = 1e10f;
+    return R(most_squared) / max(f.squares(), R(most_squared));
+  }
+
   /// Green's strain E = (F^T F - 1) / 2.
   template <class R>
   PLIANT_HD static Symmetric<R> green_strain(const ByColumns<R>& f) {

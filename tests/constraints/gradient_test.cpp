@@ -40,17 +40,32 @@ double difference(Stencil<T, double> x, const ParamsOf<T, double>& params, std::
   return (45 * (at(h) - at(-h)) - 9 * (at(2 * h) - at(-2 * h)) + (at(3 * h) - at(-3 * h))) / (60 * h);
 }
 
-/// True if C wraps around, as angles do, among the points of the difference.
+/// True if C wraps around, as angles do, among the points of the difference: it changes by more than a gradient of at most `scale` says.
 template <class T>
-bool has_jump(const Stencil<T, double>& at, const ParamsOf<T, double>& params, std::size_t slot) {
+bool has_jump(const Stencil<T, double>& at, const ParamsOf<T, double>& params, std::size_t slot, double scale) {
   bool jumps = false;
   for (int axis = 0; axis < 3; ++axis) {
     auto low = at, high = at;
     component(low[slot], axis) -= 9e-3;
     component(high[slot], axis) += 9e-3;
-    jumps = jumps || std::fabs(evaluate<T, double>(low, params).c - evaluate<T, double>(high, params).c) > 1;
+    jumps = jumps ||
+            std::fabs(evaluate<T, double>(low, params).c - evaluate<T, double>(high, params).c) > max(1.0, 0.03 * scale);
   }
   return jumps;
+}
+
+/// True for an inverted co-rotational tetrahedron, whose nearest rotation may change at once, and for one stretched so far that green_strain is
+/// held.
+template <class T>
+bool is_at_a_kink(const Stencil<T, double>& x, const ParamsOf<T, double>& p) {
+  if constexpr (std::is_base_of_v<TetrahedronStrain, T>) {
+    const Vec3d a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
+    const Vec3d f[3] = {a * p.d00 + b * p.d10 + c * p.d20, a * p.d01 + b * p.d11 + c * p.d21,
+                        a * p.d02 + b * p.d12 + c * p.d22};
+    if (std::is_same_v<T, CorotationalStrain>) return dot(cross(f[0], f[1]), f[2]) < 0;
+    if (std::is_same_v<T, GreenStrain>) return dot(f[0], f[0]) + dot(f[1], f[1]) + dot(f[2], f[2]) > 100;
+  }
+  return false;
 }
 
 template <std::size_t n>
@@ -67,10 +82,11 @@ TYPED_TEST(Formula, GradientIsTheDerivative) {
     const auto params = random_params<TypeParam>(this->random_);
     const auto value = evaluate<TypeParam, double>(x, params);
     const double scale = largest_of(value.gradient);
+    if (is_at_a_kink<TypeParam>(x, params)) continue;
     for (std::size_t slot = 0; slot < x.size(); ++slot) {
       const Vec3d numeric{difference<TypeParam>(x, params, slot, 0), difference<TypeParam>(x, params, slot, 1),
                           difference<TypeParam>(x, params, slot, 2)};
-      if (has_jump<TypeParam>(x, params, slot)) {
+      if (has_jump<TypeParam>(x, params, slot, scale)) {
         ++jumps;
         continue;
       }
