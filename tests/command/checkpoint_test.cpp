@@ -129,7 +129,7 @@ TEST_F(Checkpoint, ObjectsThatWereCutGoOnInTheSameBits) {
   Uninterrupted whole(pliant::read_scene(path("cut.json")));
   for (const int frames : {2, 12, 20}) {
     ASSERT_EQ(run({"cut.json", "--frames", std::to_string(frames), "--checkpoint", "a"}), 0) << said();
-    ASSERT_EQ(run({"cut.json", "--resume", "a", "--checkpoint", "b", "--threads", "1", "--out", "end.glb"}), 0) << said();
+    ASSERT_EQ(run({"cut.json", "--resume", "a", "--checkpoint", "b", "--threads", "1", "--out", "end/f.ply"}), 0) << said();
   }
   const pliant::LoadedWorld end = pliant::load_world(path("b"));
   EXPECT_EQ(end.world.state_hash(), whole.after(24));
