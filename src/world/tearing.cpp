@@ -175,7 +175,7 @@ std::vector<Vec3d> exact_positions(const WorldData& world, int number) {
   const CompiledObject& object = world.model.objects[number];
   std::vector<Vec3d> positions;
   for (int user = 0; user < object.user_particles; ++user) {
-    const auto at = static_cast<std::size_t>(world.model.first[number] + object.place[user]);
+    const int at = world.model.first[number] + object.place[user];
     const Record &x = world.state.positions[at], &r = world.state.remainders[at];
     positions.push_back(convert<double>(Vec3f{x.x, x.y, x.z}) + convert<double>(Vec3f{r.x, r.y, r.z}));
   }
