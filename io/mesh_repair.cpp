@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "math/disjoint_sets.h"
 #include "mesh_polygons.h"
 
 namespace pliant {
@@ -95,21 +96,15 @@ std::vector<int> find_first_in_place(const std::vector<Vec3f>& positions) {
 /// For each vertex, the first one at the same position to which edges of length zero connect it. Such vertices are one,
 /// whatever else is at that position.
 std::vector<int> find_connected_in_place(const TriangleMesh& mesh) {
-  std::vector<int> parent(mesh.positions.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[index(i)] != i) i = parent[index(i)] = parent[index(parent[index(i)])];
-    return i;
-  };
+  DisjointSets places(mesh.positions.size());
   for (const Triangle& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const int a = t[k], b = t[(k + 1) % 3];
-      if (!(mesh.positions[index(a)] == mesh.positions[index(b)])) continue;
-      const auto [first, second] = std::minmax({root(a), root(b)});
-      parent[index(second)] = first;
+      const std::size_t a = index(t[k]), b = index(t[(k + 1) % 3]);
+      if (mesh.positions[a] == mesh.positions[b]) places.join(a, b);
     }
-  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = root(static_cast<int>(i));
-  return parent;
+  std::vector<int> first(mesh.positions.size());
+  for (std::size_t i = 0; i < first.size(); ++i) first[i] = static_cast<int>(places.root(i));
+  return first;
 }
 
 /// A triangle rotated so that its smallest corner comes first; so triangles that differ only in their start are equal.

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "math/disjoint_sets.h"
+
 namespace pliant {
 
 namespace {
@@ -13,24 +15,17 @@ namespace {
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// For each node, the first node of its part.
-std::vector<int> parts_of(const TetrahedralMesh& mesh) {
-  std::vector<int> parent(mesh.positions.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[index(i)] != i) i = parent[index(i)] = parent[index(parent[index(i)])];
-    return i;
-  };
+std::vector<std::size_t> parts_of(const TetrahedralMesh& mesh) {
+  DisjointSets parts(mesh.positions.size());
   for (const auto& corners : mesh.tetrahedra)
-    for (const int corner : corners) {
-      const auto [first, second] = std::minmax({root(corners[0]), root(corner)});
-      parent[index(second)] = first;
-    }
-  for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = root(static_cast<int>(i));
-  return parent;
+    for (const int corner : corners) parts.join(index(corners[0]), index(corner));
+  std::vector<std::size_t> first(mesh.positions.size());
+  for (std::size_t i = 0; i < first.size(); ++i) first[i] = parts.root(i);
+  return first;
 }
 
 /// How many nodes are at the position of another one that belongs to another part.
-std::size_t count_touching(const std::vector<Vec3f>& positions, const std::vector<int>& parts) {
+std::size_t count_touching(const std::vector<Vec3f>& positions, const std::vector<std::size_t>& parts) {
   std::vector<int> order(positions.size());
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int i) {
@@ -49,8 +44,8 @@ std::size_t count_touching(const std::vector<Vec3f>& positions, const std::vecto
 }  // namespace
 
 std::string note_of_touching_parts(const TetrahedralMesh& mesh) {
-  const std::vector<int> parts = parts_of(mesh);
-  if (std::count(parts.begin(), parts.end(), 0) == static_cast<std::ptrdiff_t>(parts.size())) return {};
+  const std::vector<std::size_t> parts = parts_of(mesh);
+  if (std::count(parts.begin(), parts.end(), std::size_t{0}) == static_cast<std::ptrdiff_t>(parts.size())) return {};
   const std::size_t count = count_touching(mesh.positions, parts);
   if (count == 0) return {};
   const std::string nodes =

@@ -34,18 +34,9 @@ double size_of(const ConvexShape& shape) {
   return static_cast<double>(std::max(shape.core_radius, shape.half_length));
 }
 
-Feature moved(Feature feature, const Posed& pose) {
-  for (int i = 0; i < feature.count; ++i) {
-    Vec3d& point = feature.points[static_cast<std::size_t>(i)];
-    point = to_world(pose, point);
-  }
-  feature.normal = rotate(pose.rotation, feature.normal);
-  return feature;
-}
-
 Feature facing_feature(const ConvexShape& shape, const Posed& pose, const Vec3d& direction, double margin, double turning) {
   const double slack = std::max(std::min(margin, flat_share * size_of(shape)), turning);
-  return moved(feature_towards(shape, rotate(conjugate(pose.rotation), direction), slack), pose);
+  return feature_towards(shape, pose, direction, slack);
 }
 
 /// Two segments that are nearly parallel: where they lie side by side, one is a narrow polygon to the other.
@@ -80,6 +71,16 @@ std::vector<TouchPoint> points_between(const Feature& a, const Feature& b, const
 }
 
 }  // namespace
+
+Feature feature_towards(const ConvexShape& shape, const Posed& pose, const Vec3d& direction, double slack) {
+  Feature feature = feature_towards(shape, rotate(conjugate(pose.rotation), direction), slack);
+  for (int i = 0; i < feature.count; ++i) {
+    Vec3d& point = feature.points[static_cast<std::size_t>(i)];
+    point = to_world(pose, point);
+  }
+  feature.normal = rotate(pose.rotation, feature.normal);
+  return feature;
+}
 
 Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double margin, double turning) {
   if (are_polyhedra(a, b))

@@ -7,9 +7,12 @@
 #include "math/vector.h"
 #include "pliant/body.h"
 #include "pliant/world.h"
+#include "support/run.h"
 
 namespace pliant {
 namespace {
+
+using testing_support::run;
 
 constexpr float dt = 1.f / 60;
 
@@ -119,7 +122,7 @@ TEST(BoxOnRound, ADynamicBallBearsABox) {
   ground.static_friction = ground.kinetic_friction = 0.8f;
   scene.add(ground);
   World world(scene);
-  for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(dt).ok());
+  run(world, 120);
   EXPECT_NEAR(length(world.object(0).positions()[0] - world.object(1).positions()[0]), 1.02f, 5e-4f);
 }
 
@@ -148,7 +151,7 @@ TEST(BoxOnRound, ATumblingBoxComesToRest) {
   lying.velocity = {0.1f, 0, 0.05f};
   lying.spin = {4, 2, 3};
   World world(on_collider(lying, ball(1)));
-  for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(dt).ok());
+  run(world, 120);
   EXPECT_NEAR(length(world.object(0).positions()[0]), 1.02f, 5e-4f);
 }
 
@@ -159,7 +162,7 @@ TEST(BoxOnRound, ABallThatTurnsSlowlyCarriesABox) {
   Lying lying;
   lying.angle = 0.2f;
   World world(on_collider(lying, turning));
-  for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(dt).ok());
+  run(world, 120);
   const Vec3f p = world.object(0).positions()[0];
   EXPECT_NEAR(length(p), 1.02f, 5e-4f);
   EXPECT_NEAR(std::atan2(p.x, p.y), -0.2f, 0.01f);
@@ -183,7 +186,7 @@ TEST(BoxOnRound, ABallRollsOverABoxAsBefore) {
   ground.static_friction = ground.kinetic_friction = 0.5f;
   scene.add(ground);
   World world(scene);
-  for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(dt).ok());
+  run(world, 60);
   EXPECT_NEAR(world.object(1).positions()[0].x, 0.02f, 1e-3f);
 }
 

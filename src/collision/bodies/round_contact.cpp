@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/convex_contact.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -52,16 +53,6 @@ bool is_round(const ConvexShape& shape) {
 bool b_is_round(const ConvexShape& a, const ConvexShape& b, const Rocking& rocking) {
   if (!is_round(a) || !(rocking.on_a > 0)) return true;
   return is_round(b) && rocking.on_b > 0 && Pair::radius_of(b) > Pair::radius_of(a);
-}
-
-Feature feature_of(const ConvexShape& shape, const Posed& pose, const Vec3d& direction, double slack) {
-  Feature feature = feature_towards(shape, rotate(conjugate(pose.rotation), direction), slack);
-  for (int i = 0; i < feature.count; ++i) {
-    Vec3d& point = feature.points[static_cast<std::size_t>(i)];
-    point = to_world(pose, point);
-  }
-  feature.normal = rotate(pose.rotation, feature.normal);
-  return feature;
 }
 
 /// Half of the extent of a feature along a unit vector.
@@ -170,7 +161,7 @@ Touch with_corners(const ConvexShape& a, const ConvexShape& b, const Posed& pose
   if (found.count == 0 || !may_rock(pair)) return found;
   const double reach = std::min(std::sqrt(2 * pair.radius() * rocking.height), pair.steepest * pair.radius());
   const double slack = reach * reach / pair.radius();  // twice the height of what is within reach
-  const Feature flat = feature_of(pair.flat, pair.flat_pose, -pair.outward, slack);
+  const Feature flat = feature_towards(pair.flat, pair.flat_pose, -pair.outward, slack);
   if (flat.count < 3) return found;
   const TouchPoint& nearest = nearest_of(found);
   const Footprint footprint = footprint_of(pair, flat, swapped ? nearest.on_a : nearest.on_b, reach);

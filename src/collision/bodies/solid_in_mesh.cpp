@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "geometry/convex_contact.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -34,13 +35,7 @@ Vec3d SolidInMesh::support(const Vec3d& direction) const {
 }
 
 Feature SolidInMesh::feature(const Vec3d& direction, double slack) const {
-  Feature feature = feature_towards(shape_, rotate(conjugate(pose_.rotation), direction), slack);
-  for (int i = 0; i < feature.count; ++i) {
-    Vec3d& point = feature.points[static_cast<std::size_t>(i)];
-    point = to_world(pose_, point);
-  }
-  feature.normal = rotate(pose_.rotation, feature.normal);
-  return feature;
+  return feature_towards(shape_, pose_, direction, slack);
 }
 
 BoxBounds SolidInMesh::box(double margin) const {
