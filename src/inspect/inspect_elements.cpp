@@ -24,7 +24,10 @@ struct ElementType {
   std::size_t first;  ///< rest field from which on zeros have no effect
   bool needs_shape;   ///< true: it has no effect on a flat element; false: it acts on an edge of that
 };
-constexpr std::array<ElementType, 5> element_types{{{"tetrahedron_shear", 4, 0, true},
+constexpr std::array<ElementType, 8> element_types{{{"tetrahedron_shear", 4, 0, true},
+                                                    {"corotational_strain", 4, 0, true},
+                                                    {"green_strain", 4, 0, true},
+                                                    {"green_trace", 4, 0, true},
                                                     {"tetrahedron_volume", 4, 0, true},
                                                     {"fibre", 4, 1, false},
                                                     {"triangle_stretch", 3, 1, false},

@@ -265,7 +265,8 @@ Scene element(const std::string& type, const std::vector<Vec3f>& positions, std:
 TEST(InspectScene, NamesConstraintsOnFlatElements) {
   const std::vector<Vec3f> flat{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
       solid{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (const char* type : {"tetrahedron_shear", "tetrahedron_volume", "fibre"}) {
+  for (const char* type :
+       {"tetrahedron_shear", "corotational_strain", "green_strain", "green_trace", "tetrahedron_volume", "fibre"}) {
     const std::string text = finding(element(type, flat), "in one plane at rest");
     EXPECT_NE(text.find("object 'one', constraint group 1, " + std::string(type) + " constraint 0: "), std::string::npos)
         << text;
