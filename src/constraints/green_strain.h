@@ -18,8 +18,8 @@ namespace pliant {
 struct GreenStrain : TetrahedronStrain {
   static constexpr const char* name = "green_strain";
   static constexpr bool is_arithmetic = true;
-  /// Largest change of F in one projection, by which C is held: it matters beyond 16 times the length and where a tetrahedron is pressed
-  /// nearly flat, since the gradient vanishes there, and C does not.
+  /// Largest change of F in one projection, as a share of |F| or of 1, by which C is held. It matters alone where a tetrahedron that is not
+  /// stretched is pressed nearly flat, to a twentieth: the gradient vanishes there, and C does not.
   static constexpr float most_step = 8;
 
   /// C is zero without a direction at rest; the gradients are then zero.
@@ -31,7 +31,7 @@ struct GreenStrain : TetrahedronStrain {
     const R scale = share * R(2) / max(value, R(1e-7f));
     const ByColumns<R> g = f.times(e);
     to_corners({g.x * scale, g.y * scale, g.z * scale}, p, gradient);
-    return min(value * share, R(most_step) * sqrt(g.squares()) * scale);
+    return min(value * share, R(most_step) * sqrt(max(f.squares(), R(1)) * g.squares()) * scale);
   }
 };
 

@@ -54,16 +54,14 @@ bool has_jump(const Stencil<T, double>& at, const ParamsOf<T, double>& params, s
   return jumps;
 }
 
-/// True for an inverted co-rotational tetrahedron, whose nearest rotation may change at once, and for one stretched so far that green_strain is
-/// held.
+/// True for an inverted co-rotational tetrahedron, whose nearest rotation may change at once.
 template <class T>
 bool is_at_a_kink(const Stencil<T, double>& x, const ParamsOf<T, double>& p) {
-  if constexpr (std::is_base_of_v<TetrahedronStrain, T>) {
+  if constexpr (std::is_same_v<T, CorotationalStrain>) {
     const Vec3d a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
     const Vec3d f[3] = {a * p.d00 + b * p.d10 + c * p.d20, a * p.d01 + b * p.d11 + c * p.d21,
                         a * p.d02 + b * p.d12 + c * p.d22};
-    if (std::is_same_v<T, CorotationalStrain>) return dot(cross(f[0], f[1]), f[2]) < 0;
-    if (std::is_same_v<T, GreenStrain>) return dot(f[0], f[0]) + dot(f[1], f[1]) + dot(f[2], f[2]) > 100;
+    return dot(cross(f[0], f[1]), f[2]) < 0;
   }
   return false;
 }
