@@ -34,9 +34,9 @@ void add_stitches(Object& object, std::span<const std::array<int, 2>> pairs, con
 
 /// The Edit that makes one particle of those of each pair, and of all that pairs link. It has the mass of all, and place and velocity of a
 /// pinned one, or else the heaviest: so weld what is together already, or momentum changes. Constraints keep their rest data; those that lose a
-/// particle, as stitches do, are left out. A seam bends freely, and plastic flow beside it is lost. Object::positions are those of one side,
-/// by which later tears of soft bodies are judged. Throws an Error if a particle does not exist, a triangle has two particles of a pair, or the
-/// object has bodies or Absorbency, or is a liquid, gas or grains.
+/// particle, as stitches do, are left out, and so are triangles that meet inside a soft body. A seam bends freely, and plastic flow beside it is
+/// lost. Object::positions are those of one side, by which later tears of soft bodies are judged. Throws an Error if a particle does not exist,
+/// a triangle has two particles of a pair, or the object has bodies or Absorbency, or is a liquid, gas or grains.
 Edit weld(const Object& object, std::span<const std::array<int, 2>> pairs);
 
 }  // namespace pliant

@@ -39,6 +39,9 @@ bool is_never_reached(const Object& object) {
   return false;
 }
 
+/// True if a World has made a cut, and has said so in the description.
+bool is_made(const PlaneCut& cut) { return std::isinf(cut.start) && cut.start > 0 && cut.start == cut.end; }
+
 void check_tearing(Problems& problems, const Object& object) {
   if (!object.tearing) return;
   if (!(object.tearing->stretch > 1 && object.tearing->stretch <= 1e6f))
@@ -58,6 +61,7 @@ void check_tearing(Problems& problems, const Object& object) {
 }
 
 void check_cut(Problems& problems, const PlaneCut& cut, const std::string& name) {
+  if (is_made(cut)) return;
   require_range(problems, name + ", start", static_cast<double>(cut.start), 0, static_cast<double>(largest_place));
   require_range(problems, name + ", end", static_cast<double>(cut.end), static_cast<double>(cut.start),
                 static_cast<double>(largest_place));
@@ -144,6 +148,7 @@ void doubt_tears(Problems& problems, const Object& object, const Scene& scene) {
   for (std::size_t i = 0; i < object.cuts.size(); ++i) {
     const PlaneCut& cut = object.cuts[i];
     const std::string name = "cut " + std::to_string(i);
+    if (is_made(cut)) continue;
     if (static_cast<double>(cut.start) > scene.frames * static_cast<double>(scene.frame_time))
       problems.doubtful(name, "starts after the last frame", "give more frames, or an earlier time");
     bool is_before = false, is_behind = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -12,6 +13,7 @@
 #include "math/disjoint_sets.h"
 #include "math/vector.h"
 #include "matter/edit_parts.h"
+#include "model/soft_body_substeps.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -95,6 +97,7 @@ class Welding {
     for (ConstraintGroup& group : to.constraints) group = welded(group);
     std::erase_if(to.constraints, [](const ConstraintGroup& group) { return group.particles.empty(); });
     for (std::array<int, 3>& triangle : to.triangles) weld_triangle(triangle);
+    if (is_soft_body(object_)) remove_inner_faces(to.triangles);
     hold(to.pins);
     hold(to.attachments);
     for (Cluster& cluster : to.clusters) weld_cluster(cluster);
@@ -147,6 +150,17 @@ class Welding {
                    .element = "triangle " + std::to_string(before[0]) + ", " + std::to_string(before[1]) + ", " +
                               std::to_string(before[2])},
                   "has two particles that become one", "weld particles of different triangles");
+  }
+
+  /// Triangles of the surfaces of two tetrahedra become one inner face, which is part of no surface.
+  static void remove_inner_faces(std::vector<std::array<int, 3>>& triangles) {
+    std::map<std::array<int, 3>, int> count;
+    const auto key = [](std::array<int, 3> triangle) {
+      std::sort(triangle.begin(), triangle.end());
+      return triangle;
+    };
+    for (const std::array<int, 3>& triangle : triangles) ++count[key(triangle)];
+    std::erase_if(triangles, [&](const std::array<int, 3>& triangle) { return count[key(triangle)] == 2; });
   }
 
   /// Pins and attachments follow. Of the pins of particles that become one the first stays.

@@ -37,7 +37,7 @@ Multipliers kept_multipliers(const Settings& settings, Sweep sweep) {
 bool breaks(const WorldData& world, int number) {
   if (world.descriptions.empty()) return false;
   const auto found = world.descriptions.find(world.ids.objects.id_of(number).slot);
-  return found != world.descriptions.end() && can_break(found->second.object);
+  return found != world.descriptions.end() && can_break(found->second);
 }
 
 /// The part of the State that belongs to one object, in storage order.

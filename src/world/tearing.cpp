@@ -5,6 +5,7 @@
 #include <array>
 #include <exception>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -27,9 +28,14 @@ namespace pliant {
 
 namespace {
 
-/// True if a blade has been in an object since its cuts were made last.
-bool is_due(const PlaneCut& cut, double made_until, double now) {
-  return static_cast<double>(cut.start) <= now && static_cast<double>(cut.end) >= made_until;
+/// True if a blade is in an object, or has passed and its cut is not made yet.
+bool is_due(const PlaneCut& cut, double now) { return static_cast<double>(cut.start) <= now; }
+
+/// Cuts that blades have passed are made, and not again where an edit joins what they parted. Those of rods, whose broken joints are part of
+/// the State, are made again after an earlier one is restored.
+void mark_made(std::vector<PlaneCut>& cuts, double now) {
+  for (PlaneCut& cut : cuts)
+    if (static_cast<double>(cut.end) <= now) cut.start = cut.end = std::numeric_limits<float>::infinity();
 }
 
 /// How many constraints fewer each group has, in all; a group that has more counts as none.
@@ -127,7 +133,7 @@ class MiddlesAround {
 void open_gaps(WorldData& world, ObjectId id, const Copies& copies) {
   constexpr double share = 0.01;  // of the way to the middle of what is around a particle
   const std::vector<Vec3f> positions = ObjectView(world, id).positions();
-  const MiddlesAround middles(world.descriptions.at(id.slot).object, copies, positions);
+  const MiddlesAround middles(world.descriptions.at(id.slot), copies, positions);
   const int number = world.number(id), first = world.model.first[number];
   for (const auto& [origin, all] : copies) {
     double mass = 0;
@@ -154,7 +160,7 @@ void open_gaps(WorldData& world, ObjectId id, const Copies& copies) {
 
 /// Makes an edit of an object that tears.
 void open_up(WorldData& world, ObjectId id, Edit&& edit, Report& report) {
-  const Object& before = world.descriptions.at(id.slot).object;
+  const Object& before = world.descriptions.at(id.slot);
   const Copies copies = copies_of(edit.from, static_cast<int>(before.positions.size()));
   const Torn torn{id, static_cast<int>(edit.object.positions.size() - before.positions.size()),
                   lost_constraints(before, edit.object)};
@@ -198,19 +204,18 @@ std::optional<Edit> broken_by_force(const WorldData& world, ObjectId id, const O
 
 void tear_object(WorldData& world, ObjectId id, Report& report) {
   const double now = world.state.time;
-  TornObject& torn = world.descriptions.at(id.slot);
-  const std::vector<PlaneCut>& cuts = torn.object.cuts;
+  Object& torn = world.descriptions.at(id.slot);
   const bool is_being_cut =
-      std::any_of(cuts.begin(), cuts.end(), [&](const PlaneCut& cut) { return is_due(cut, torn.cut_until, now); });
+      std::any_of(torn.cuts.begin(), torn.cuts.end(), [&](const PlaneCut& cut) { return is_due(cut, now); });
   if (is_being_cut)
-    if (std::optional<Edit> edit = make_cuts(torn.object, now)) open_up(world, id, std::move(*edit), report);
-  torn.cut_until = now;
-  if (can_break(torn.object))
-    if (std::optional<Edit> edit = broken_by_force(world, id, torn.object)) open_up(world, id, std::move(*edit), report);
-  if (torn.object.tearing)
-    if (std::optional<Edit> edit = tear(torn.object, ObjectView(world, id).positions()))
+    if (std::optional<Edit> edit = make_cuts(torn, now)) open_up(world, id, std::move(*edit), report);
+  if (can_break(torn))
+    if (std::optional<Edit> edit = broken_by_force(world, id, torn)) open_up(world, id, std::move(*edit), report);
+  if (torn.tearing)
+    if (std::optional<Edit> edit = tear(torn, ObjectView(world, id).positions()))
       open_up(world, id, std::move(*edit), report);
-  if (has_rods(torn.object)) tear_rods(world, id, torn.object, is_being_cut, report);
+  if (has_rods(torn)) tear_rods(world, id, torn, is_being_cut, report);
+  if (!has_rods(torn)) mark_made(torn.cuts, now);
 }
 
 }  // namespace
@@ -220,12 +225,12 @@ void keep_description(WorldData& world, int slot, const Object* object) {
     world.descriptions.erase(slot);
     return;
   }
-  world.descriptions[slot] = {*object, -1};
+  world.descriptions[slot] = *object;
 }
 
 void keep_description(WorldData& world, int slot, Object&& object) {
   if (comes_apart(object))
-    world.descriptions[slot] = {std::move(object), -1};
+    world.descriptions[slot] = std::move(object);
   else
     world.descriptions.erase(slot);
 }
@@ -238,7 +243,7 @@ void tear_objects(WorldData& world, Report& report) {
     try {
       tear_object(world, id, report);
     } catch (const std::exception& error) {  // it stays whole
-      report.warnings.push_back("object '" + found->second.object.name + "' could not tear: " + error.what());
+      report.warnings.push_back("object '" + found->second.name + "' could not tear: " + error.what());
     }
   }
 }
@@ -249,7 +254,7 @@ const Object& ObjectView::description() const {
   if (found == read_->descriptions.end())
     throw Error({.object = name}, "has no description in the World",
                 "keep the Object that you added; only those that tear or are cut are kept");
-  return found->second.object;
+  return found->second;
 }
 
 }  // namespace pliant

@@ -53,12 +53,6 @@ struct WorldEvents {
   std::vector<ContactEvent> of_last_step;
 };
 
-/// An object that the World tears and cuts.
-struct TornObject {
-  Object object;          ///< its present description
-  double cut_until = -1;  ///< up to when its cuts are made [s]
-};
-
 struct WorldData {
   /// `with` are the settings chosen where those given are open. If `given_away` is not null, it is `scene`; its objects
   /// are freed as soon as they are compiled.
@@ -82,7 +76,7 @@ struct WorldData {
   WorldGroups groups;
   OverstretchRecord overstretch;
   WorldEvents events;
-  std::map<int, TornObject> descriptions;   ///< of objects that tear or are cut, by slot of their id
+  std::map<int, Object> descriptions;       ///< of objects that tear or are cut, by slot of their id
   bool stopped = false;                     ///< true after a value that is not finite, until a State is restored
   const std::atomic<bool>* stop = nullptr;  ///< flag given to World::stop_when
   bool may_drift = false;  ///< fixed particles may have a velocity from a frame in which the user moved them

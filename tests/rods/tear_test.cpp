@@ -169,6 +169,16 @@ TEST(RodThatIsCut, GoesOnFromALayoutAndAStateWithTheSameBits) {
   }
 }
 
+TEST(RodThatIsCut, IsCutAgainAfterAnEarlierStateIsRestored) {
+  Lone lone(stalks());
+  const State start = lone.world.state();
+  lone.run(1);
+  const std::string once = lone.world.state_hash();
+  lone.world.restore(start);
+  lone.run(1);
+  EXPECT_EQ(lone.world.state_hash(), once);
+}
+
 TEST(RodThatIsCut, HasTheSameBitsOnTwoThreads) {
   std::vector<std::string> hashes;
   for (const int threads : {1, 2}) {

@@ -2,6 +2,7 @@
 #include <atomic>
 
 #include "pliant/edit.h"
+#include "pliant/stitch.h"
 #include "tears/tears_support.h"
 
 namespace pliant {
@@ -90,6 +91,35 @@ TEST(PlaneCut, HalvesFallApartAndDoNotPassThroughEachOther) {
   EXPECT_EQ(pieces_of(world.object(ObjectId(0)).description()), 2);
   EXPECT_EQ(world.measure().tetrahedra().inverted, 0);
   for (const Vec3f& p : world.object(ObjectId(0)).positions()) EXPECT_GT(p.y, -0.13f);
+}
+
+/// The particles that a cut has parted, in pairs: they have one place at rest.
+std::vector<std::array<int, 2>> seam_of(const Object& object) {
+  std::vector<std::array<int, 2>> pairs;
+  for (int b = 0; b < static_cast<int>(object.positions.size()); ++b)
+    for (int a = 0; a < b; ++a)
+      if (object.positions[static_cast<std::size_t>(a)] == object.positions[static_cast<std::size_t>(b)])
+        pairs.push_back({a, b});
+  return pairs;
+}
+
+TEST(PlaneCut, IsNotMadeAgainWhereItsSidesAreWelded) {
+  Object object = block();
+  object.cuts = {{0.1f, 0.1f, {}, {1, 0, 0}, {0, -1, 0}}, {1, 1, {0.1f, 0, 0}, {1, 0, 0}, {0, -1, 0}}};
+  World world(weightless(object, 20));
+  const ObjectId id(0);
+  EXPECT_EQ(run_and_tear(world, 10).new_particles, 9);
+  const Object& cut = world.object(id).description();
+  for (const Finding& finding : inspect(weightless(cut, 20)))
+    EXPECT_EQ(finding.message.find("cut "), std::string::npos) << finding.message;
+  const Edit whole = weld(cut, seam_of(cut));
+  EXPECT_EQ(whole.object.positions.size(), object.positions.size());
+  EXPECT_EQ(whole.object.triangles.size(), object.triangles.size()) << "faces of the seam are inside again";
+  world.edit(id, whole);
+  EXPECT_EQ(run_and_tear(world, 40).new_particles, 0);
+  EXPECT_EQ(pieces_of(world.object(id).description()), 1);
+  EXPECT_EQ(run_and_tear(world, 20).new_particles, 9) << "the cut that was still to come";
+  EXPECT_EQ(pieces_of(world.object(id).description()), 2);
 }
 
 TEST(PartTriangles, PartsASheetByNumbers) {
