@@ -182,7 +182,7 @@ struct Tearing {
   float stretch = 1.5f;  ///< greatest length over that at rest, > 1 [-]
 };
 
-/// A cut along a plane of the rest shape, made by World::step, whose description then has infinite times. It follows edges, faces and joints of rods.
+/// A cut along a plane of the rest shape, along edges, faces and joints. Once World::step has made it, description() has infinite times, but of rods.
 struct PlaneCut {
   float start = 0, end = 0;  ///< when the blade enters the object, and when it has passed; equal: at once [s]
   Vec3f point{};             ///< of the plane [m]

@@ -214,8 +214,10 @@ void tear_object(WorldData& world, ObjectId id, Report& report) {
   if (torn.tearing)
     if (std::optional<Edit> edit = tear(torn, ObjectView(world, id).positions()))
       open_up(world, id, std::move(*edit), report);
-  if (has_rods(torn)) tear_rods(world, id, torn, is_being_cut, report);
-  if (!has_rods(torn)) mark_made(torn.cuts, now);
+  if (has_rods(torn))
+    tear_rods(world, id, torn, is_being_cut, report);
+  else
+    mark_made(torn.cuts, now);
 }
 
 }  // namespace
