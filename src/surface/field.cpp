@@ -3,16 +3,13 @@
 
 #include <algorithm>
 
+#include "core/at.h"
 #include "parallel/ranges.h"
 #include "surface/reached_blocks.h"
 
 namespace pliant::surface {
 
 namespace {
-
-constexpr int blocks_at_a_time = 16;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 using BrickValues = std::array<float, brick_nodes>;
 
@@ -46,13 +43,13 @@ class KernelList {
   void clear() { count_ = 0; }
   /// Appends those that reach the box.
   void add(const Sources& from, const ParticleRange& range, const Box& box) {
-    make_room(index(count_ + range.last - range.first + 16));
+    make_room(at(count_ + range.last - range.first + 16));
     count_ = from.kernels.gather(rows_of(from.cells, from.splats), range, box, count_, rows<float>(), numbers_.data());
   }
   /// Those of the list that reach a smaller box.
   std::span<const int> choose(const SurfaceKernels& kernels, const Box& box) {
     const int chosen = kernels.choose(rows<const float>(), numbers_.data(), count_, box, chosen_.data());
-    return {chosen_.data(), index(chosen)};
+    return {chosen_.data(), at(chosen)};
   }
 
  private:
@@ -74,13 +71,13 @@ class KernelList {
 };
 
 std::span<const Keyed> cells_of(const ReachedBlocks& reached, int block) {
-  return {reached.cells.data() + reached.first[index(block)], reached.cells.data() + reached.first[index(block) + 1]};
+  return {reached.cells.data() + reached.first[at(block)], reached.cells.data() + reached.first[at(block) + 1]};
 }
 
 Vec3f origin_of(const Sources& from, int block) {
-  const Cell at = cell_of(from.reached.keys[index(block)]);
+  const Cell cell = cell_of(from.reached.keys[at(block)]);
   const float side = static_cast<float>(block_side) * from.cell;
-  return {static_cast<float>(at.x) * side, static_cast<float>(at.y) * side, static_cast<float>(at.z) * side};
+  return {static_cast<float>(cell.x) * side, static_cast<float>(cell.y) * side, static_cast<float>(cell.z) * side};
 }
 
 /// The box of `side` nodes along each axis.
@@ -97,8 +94,8 @@ bool is_deep(const ParticleCells& cells, const Box& box) {
   for (int z = low.z; z <= high.z; ++z)
     for (int y = low.y; y <= high.y; ++y)
       for (int x = low.x; x <= high.x; ++x) {
-        const int at = cells.find({x, y, z});
-        if (at < 0 || cells.fills[index(at)] != Fill::enclosed) return false;
+        const int cell = cells.find({x, y, z});
+        if (cell < 0 || cells.fills[at(cell)] != Fill::enclosed) return false;
       }
   return true;
 }
@@ -122,19 +119,19 @@ void list_kernels(const Sources& from, int block, const Vec3f& origin, KernelLis
   const Box box = box_of(origin, block_side, from.cell);
   list.clear();
   for (const Keyed& range : cells_of(from.reached, block))
-    list.add(from, {from.cells.first[index(range.first)], from.cells.first[index(range.last)]}, box);
+    list.add(from, {from.cells.first[at(range.first)], from.cells.first[at(range.last)]}, box);
 }
 
 /// Keeps the bricks in `values` that have some, of which `places` says which; -1 if one has none.
 void store(const std::array<BrickValues, block_bricks>& values, int count, const std::array<int, block_bricks>& places,
            FieldBlock& block) {
-  block.storage = std::unique_ptr<float[]>(new float[index(count * brick_nodes)]);
+  block.storage = std::unique_ptr<float[]>(new float[at(count * brick_nodes)]);
   for (int brick = 0; brick < block_bricks; ++brick) {
-    const int place = places[index(brick)];
+    const int place = places[at(brick)];
     if (place < 0) continue;
     float* const to = block.storage.get() + place * brick_nodes;
-    std::copy_n(values[index(place)].data(), brick_nodes, to);
-    block.values[index(brick)] = to;
+    std::copy_n(values[at(place)].data(), brick_nodes, to);
+    block.values[at(brick)] = to;
   }
 }
 
@@ -146,7 +143,7 @@ void evaluate(const Sources& from, int number, KernelList& list, FieldBlock& blo
   std::array<int, block_bricks> places;
   int count = 0;
   for (int brick = 0; brick < block_bricks; ++brick) {
-    const std::size_t b = index(brick);
+    const std::size_t b = at(brick);
     const bool is_full = (deep >> brick & 1U) != 0;
     places[b] = -1;
     block.values[b] = is_full ? full_brick() : empty_brick();
@@ -158,7 +155,7 @@ void evaluate(const Sources& from, int number, KernelList& list, FieldBlock& blo
     if (chosen.empty()) continue;
     places[b] = count++;
     block.inside[b] = from.kernels.sum(from.splats.all.data(), chosen.data(), static_cast<int>(chosen.size()),
-                                       {origin, corner, from.cell, surface_level}, values[index(places[b])].data());
+                                       {origin, corner, from.cell, surface_level}, values[at(places[b])].data());
   }
   if (count > 0) store(values, count, places, block);
 }
@@ -174,7 +171,7 @@ float Field::at(int block, int node) const {
   const int x = node % block_side, y = node / block_side % block_side, z = node / (block_side * block_side);
   const int brick = x / brick_side | y / brick_side << 1 | z / brick_side << 2;
   const int place = x % brick_side + brick_side * (y % brick_side + brick_side * (z % brick_side));
-  return blocks[index(block)].values[index(brick)][place];
+  return blocks[pliant::at(block)].values[pliant::at(brick)][place];
 }
 
 Field make_field(const ParticleCells& cells, const Splats& splats, float cell, Executor& executor,
@@ -185,10 +182,11 @@ Field make_field(const ParticleCells& cells, const Splats& splats, float cell, E
   field.table = KeyTable(reached.keys.size());
   for (const std::uint64_t key : reached.keys) field.table.insert(key);
   field.blocks.resize(reached.keys.size());
+  constexpr int blocks_at_a_time = 16;
   const Sources from{cells, splats, reached, kernels, cell};
   for_ranges(executor, "surface: field", static_cast<int>(reached.keys.size()), blocks_at_a_time, [&](int first, int last) {
     KernelList list;
-    for (int block = first; block < last; ++block) evaluate(from, block, list, field.blocks[index(block)]);
+    for (int block = first; block < last; ++block) evaluate(from, block, list, field.blocks[at(block)]);
   });
   field.keys = std::move(reached.keys);
   return field;

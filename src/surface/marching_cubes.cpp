@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/at.h"
 #include "parallel/ranges.h"
 #include "surface/brick_grid.h"
 #include "surface/cube_cases.h"
@@ -15,10 +16,7 @@ namespace pliant::surface {
 
 namespace {
 
-constexpr int blocks_at_a_time = 32;
 constexpr float least_share = 0.02f;  ///< of an edge between a vertex and a node, so that no triangle has two equal corners
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// The crossed edges of a brick, by axis, and the number of the first vertex of each axis.
 struct BrickEdges {
@@ -41,20 +39,20 @@ struct Workspace {
 };
 
 NodeSet inside_of(const Field& field, int brick) {
-  return brick < 0 ? 0 : field.blocks[index(brick / block_bricks)].inside[index(brick % block_bricks)];
+  return brick < 0 ? 0 : field.blocks[at(brick / block_bricks)].inside[at(brick % block_bricks)];
 }
 
 const float* values_of(const Field& field, int brick) {
-  return brick < 0 ? empty_brick() : field.blocks[index(brick / block_bricks)].values[index(brick % block_bricks)];
+  return brick < 0 ? empty_brick() : field.blocks[at(brick / block_bricks)].values[at(brick % block_bricks)];
 }
 
 /// True if all nodes of a block, and those above it, are on one side.
 bool is_uniform(const Workspace& w, int block) {
   NodeSet any = 0, all = ~NodeSet{0};
-  for (const int neighbour : w.neighbours[index(block)]) {
+  for (const int neighbour : w.neighbours[at(block)]) {
     if (neighbour < 0) all = 0;
     if (neighbour < 0) continue;
-    for (const NodeSet inside : w.field.blocks[index(neighbour)].inside) any |= inside, all &= inside;
+    for (const NodeSet inside : w.field.blocks[at(neighbour)].inside) any |= inside, all &= inside;
   }
   return any == 0 || all == ~NodeSet{0};
 }
@@ -69,11 +67,11 @@ CornerSets corners_of(const Workspace& w, const AroundBrick<int>& around) {
 void count(Workspace& w, int block) {
   if (is_uniform(w, block)) return;
   const std::array<CubeCase, 256>& cases = cube_cases();
-  const BrickGrid grid = bricks_above(w.neighbours[index(block)]);
+  const BrickGrid grid = bricks_above(w.neighbours[at(block)]);
   BlockCounts counts;
   for (int brick = 0; brick < block_bricks; ++brick) {
     const CornerSets c = corners_of(w, around_brick(grid, brick));
-    BrickEdges& edges = w.edges[index(block_bricks * block + brick)];
+    BrickEdges& edges = w.edges[at(block_bricks * block + brick)];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       edges.crossed[axis] = c[0] ^ c[std::size_t{1} << axis];
       edges.first[axis] = counts.vertices;
@@ -82,7 +80,7 @@ void count(Workspace& w, int block) {
     for (NodeSet mixed = mixed_cells(c); mixed != 0; mixed &= mixed - 1)
       counts.triangles += cases[case_of(c, std::countr_zero(mixed))].count;
   }
-  w.counts[index(block)] = counts;
+  w.counts[at(block)] = counts;
 }
 
 /// Places the vertices of a brick's edges along an axis.
@@ -91,15 +89,15 @@ void add_vertices(const Workspace& w, const AroundBrick<int>& around, int axis, 
   const double cell = static_cast<double>(w.field.cell);
   const float *const own = values_of(w.field, around[0]), *const above = values_of(w.field, around[std::size_t{1} << axis]);
   const int stride = 1 << (2 * axis), last = 3 * stride;  // of nodes along the axis
-  Vertex* to = &w.mesh.vertices[index(edges.first[index(axis)])];
-  for (NodeSet bits = edges.crossed[index(axis)]; bits != 0; bits &= bits - 1) {
+  Vertex* to = &w.mesh.vertices[at(edges.first[at(axis)])];
+  for (NodeSet bits = edges.crossed[at(axis)]; bits != 0; bits &= bits - 1) {
     const int node = std::countr_zero(bits);
     const float from = own[node];
     const float next = (node & last) == last ? above[node - last] : own[node + stride];
     const float share = std::clamp((surface_level - from) / (next - from), least_share, 1 - least_share);
     std::array<double, 3> place{static_cast<double>(corner.x + (node & 3)), static_cast<double>(corner.y + (node >> 2 & 3)),
                                 static_cast<double>(corner.z + (node >> 4))};
-    place[index(axis)] += static_cast<double>(share);
+    place[at(axis)] += static_cast<double>(share);
     *to++ = {static_cast<float>(place[0] * cell), static_cast<float>(place[1] * cell), static_cast<float>(place[2] * cell),
              0};
   }
@@ -107,16 +105,16 @@ void add_vertices(const Workspace& w, const AroundBrick<int>& around, int axis, 
 
 /// Numbers the vertices of a block in the whole mesh, and places them.
 void add_vertices(Workspace& w, int block) {
-  const Cell at = cell_of(w.field.keys[index(block)]);
-  const BrickGrid grid = bricks_above(w.neighbours[index(block)]);
+  const Cell cell = cell_of(w.field.keys[at(block)]);
+  const BrickGrid grid = bricks_above(w.neighbours[at(block)]);
   for (int brick = 0; brick < block_bricks; ++brick) {
-    BrickEdges& edges = w.edges[index(block_bricks * block + brick)];
+    BrickEdges& edges = w.edges[at(block_bricks * block + brick)];
     const AroundBrick<int> around = around_brick(grid, brick);
-    const Cell corner{block_side * at.x + brick_side * (brick & 1), block_side * at.y + brick_side * (brick >> 1 & 1),
-                      block_side * at.z + brick_side * (brick >> 2)};
+    const Cell corner{block_side * cell.x + brick_side * (brick & 1), block_side * cell.y + brick_side * (brick >> 1 & 1),
+                      block_side * cell.z + brick_side * (brick >> 2)};
     for (int axis = 0; axis < 3; ++axis) {
-      edges.first[index(axis)] += w.counts[index(block)].first_vertex;
-      if (edges.crossed[index(axis)] != 0) add_vertices(w, around, axis, corner, edges);
+      edges.first[at(axis)] += w.counts[at(block)].first_vertex;
+      if (edges.crossed[at(axis)] != 0) add_vertices(w, around, axis, corner, edges);
     }
   }
 }
@@ -148,21 +146,21 @@ void add_triangles(const Workspace& w, const AroundBrick<int>& around, const Cor
   static constexpr CornerPlaces corner_places = make_corner_places();
   const std::array<CubeCase, 256>& cases = cube_cases();
   AroundBrick<const BrickEdges*> edges;
-  for (std::size_t n = 0; n < 8; ++n) edges[n] = around[n] < 0 ? nullptr : &w.edges[index(around[n])];
+  for (std::size_t n = 0; n < 8; ++n) edges[n] = around[n] < 0 ? nullptr : &w.edges[at(around[n])];
   for (; mixed != 0; mixed &= mixed - 1) {
     const int cell = std::countr_zero(mixed);
     const CubeCase& of = cases[case_of(corners, cell)];
     std::array<int, 12> vertex;
     for (std::size_t i = 0; i < of.crossed_count; ++i) {
       const int edge = of.crossed[i];
-      const std::size_t axis = index(edge >> 2);
-      const CornerPlace& start = corner_places[index(cell)][index(edge_start(edge))];
-      const BrickEdges& owner = *edges[index(start.brick)];
-      vertex[index(edge)] = owner.first[axis] + size_of(owner.crossed[axis] & start.below);
+      const std::size_t axis = at(edge >> 2);
+      const CornerPlace& start = corner_places[at(cell)][at(edge_start(edge))];
+      const BrickEdges& owner = *edges[at(start.brick)];
+      vertex[at(edge)] = owner.first[axis] + size_of(owner.crossed[axis] & start.below);
     }
     for (std::size_t i = 0; i < of.crossed_count; ++i) {
       const std::size_t edge = of.crossed[i];
-      w.mesh.links[index(vertex[edge])][edge & 3] = vertex[of.next[edge]];
+      w.mesh.links[at(vertex[edge])][edge & 3] = vertex[of.next[edge]];
     }
     for (std::size_t t = 0; t < of.count; ++t) {
       const auto& triangle = of.triangles[t];
@@ -172,8 +170,8 @@ void add_triangles(const Workspace& w, const AroundBrick<int>& around, const Cor
 }
 
 void add_triangles(Workspace& w, int block) {
-  const BrickGrid grid = bricks_above(w.neighbours[index(block)]);
-  std::array<int, 3>* next = w.mesh.triangles.data() + w.counts[index(block)].first_triangle;
+  const BrickGrid grid = bricks_above(w.neighbours[at(block)]);
+  std::array<int, 3>* next = w.mesh.triangles.data() + w.counts[at(block)].first_triangle;
   for (int brick = 0; brick < block_bricks; ++brick) {
     const AroundBrick<int> around = around_brick(grid, brick);
     const CornerSets corners = corners_of(w, around);
@@ -192,27 +190,28 @@ void make_room(Workspace& w) {
     triangles += counts.triangles;
   }
   w.mesh.size = vertices;
-  w.mesh.vertices = std::unique_ptr<Vertex[]>(new Vertex[index(vertices)]);
-  w.mesh.links = std::unique_ptr<Links[]>(new Links[index(vertices)]);
-  w.mesh.triangles.resize(index(triangles));
+  w.mesh.vertices = std::unique_ptr<Vertex[]>(new Vertex[at(vertices)]);
+  w.mesh.links = std::unique_ptr<Links[]>(new Links[at(vertices)]);
+  w.mesh.triangles.resize(at(triangles));
 }
 
 }  // namespace
 
 LinkedMesh marching_cubes(const Field& field, Executor& executor) {
+  constexpr int blocks_at_a_time = 32;
   const int blocks = field.size();
   Workspace w{field,
               find_neighbours(field, executor),
-              std::vector<BlockCounts>(index(blocks)),
-              std::unique_ptr<BrickEdges[]>(new BrickEdges[index(block_bricks * blocks)]),
+              std::vector<BlockCounts>(at(blocks)),
+              std::unique_ptr<BrickEdges[]>(new BrickEdges[at(block_bricks * blocks)]),
               {}};
   for_items(executor, "surface: count", blocks, blocks_at_a_time, [&](int block) { count(w, block); });
   make_room(w);
   for_items(executor, "surface: vertices", blocks, blocks_at_a_time, [&](int block) {
-    if (w.counts[index(block)].vertices > 0) add_vertices(w, block);
+    if (w.counts[at(block)].vertices > 0) add_vertices(w, block);
   });
   for_items(executor, "surface: triangles", blocks, blocks_at_a_time, [&](int block) {
-    if (w.counts[index(block)].triangles > 0) add_triangles(w, block);
+    if (w.counts[at(block)].triangles > 0) add_triangles(w, block);
   });
   return std::move(w.mesh);
 }

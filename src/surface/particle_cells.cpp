@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/at.h"
 #include "parallel/ranges.h"
 #include "surface/sort_keys.h"
 
@@ -10,17 +11,15 @@ namespace pliant::surface {
 
 namespace {
 
-constexpr int particles_at_a_time = 1 << 13, cells_at_a_time = 256;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
+constexpr int particles_at_a_time = 1 << 13;
 
 KeyBox box_of(std::span<const Vec3f> positions, float per_side, Executor& executor) {
   const int count = static_cast<int>(positions.size());
-  std::vector<KeyBox> boxes(index(ranges_of(count, particles_at_a_time)));
+  std::vector<KeyBox> boxes(at(ranges_of(count, particles_at_a_time)));
   for_ranges(executor, "surface: box", count, particles_at_a_time, [&](int first, int last) {
     KeyBox box;
-    for (int i = first; i < last; ++i) box.include(cell_at(positions[index(i)], per_side));
-    boxes[index(first / particles_at_a_time)] = box;
+    for (int i = first; i < last; ++i) box.include(cell_at(positions[at(i)], per_side));
+    boxes[at(first / particles_at_a_time)] = box;
   });
   KeyBox all;
   for (const KeyBox& box : boxes) all.include(box);
@@ -33,7 +32,7 @@ std::vector<Keyed> sorted_particles(std::span<const Vec3f> positions, const KeyB
                                     Executor& executor) {
   std::vector<Keyed> items(positions.size());
   for_items(executor, "surface: keys", static_cast<int>(items.size()), particles_at_a_time, [&](int i) {
-    items[index(i)] = {box.key(cell_at(positions[index(i)], per_side)), i, i + 1};
+    items[at(i)] = {box.key(cell_at(positions[at(i)], per_side)), i, i + 1};
   });
   sort_by_key(executor, items, box.bits());
   return items;
@@ -44,8 +43,8 @@ void take_positions(ParticleCells& cells, std::span<const Vec3f> positions, cons
   cells.positions.resize(order.size());
   for (std::vector<float>* const along : {&cells.x, &cells.y, &cells.z}) along->resize(order.size() + 16);
   for_items(executor, "surface: places", static_cast<int>(order.size()), particles_at_a_time, [&](int place) {
-    const std::size_t i = index(place);
-    const Vec3f p = positions[index(order[i].first)];
+    const std::size_t i = at(place);
+    const Vec3f p = positions[at(order[i].first)];
     cells.positions[i] = p;
     cells.x[i] = p.x, cells.y[i] = p.y, cells.z[i] = p.z;
   });
@@ -66,7 +65,8 @@ void list_cells(ParticleCells& cells, const std::vector<Keyed>& order, const Key
 constexpr int full_count = 5;
 
 void find_fills(ParticleCells& cells, Executor& executor) {
-  const auto is_full = [&](int cell) { return cells.first[index(cell) + 1] - cells.first[index(cell)] >= full_count; };
+  constexpr int cells_at_a_time = 256;
+  const auto is_full = [&](int cell) { return cells.first[at(cell) + 1] - cells.first[at(cell)] >= full_count; };
   const auto is_full_row = [&](const CellRow& row) {
     return row.last - row.first == 3 && is_full(row.first) && is_full(row.first + 1) && is_full(row.first + 2);
   };
@@ -77,13 +77,13 @@ void find_fills(ParticleCells& cells, Executor& executor) {
       if (!is_full(cell)) continue;
       const std::array<CellRow, 9> rows = around.of(cell);
       const bool is_enclosed = std::all_of(rows.begin(), rows.end(), is_full_row);
-      cells.fills[index(cell)] = is_enclosed ? Fill::enclosed : Fill::full;
+      cells.fills[at(cell)] = is_enclosed ? Fill::enclosed : Fill::full;
     }
   });
 }
 
 /// The keys of the rows around a cell, as steps from its own to the first of each.
-std::uint64_t step_to_row(int row) { return key_step(-1, row % 3 - 1, row / 3 - 1); }
+std::uint64_t step_to_cell_row(int row) { return key_step(-1, row % 3 - 1, row / 3 - 1); }
 
 }  // namespace
 
@@ -100,17 +100,17 @@ ParticleCells sort_into_cells(std::span<const Vec3f> positions, float spacing, E
 }
 
 CellsAround::CellsAround(const ParticleCells& cells, int cell) : cells_(cells) {
-  for (int row = 0; row < 9; ++row) rows_[index(row)] = KeyFollower(cells.keys, cells.keys[index(cell)] + step_to_row(row));
+  for (int row = 0; row < 9; ++row) rows_[at(row)] = KeyFollower(cells.keys, cells.keys[at(cell)] + step_to_cell_row(row));
 }
 
 std::array<CellRow, 9> CellsAround::of(int cell) {
   std::array<CellRow, 9> found{};
   for (int row = 0; row < 9; ++row) {
-    const std::uint64_t low = cells_.keys[index(cell)] + step_to_row(row);
-    const int first = rows_[index(row)].first_from(low);
+    const std::uint64_t low = cells_.keys[at(cell)] + step_to_cell_row(row);
+    const int first = rows_[at(row)].first_from(low);
     int last = first;
-    while (last < cells_.size() && cells_.keys[index(last)] <= low + 2) ++last;
-    found[index(row)] = {first, last};
+    while (last < cells_.size() && cells_.keys[at(last)] <= low + 2) ++last;
+    found[at(row)] = {first, last};
   }
   return found;
 }

@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/at.h"
 #include "parallel/ranges.h"
 
 namespace pliant::surface {
 
 namespace {
-
-constexpr int cells_at_a_time = 1024;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 struct CellBox {
   Cell low, high;
@@ -54,7 +51,7 @@ class RangeList {
 std::vector<Keyed> ranges_for(const Splats& splats, int first, int last, float margin, float per_side) {
   RangeList list;
   for (int cell = first; cell < last; ++cell) {
-    const CellBox box = blocks_of(splats.bounds[index(cell)], margin, per_side);
+    const CellBox box = blocks_of(splats.bounds[at(cell)], margin, per_side);
     for (int z = box.low.z; z <= box.high.z; ++z)
       for (int y = box.low.y; y <= box.high.y; ++y)
         for (int x = box.low.x; x <= box.high.x; ++x) list.add({x, y, z}, cell);
@@ -71,11 +68,12 @@ KeyBox box_of(const std::vector<Keyed>& entries) {
 
 /// What all cells reach, with short keys in the box.
 std::vector<Keyed> all_ranges(const Splats& splats, float margin, float per_side, KeyBox& box, Executor& executor) {
+  constexpr int cells_at_a_time = 1024;
   const int cells = static_cast<int>(splats.bounds.size()), ranges = ranges_of(cells, cells_at_a_time);
-  std::vector<std::vector<Keyed>> of_ranges(index(ranges));
-  std::vector<KeyBox> boxes(index(ranges));
+  std::vector<std::vector<Keyed>> of_ranges(at(ranges));
+  std::vector<KeyBox> boxes(at(ranges));
   for_ranges(executor, "surface: reach", cells, cells_at_a_time, [&](int first, int last) {
-    const std::size_t range = index(first / cells_at_a_time);
+    const std::size_t range = at(first / cells_at_a_time);
     of_ranges[range] = ranges_for(splats, first, last, margin, per_side);
     boxes[range] = box_of(of_ranges[range]);
   });
@@ -89,8 +87,8 @@ std::vector<Keyed> all_ranges(const Splats& splats, float margin, float per_side
   box.count_bits();
   std::vector<Keyed> all(count);
   executor.parallel_for("surface: reach", ranges, [&](int range) {
-    Keyed* to = all.data() + before[index(range)];
-    for (const Keyed& entry : of_ranges[index(range)]) *to++ = {box.key(cell_of(entry.key)), entry.first, entry.last};
+    Keyed* to = all.data() + before[at(range)];
+    for (const Keyed& entry : of_ranges[at(range)]) *to++ = {box.key(cell_of(entry.key)), entry.first, entry.last};
   });
   return all;
 }

@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/at.h"
 #include "parallel/ranges.h"
 #include "surface/splat_formula.h"
 
 namespace pliant::surface {
 
 namespace {
-
-constexpr int cells_at_a_time = 128;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// The ranges of particles in the cells around one.
 struct Surroundings {
@@ -25,7 +22,7 @@ Surroundings particles_of(const ParticleCells& cells, const std::array<CellRow, 
   Surroundings found;
   for (const CellRow& row : rows) {
     if (row.first == row.last) continue;
-    found.ranges[index(found.count++)] = {cells.first[index(row.first)], cells.first[index(row.last)]};
+    found.ranges[at(found.count++)] = {cells.first[at(row.first)], cells.first[at(row.last)]};
   }
   return found;
 }
@@ -39,13 +36,13 @@ Moments full_moments(float spacing) {
 /// The moments of the particles of some cells. Those of enclosed cells have no surface near, and theirs are known.
 std::vector<Moments> moments_of(const ParticleCells& cells, int first_cell, int last_cell, float spacing,
                                 const SurfaceKernels& kernels) {
-  const int before = cells.first[index(first_cell)];
-  std::vector<Moments> moments(index(cells.first[index(last_cell)] - before));
+  const int before = cells.first[at(first_cell)];
+  std::vector<Moments> moments(at(cells.first[at(last_cell)] - before));
   CellsAround around(cells, first_cell);
   MomentScratch scratch;
   for (int cell = first_cell; cell < last_cell; ++cell) {
-    const int first = cells.first[index(cell)], last = cells.first[index(cell) + 1];
-    if (cells.fills[index(cell)] == Fill::enclosed) {
+    const int first = cells.first[at(cell)], last = cells.first[at(cell) + 1];
+    if (cells.fills[at(cell)] == Fill::enclosed) {
       std::fill(moments.begin() + (first - before), moments.begin() + (last - before), full_moments(spacing));
       continue;
     }
@@ -57,7 +54,7 @@ std::vector<Moments> moments_of(const ParticleCells& cells, int first_cell, int 
                             .first = i,
                             .last = std::min(i + group_size, last),
                             .radius = search_radius * spacing},
-                           scratch, &moments[index(i - before)]);
+                           scratch, &moments[at(i - before)]);
   }
   return moments;
 }
@@ -65,7 +62,7 @@ std::vector<Moments> moments_of(const ParticleCells& cells, int first_cell, int 
 Box bounds_of(const Splats& splats, int first, int last) {
   Box box{.low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}};
   for (int i = first; i < last; ++i) {
-    const Splat& splat = splats.all[index(i)];
+    const Splat& splat = splats.all[at(i)];
     box.low = min(box.low, splat.centre - splat.reach);
     box.high = max(box.high, splat.centre + splat.reach);
   }
@@ -80,6 +77,7 @@ SplatRows<const float> rows_of(const ParticleCells& cells, const Splats& splats)
 
 Splats make_splats(const ParticleCells& cells, float spacing, bool anisotropic, Executor& executor,
                    const SurfaceKernels& kernels) {
+  constexpr int cells_at_a_time = 128;
   Splats splats;
   splats.all.resize(cells.positions.size());
   splats.bounds.resize(cells.keys.size());
@@ -87,12 +85,13 @@ Splats make_splats(const ParticleCells& cells, float spacing, bool anisotropic, 
     row->resize(cells.positions.size() + 16);
   for_ranges(executor, "surface: kernels", cells.size(), cells_at_a_time, [&](int first_cell, int last_cell) {
     const std::vector<Moments> moments = moments_of(cells, first_cell, last_cell, spacing, kernels);
-    const std::size_t at = index(cells.first[index(first_cell)]);
+    const std::size_t first = at(cells.first[at(first_cell)]);
     kernels.make_splats({spacing, anisotropic}, moments.data(), static_cast<int>(moments.size()),
-                        {&cells.x[at], &cells.y[at], &cells.z[at]},
-                        {&splats.per_x[at], &splats.per_y[at], &splats.per_z[at], &splats.widest[at]}, &splats.all[at]);
+                        {&cells.x[first], &cells.y[first], &cells.z[first]},
+                        {&splats.per_x[first], &splats.per_y[first], &splats.per_z[first], &splats.widest[first]},
+                        &splats.all[first]);
     for (int cell = first_cell; cell < last_cell; ++cell)
-      splats.bounds[index(cell)] = bounds_of(splats, cells.first[index(cell)], cells.first[index(cell) + 1]);
+      splats.bounds[at(cell)] = bounds_of(splats, cells.first[at(cell)], cells.first[at(cell) + 1]);
   });
   return splats;
 }
