@@ -14,15 +14,14 @@ namespace pliant {
 namespace {
 
 constexpr int bits = 64;
-constexpr int largest_stencil = 4;            // largest stencil that is grouped
 constexpr std::size_t batch = 16;             // constraints that are projected together
 constexpr std::size_t fewest_to_group = 512;  // below this many ungrouped constraints, partial grouping does not pay
 
 struct Key {
-  std::array<int, largest_stencil> shape;  // difference of each slot's particle to slot 0; slot 0 itself comes last
+  std::array<int, largest_grouped_stencil> shape;  // difference of each slot's particle to slot 0; slot 0 itself comes last
   int member;
   friend bool operator<(const Key& a, const Key& b) {
-    for (std::size_t i = 0; i < largest_stencil; ++i)
+    for (std::size_t i = 0; i < largest_grouped_stencil; ++i)
       if (a.shape[i] != b.shape[i]) return a.shape[i] < b.shape[i];
     return a.member < b.member;
   }
@@ -35,7 +34,7 @@ std::vector<Key> sorted_by_shape(const std::vector<int>& stencils, int size, con
     const int* stencil = &stencils[static_cast<std::size_t>(size) * member];
     Key key{{}, member};
     for (int slot = 1; slot < size; ++slot) key.shape[slot - 1] = stencil[slot] - stencil[0];
-    key.shape[largest_stencil - 1] = stencil[0];
+    key.shape[largest_grouped_stencil - 1] = stencil[0];
     keys.push_back(key);
   }
   std::sort(keys.begin(), keys.end());
@@ -46,7 +45,7 @@ std::vector<Key> sorted_by_shape(const std::vector<int>& stencils, int size, con
 bool is_run(const Key* key, int size) {
   for (int l = 1; l < 4; ++l) {
     Key expected = key[0];
-    expected.shape[largest_stencil - 1] += l;
+    expected.shape[largest_grouped_stencil - 1] += l;
     if (key[l].shape != expected.shape) return false;
   }
   for (int slot = 0; slot + 1 < size; ++slot) {
@@ -59,7 +58,7 @@ bool is_run(const Key* key, int size) {
 }
 
 /// The constraints of one colour, sorted by which slots are contiguous: the index is a bit set of slots.
-using Class = std::array<std::vector<int>, 1 << largest_stencil>;
+using Class = std::array<std::vector<int>, 1 << largest_grouped_stencil>;
 
 /// Moves groups that do not fill a batch to a class with fewer contiguous slots, or to the single constraints.
 void demote_rest(int runs, Class& members) {
@@ -76,7 +75,7 @@ void demote_rest(int runs, Class& members) {
 /// Appends the constraints of a colour, those with most contiguous slots first. Single constraints are sorted by their
 /// first particle, so that a batch's particles are close in memory. Order within a colour changes no bits.
 void append_class(const std::vector<int>& stencils, int size, Class& members, std::vector<Colour>& colours) {
-  const int all = size > largest_stencil ? 0 : (1 << size) - 1;
+  const int all = size > largest_grouped_stencil ? 0 : (1 << size) - 1;
   for (int runs = all; runs > 0; --runs) {
     if (runs < all) demote_rest(runs, members);
     if (!members[runs].empty()) colours.push_back({runs, std::move(members[runs])});
@@ -203,7 +202,7 @@ std::vector<Colour> Colouring::colour_singly(const std::vector<int>& stencils, i
 }
 
 std::vector<Colour> Colouring::colour(const std::vector<int>& stencils, int size, const std::vector<int>& members) {
-  if (size > largest_stencil) return colour_singly(stencils, size, members);
+  if (size > largest_grouped_stencil) return colour_singly(stencils, size, members);
   std::vector<Colour> colours;
   std::vector<Four> fours;
   std::vector<int> rest;

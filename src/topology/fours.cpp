@@ -10,11 +10,10 @@ namespace pliant {
 
 namespace {
 
-constexpr int largest_stencil = 4;
 constexpr int most_failures = 16;  // per set of candidates with equal bases; limits the cost of hubs with many constraints
 
 struct Candidate {
-  std::array<int, largest_stencil> base;  // for each slot: particle minus lane if contiguous, otherwise 0
+  std::array<int, largest_grouped_stencil> base;  // for each slot: particle minus lane if contiguous, otherwise 0
   int lane, member;
   friend bool operator<(const Candidate& a, const Candidate& b) {
     return std::tie(a.base, a.lane, a.member) < std::tie(b.base, b.lane, b.member);

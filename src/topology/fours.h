@@ -6,6 +6,9 @@
 
 namespace pliant {
 
+/// The most slots of a constraint that is grouped.
+inline constexpr int largest_grouped_stencil = 4;
+
 /// Four constraints that share no particle. In each slot whose bit is set in `runs`, the particles of the four members
 /// are a, a + 1, a + 2, a + 3, where a is a multiple of four.
 struct Four {

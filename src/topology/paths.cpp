@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "topology/incidence.h"
+
 namespace pliant {
 
 namespace {
@@ -12,7 +14,7 @@ namespace {
 using EdgeList = std::vector<std::array<int, 2>>;
 
 /// A vertex with more edges is a hub, not part of a surface; no path passes through it.
-constexpr int largest_degree = 64;
+constexpr std::size_t largest_degree = 64;
 
 /// Number of colours that are chosen greedily. The paths left after that are few and odd, and are coloured in one pass.
 constexpr int most_careful_colours = 48;
@@ -29,20 +31,6 @@ double cosine(const Vec3d& a, const Vec3d& b) {
   return lengths > 0 ? dot(a, b) / lengths : 0;
 }
 
-/// For each vertex its edges, ascending.
-struct Incidence {
-  std::vector<int> begin, edges;
-
-  Incidence(std::size_t vertices, const EdgeList& list) : begin(vertices + 1, 0), edges(2 * list.size()) {
-    for (const auto& edge : list)
-      for (int end : edge) ++begin[end + 1];
-    for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
-    std::vector<int> next(begin.begin(), begin.end() - 1);
-    for (int e = 0; e < static_cast<int>(list.size()); ++e)
-      for (int end : list[e]) edges[next[end]++] = e;
-  }
-};
-
 /// For each edge, the edges that continue it at its two ends, or -1.
 using Continuations = std::vector<std::array<int, 2>>;
 
@@ -51,14 +39,14 @@ int slot_of(const std::array<int, 2>& edge, int end) { return edge[0] == end ? 0
 
 /// Joins the edges at each vertex into pairs, the straightest pair first.
 Continuations join_straightest(const std::vector<Vec3f>& x, const EdgeList& edges) {
-  const Incidence at(x.size(), edges);
+  const Incidence at = incidence(edges, static_cast<int>(x.size()), [](const std::array<int, 2>& edge) { return edge; });
   Continuations next(edges.size(), {-1, -1});
   std::vector<std::tuple<double, int, int>> pairs;  // negative cosine of the angle, then the two edges
   for (int v = 0; v < static_cast<int>(x.size()); ++v) {
     pairs.clear();
-    if (at.begin[v + 1] - at.begin[v] > largest_degree) continue;
-    for (int i = at.begin[v]; i < at.begin[v + 1]; ++i) {
-      for (int j = i + 1; j < at.begin[v + 1]; ++j) {
+    if (at.starts[v + 1] - at.starts[v] > largest_degree) continue;
+    for (std::size_t i = at.starts[v]; i < at.starts[v + 1]; ++i) {
+      for (std::size_t j = i + 1; j < at.starts[v + 1]; ++j) {
         const int e = at.edges[i], f = at.edges[j];
         const double straight = cosine(between(x, other_end(edges[e], v), v), between(x, v, other_end(edges[f], v)));
         if (straight >= least_cosine) pairs.emplace_back(-straight, e, f);
