@@ -16,9 +16,9 @@ namespace {
 /// A feature is flat to the other solid if its points differ in height by no more than this share of its size, or by the margin.
 constexpr double flat_share = 0.1;
 /// Polygons that face each other less than this serve no clipping [cosine].
-constexpr double facing = 0.9;
+constexpr double least_facing = 0.9;
 
-constexpr std::uint32_t nearest_point = 0x20000000u;  ///< TouchPoint::feature of the nearest places
+constexpr std::uint32_t nearest_point_feature = 0x20000000u;  ///< TouchPoint::feature of the nearest places
 
 /// True for polyhedra without a radius and with so few edges that all pairs of them are tried.
 bool are_polyhedra(const ConvexShape& a, const ConvexShape& b) {
@@ -66,7 +66,7 @@ std::vector<TouchPoint> points_between(const Feature& a, const Feature& b, const
     return points_over(widened(a, normal), b, normal, false, margin);
   }
   const double of_a = a.count > 2 ? dot(a.normal, normal) : 0, of_b = b.count > 2 ? -dot(b.normal, normal) : 0;
-  if (std::max(of_a, of_b) < facing) return {};
+  if (std::max(of_a, of_b) < least_facing) return {};
   return of_a >= of_b ? points_over(a, b, normal, false, margin) : points_over(b, a, normal, true, margin);
 }
 
@@ -89,7 +89,7 @@ Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, 
   if (nearest.separation > margin) return {};
   const Vec3d normal = nearest.normal;
   if (a.kind == ConvexShape::Kind::point || b.kind == ConvexShape::Kind::point)
-    return four_of({{nearest.on_a, nearest.on_b, nearest.separation, nearest_point}}, normal);
+    return four_of({{nearest.on_a, nearest.on_b, nearest.separation, nearest_point_feature}}, normal);
   const double radius_a = static_cast<double>(a.radius), radius_b = static_cast<double>(b.radius);
   std::vector<TouchPoint> points =
       points_between(facing_feature(a, {}, normal, margin, turning), facing_feature(b, pose_of_b, -normal, margin, turning),
@@ -103,7 +103,7 @@ Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, 
   }
   const double error = 0.01 * (size_of(a) + size_of(b)) + 1e-6;
   const bool has_all = !points.empty() && deepest <= nearest.separation + error;
-  if (!has_all) points.push_back({nearest.on_a, nearest.on_b, nearest.separation, nearest_point});
+  if (!has_all) points.push_back({nearest.on_a, nearest.on_b, nearest.separation, nearest_point_feature});
   return four_of(points, normal);
 }
 

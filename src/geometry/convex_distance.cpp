@@ -155,7 +155,7 @@ Simplex nearest_of(const Simplex& s) {
 }
 
 /// The nearest point of the difference to the origin, or any if `beyond` becomes a distance above `reach` that separates both.
-Simplex nearest_point(const Difference& difference, const Vec3d& first, double reach, double& beyond) {
+Simplex nearest_simplex(const Difference& difference, const Vec3d& first, double reach, double& beyond) {
   Simplex s;
   s.corners[0] = difference.support(first);
   s.count = 1;
@@ -184,8 +184,8 @@ Simplex nearest_point(const Difference& difference, const Vec3d& first, double r
 
 // ------------------------------------------------------------------------------------------------ overlap
 
-/// A triangle of the polytope, counter-clockwise from outside.
-struct Side {
+/// A face of the polytope, a triangle, counter-clockwise from outside.
+struct PolytopeFace {
   std::array<int, 3> corners{};
   Vec3d normal{};
   double distance = 0;  ///< of its plane from the origin
@@ -201,17 +201,17 @@ class Polytope {
 
   /// The least way out of the difference. Empty volume, which flat cores make, gives a depth of zero.
   ConvexDistance depth() {
-    int nearest = is_solid_ ? nearest_side() : -1;
+    int nearest = is_solid_ ? nearest_face() : -1;
     if (nearest < 0) return flat();
     for (int step = 0; step < most_steps; ++step) {
-      const Side side = sides_[static_cast<std::size_t>(nearest)];
-      const Vertex next = difference_.support(side.normal);
-      if (dot(next.w, side.normal) - side.distance <= growth * size_ || !grow(next)) break;
-      const int next_nearest = nearest_side();
-      if (next_nearest < 0) return way_out(side);
+      const PolytopeFace face = faces_[static_cast<std::size_t>(nearest)];
+      const Vertex next = difference_.support(face.normal);
+      if (dot(next.w, face.normal) - face.distance <= growth * size_ || !grow(next)) break;
+      const int next_nearest = nearest_face();
+      if (next_nearest < 0) return way_out(face);
       nearest = next_nearest;
     }
-    return way_out(sides_[static_cast<std::size_t>(nearest)]);
+    return way_out(faces_[static_cast<std::size_t>(nearest)]);
   }
 
  private:
@@ -253,26 +253,26 @@ class Polytope {
   void add(const std::array<int, 3>& corners) {
     const Vec3d a = at(corners[0]);
     const Vec3d normal = unit_or(cross(at(corners[1]) - a, at(corners[2]) - a), Vec3d{});
-    sides_.push_back({corners, normal, dot(normal, a), length_squared(normal) > 0});
+    faces_.push_back({corners, normal, dot(normal, a), length_squared(normal) > 0});
   }
 
-  int nearest_side() const {
+  int nearest_face() const {
     int best = -1;
-    for (std::size_t i = 0; i < sides_.size(); ++i)
-      if (sides_[i].alive && (best < 0 || sides_[i].distance < sides_[static_cast<std::size_t>(best)].distance))
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+      if (faces_[i].alive && (best < 0 || faces_[i].distance < faces_[static_cast<std::size_t>(best)].distance))
         best = static_cast<int>(i);
     return best;
   }
 
-  /// Replaces the sides that a point sees. False if it sees none.
+  /// Replaces the faces that a point sees. False if it sees none.
   bool grow(const Vertex& next) {
     std::vector<std::pair<int, int>> border;
     std::vector<std::size_t> seen;
-    for (std::size_t i = 0; i < sides_.size(); ++i)
-      if (sides_[i].alive && dot(sides_[i].normal, next.w) - sides_[i].distance > 1e-12 * size_) seen.push_back(i);
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+      if (faces_[i].alive && dot(faces_[i].normal, next.w) - faces_[i].distance > 1e-12 * size_) seen.push_back(i);
     for (const std::size_t i : seen)
       for (std::size_t e = 0; e < 3; ++e) {
-        const std::pair<int, int> edge{sides_[i].corners[e], sides_[i].corners[(e + 1) % 3]};
+        const std::pair<int, int> edge{faces_[i].corners[e], faces_[i].corners[(e + 1) % 3]};
         const auto back = std::find(border.begin(), border.end(), std::pair{edge.second, edge.first});
         if (back != border.end())
           border.erase(back);
@@ -282,22 +282,22 @@ class Polytope {
     if (border.empty()) return false;
     const auto made = static_cast<int>(vertices_.size());
     vertices_.push_back(next);
-    for (const std::size_t i : seen) sides_[i].alive = false;
+    for (const std::size_t i : seen) faces_[i].alive = false;
     for (const auto& [from, to] : border) add({from, to, made});
     return true;
   }
 
-  ConvexDistance way_out(const Side& side) const {
-    const Vec3d p = side.normal * side.distance;
-    const Vec3d a = at(side.corners[0]), b = at(side.corners[1]), c = at(side.corners[2]);
-    const double whole = dot(cross(b - a, c - a), side.normal);
-    const double u = dot(cross(b - p, c - p), side.normal) / whole, v = dot(cross(c - p, a - p), side.normal) / whole;
+  ConvexDistance way_out(const PolytopeFace& face) const {
+    const Vec3d p = face.normal * face.distance;
+    const Vec3d a = at(face.corners[0]), b = at(face.corners[1]), c = at(face.corners[2]);
+    const double whole = dot(cross(b - a, c - a), face.normal);
+    const double u = dot(cross(b - p, c - p), face.normal) / whole, v = dot(cross(c - p, a - p), face.normal) / whole;
     const auto mix = [&](Vec3d Vertex::*of) {
-      return vertices_[static_cast<std::size_t>(side.corners[0])].*of * u +
-             vertices_[static_cast<std::size_t>(side.corners[1])].*of * v +
-             vertices_[static_cast<std::size_t>(side.corners[2])].*of * (1 - u - v);
+      return vertices_[static_cast<std::size_t>(face.corners[0])].*of * u +
+             vertices_[static_cast<std::size_t>(face.corners[1])].*of * v +
+             vertices_[static_cast<std::size_t>(face.corners[2])].*of * (1 - u - v);
     };
-    return {-side.distance, side.normal, mix(&Vertex::on_a), mix(&Vertex::on_b)};
+    return {-face.distance, face.normal, mix(&Vertex::on_a), mix(&Vertex::on_b)};
   }
 
   /// Cores whose difference has no volume, such as two segments: the normal is that of the plane, or one of the line, in which
@@ -329,7 +329,7 @@ class Polytope {
   const Difference& difference_;
   Simplex simplex_;  ///< the nearest points of the cores, where these only touch
   std::vector<Vertex> vertices_;
-  std::vector<Side> sides_;
+  std::vector<PolytopeFace> faces_;
   double size_ = 0;
   bool is_solid_ = false;
 };
@@ -341,7 +341,8 @@ ConvexDistance convex_distance(const ConvexShape& a, const ConvexShape& b, const
   const bool is_apart = length_squared(pose_of_b.position) > 0;
   const double radii = static_cast<double>(a.radius) + static_cast<double>(b.radius);
   double beyond = -1;
-  const Simplex simplex = nearest_point(difference, is_apart ? pose_of_b.position : Vec3d{1, 0, 0}, reach + radii, beyond);
+  const Simplex simplex =
+      nearest_simplex(difference, is_apart ? pose_of_b.position : Vec3d{1, 0, 0}, reach + radii, beyond);
   if (beyond > 0) return {beyond - radii, {}, {}, {}};
   const Vec3d v = simplex.nearest();
   const double distance = length(v), size = 1 + largest(simplex.corners[0].w);

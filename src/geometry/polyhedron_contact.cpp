@@ -98,7 +98,7 @@ float size_of(const Polyhedron& p) { return largest(p.corners.front() - p.centre
 // ------------------------------------------------------------------------------------------------ points
 
 /// Of the faces of `p` that have its lowest corner along a normal the one that faces it most.
-int facing(const Polyhedron& p, const Vec3f& normal) {
+int incident_face(const Polyhedron& p, const Vec3f& normal) {
   const float least = lowest(p, normal);
   int best = -1;
   for (int f = 0; f < p.faces(); ++f) {
@@ -124,7 +124,7 @@ Touch nearest_touch(const Polyhedron& a, const Polyhedron& b) {
 Touch face_touch(const Polyhedron& reference, const Polyhedron& incident, int face, bool swapped, float margin) {
   const Vec3f outward = reference.normals[static_cast<std::size_t>(face)];
   const Vec3d normal = convert<double>(swapped ? -outward : outward);
-  const Feature polygon = face_of(reference, face), other = face_of(incident, facing(incident, outward));
+  const Feature polygon = face_of(reference, face), other = face_of(incident, incident_face(incident, outward));
   return four_of(points_over(polygon, other, normal, swapped, static_cast<double>(margin)), normal);
 }
 

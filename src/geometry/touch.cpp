@@ -20,10 +20,10 @@ struct ClipPoint {
   Vec3d place{};
   Side before = 0, after = 0;
 };
-using Corners = std::vector<ClipPoint>;
+using ClipPolygon = std::vector<ClipPoint>;
 
-Corners corners_of(const Feature& feature) {
-  Corners out;
+ClipPolygon corners_of(const Feature& feature) {
+  ClipPolygon out;
   out.reserve(static_cast<std::size_t>(feature.count) + 4);
   for (int i = 0; i < feature.count; ++i)
     out.push_back({feature.points[static_cast<std::size_t>(i)], static_cast<Side>((i + feature.count - 1) % feature.count),
@@ -33,8 +33,8 @@ Corners corners_of(const Feature& feature) {
 
 /// Keeps what lies behind a plane, n.x <= offset. A polygon gets a side of the number `side` there. A segment is a polygon of
 /// two equal edges, so that each cut gives its point twice; the second has no number of its own and is left out.
-Corners clipped(const Corners& corners, const Vec3d& n, double offset, Side side, bool is_segment) {
-  Corners out;
+ClipPolygon clipped(const ClipPolygon& corners, const Vec3d& n, double offset, Side side, bool is_segment) {
+  ClipPolygon out;
   out.reserve(corners.size() + 1);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const ClipPoint &from = corners[i], &to = corners[(i + 1) % corners.size()];
@@ -51,7 +51,7 @@ Corners clipped(const Corners& corners, const Vec3d& n, double offset, Side side
 
 std::vector<TouchPoint> points_over(const Feature& polygon, const Feature& other, const Vec3d& normal, bool swapped,
                                     double margin) {
-  Corners corners = corners_of(other);
+  ClipPolygon corners = corners_of(other);
   for (int i = 0; i < polygon.count && !corners.empty(); ++i) {
     const Vec3d &a = polygon.points[static_cast<std::size_t>(i)],
                 &b = polygon.points[static_cast<std::size_t>((i + 1) % polygon.count)];
