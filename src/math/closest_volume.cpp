@@ -91,8 +91,6 @@ class ClosestOfProduct {
   double s_[3], v_[3] = {}, d_;
 };
 
-using Vec3d = Vec3<double>;
-
 /// Rotates columns a and b so that they become orthogonal, and those of `axes` with them. False if they are already.
 bool make_orthogonal(Vec3d (&columns)[3], Vec3d (&axes)[3], int a, int b) {
   constexpr double precision = 1e-15;

@@ -7,17 +7,17 @@ namespace pliant {
 namespace {
 
 /// The corners of a rigid mesh's bounding box: no vertex moves farther than the farthest corner.
-struct Corners {
+struct BoxCorners {
   Vec3d at[8];
 };
 
-Corners corners_of(const std::vector<Vec3f>& points) {
+BoxCorners box_corners_of(const std::vector<Vec3f>& points) {
   Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (const Vec3f& point : points) {
     low = min(low, convert<double>(point));
     high = max(high, convert<double>(point));
   }
-  Corners corners;
+  BoxCorners corners;
   for (int i = 0; i < 8; ++i)
     corners.at[i] = {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z};
   return corners;
@@ -56,7 +56,7 @@ double largest_move(const Carrier& carrier, double from, double to) {
     for (int i = 0; i < static_cast<int>(carrier.rest.size()); ++i) look_at(before.place(i), after.place(i));
   } else {
     const Posed before = pose_at(carrier.motion, from), after = pose_at(carrier.motion, to);
-    for (const Vec3d& corner : corners_of(carrier.rest).at) look_at(to_world(before, corner), to_world(after, corner));
+    for (const Vec3d& corner : box_corners_of(carrier.rest).at) look_at(to_world(before, corner), to_world(after, corner));
   }
   return sqrt(most);
 }
@@ -68,7 +68,7 @@ CarrierBox box_at(const Carrier& carrier, double time) {
     for (int i = 0; i < static_cast<int>(carrier.rest.size()); ++i) include(box, pose.place(i));
   } else {
     const Posed pose = pose_at(carrier.motion, time);
-    for (const Vec3d& corner : corners_of(carrier.rest).at) include(box, to_world(pose, corner));
+    for (const Vec3d& corner : box_corners_of(carrier.rest).at) include(box, to_world(pose, corner));
   }
   return box;
 }

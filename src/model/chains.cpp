@@ -39,7 +39,7 @@ std::vector<std::array<int, 2>> edges_of(const ConstraintList& list) {
   return edges;
 }
 
-std::vector<Vec3f> places_of(const CompiledObject& object) {
+std::vector<Vec3f> positions_of(const CompiledObject& object) {
   std::vector<Vec3f> places;
   places.reserve(object.positions.size());
   for (const Record& p : object.positions) places.push_back({p.x, p.y, p.z});
@@ -160,7 +160,7 @@ void split_off_chains(std::vector<ConstraintList>& lists, const std::vector<int>
 void append_chains(const std::vector<ConstraintList>& lists, float softness, CompiledObject& out) {
   for (std::size_t i = 0; i < lists.size(); ++i) {
     if (!lists[i].chained) continue;
-    for (const PathColour& colour : lay_paths(places_of(out), edges_of(lists[i])))
+    for (const PathColour& colour : lay_paths(positions_of(out), edges_of(lists[i])))
       append_colour(lists[i], colour, softness, static_cast<int>(i), out);
   }
 }

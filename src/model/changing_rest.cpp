@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "constraints/registry.h"
+#include "core/at.h"
 #include "math/disjoint_sets.h"
 #include "model/compiled_object.h"
 #include "pliant/error.h"
@@ -15,8 +16,6 @@
 namespace pliant {
 
 namespace {
-
-std::size_t at(std::int64_t index) { return static_cast<std::size_t>(index); }
 
 const ChangingGroup* group_of(const std::vector<ChangingGroup>& groups, int type, std::int64_t constraint) {
   for (const ChangingGroup& group : groups)

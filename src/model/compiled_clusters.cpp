@@ -12,8 +12,6 @@ namespace pliant {
 
 namespace {
 
-using Vec3d = Vec3<double>;
-
 /// The clusters of each colour: the first that none of a cluster's particles has yet.
 std::vector<std::vector<int>> colour(const std::vector<Cluster>& clusters, std::size_t particles) {
   std::vector<std::vector<int>> by_colour;

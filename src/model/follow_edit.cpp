@@ -8,13 +8,12 @@
 #include "constraints/registry.h"
 #include "constraints/tetrahedron_volume.h"
 #include "constraints/volume_around_edge.h"
+#include "core/at.h"
 #include "model/keep_schedule.h"
 
 namespace pliant {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The constraints of a type: their particles by the user's index, one constraint after another.
 struct Constraints {

@@ -11,6 +11,7 @@
 #include "constraints/registry.h"
 #include "constraints/tetrahedron_volume.h"
 #include "constraints/volume_around_edge.h"
+#include "core/at.h"
 #include "topology/sort_by_first.h"
 
 namespace pliant {
@@ -22,8 +23,6 @@ using Corners = std::array<int, 4>;
 constexpr std::size_t most_around = VolumeAroundEdge::most_ring;
 /// Least ratio of the modulus of volume, lambda, to that of shear, mu: that of a Poisson ratio of 0.4, up to rounding.
 constexpr double least_ratio = 3.99;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Corners corners_of(const std::vector<int>& stencils, int i) {
   const int* const first = &stencils[4 * at(i)];

@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "constraints/registry.h"
+#include "core/at.h"
 #include "pliant/error.h"
 
 namespace pliant {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 int constraints_in(const Segment& segment) {
   return (segment.batches - 1) * batch_width + segment.last_count * (segment.runs != 0 ? 4 : 1);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "constraints/registry.h"
+#include "model/attachments.h"
 
 namespace pliant {
 
@@ -14,7 +15,6 @@ namespace {
 
 // Stiffness limit of an edge over its share of the load per length. Edges then stretch by about 0.1 % under the weight.
 constexpr double stiffness_over_weight = 1700;
-constexpr double least_acceleration = 9.81;  // without gravity, other loads stop the motion [m/s^2]
 // Share of a cross-section's load that one edge at a single pin carries: an eighth.
 constexpr double crowding_at_pins = 0.125;
 

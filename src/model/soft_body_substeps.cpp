@@ -31,14 +31,15 @@ struct Measured {
   double volume, modulus, per_length_squared;
 };
 
-Vec3d at(const Object& object, int particle) {
+Vec3d position_of(const Object& object, int particle) {
   const Vec3f& p = object.positions[static_cast<std::size_t>(particle)];
   return {p.x, p.y, p.z};
 }
 
 Measured measured(const Object& object, const int* corners, double compliance) {
-  const Vec3d origin = at(object, corners[0]);
-  const Vec3d a = at(object, corners[1]) - origin, b = at(object, corners[2]) - origin, c = at(object, corners[3]) - origin;
+  const Vec3d origin = position_of(object, corners[0]);
+  const Vec3d a = position_of(object, corners[1]) - origin, b = position_of(object, corners[2]) - origin,
+              c = position_of(object, corners[3]) - origin;
   const Vec3d bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
   const double six = std::fabs(dot(ab, c));
   const Vec3d rest = bc + ca + ab;
