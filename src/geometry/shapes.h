@@ -137,6 +137,12 @@ struct BoundingBox {
   Vec3<R> low, high;
 };
 
+/// The smallest box around two boxes.
+template <class R>
+PLIANT_HD BoundingBox<R> merge(const BoundingBox<R>& a, const BoundingBox<R>& b) {
+  return {min(a.low, b.low), max(a.high, b.high)};
+}
+
 /// Half extents of the shape's local bounding box; infinite for a plane.
 template <class R>
 PLIANT_HD Vec3<R> half_sides(const LocalShape& shape) {

@@ -12,6 +12,7 @@
 #include "collision/bodies/manifold.h"
 #include "collision/bodies/mesh_contacts.h"
 #include "collision/bodies/round_contact.h"
+#include "core/at.h"
 #include "geometry/convex_contact.h"
 #include "parallel/ranges.h"
 
@@ -19,13 +20,11 @@ namespace pliant {
 
 namespace {
 
-constexpr int pairs_a_task = 64;
+constexpr int narrow_pairs_a_task = 64;
 constexpr float unlimited = 1e30f;  ///< [m]
 /// A contact stays while its bodies have moved less against each other since it began than this share of the smaller part's size, and
 /// turned by less than 1.6 degrees (cosine of half the angle).
-constexpr double still_share = 0.04, straight = 0.9999;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+constexpr double still_share = 0.04, still_cosine = 0.9999;
 
 /// The pose of b in the frame of a, whose rotation is a unit quaternion up to rounding.
 Posed relative_to(const Posed& a, const Posed& b) {
@@ -53,12 +52,12 @@ Posed apart(Posed relative, int a, int b, double size) {
 
 bool hardly_moved(const Posed& now, const BodyContact& contact, double size) {
   return length(now.position - convert<double>(contact.position)) < still_share * size &&
-         std::fabs(dot(now.rotation, convert<double>(contact.rotation))) > straight;
+         std::fabs(dot(now.rotation, convert<double>(contact.rotation))) > still_cosine;
 }
 
 /// Normal and arms are those of the world, so a contact does not stay where both bodies turn together.
 bool hardly_turned(const Quatd& now, const BodyContact& contact) {
-  return std::fabs(dot(now, convert<double>(contact.turned))) > straight;
+  return std::fabs(dot(now, convert<double>(contact.turned))) > still_cosine;
 }
 
 /// The gaps along the normal, which is turned into the axes of both bodies once for all points.
@@ -374,9 +373,9 @@ BodyContacts::BodyContacts(std::vector<BodyPart> parts) : parts_(std::move(parts
 /// Finds in tasks which contacts stay and which begin.
 void BodyContacts::find(Executor& executor, const Task& task_of_pair) {
   const int count = static_cast<int>(pairs_.pairs().size());
-  found_.resize(at(ranges_of(count, pairs_a_task)));
-  for_ranges(executor, "bodies: contacts", count, pairs_a_task,
-             [&](int first, int last) { task_of_pair.run(first, last, found_[at(first / pairs_a_task)]); });
+  found_.resize(at(ranges_of(count, narrow_pairs_a_task)));
+  for_ranges(executor, "bodies: contacts", count, narrow_pairs_a_task,
+             [&](int first, int last) { task_of_pair.run(first, last, found_[at(first / narrow_pairs_a_task)]); });
   first_.assign(1, 0);
   for (const Found& found : found_) first_.push_back(first_.back() + found.count);
 }

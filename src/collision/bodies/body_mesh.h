@@ -25,6 +25,8 @@ struct MeshSide {
   /// True if the surface bends away here from what is on the side of the normal, or of its opposite if flipped, or ends.
   bool is_convex(bool is_flipped) const { return !is_inner || (is_flipped ? fold > flat : fold < -flat); }
   static constexpr double flat = 2e-3;  ///< sine of the angle below which a fold is none
+  /// A point this far beyond an inner side is over both triangles, so that it does not fall between them [m].
+  static constexpr double tolerance = 1e-6;
 };
 
 struct MeshFace {

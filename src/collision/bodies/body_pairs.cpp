@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/at.h"
 #include "parallel/ranges.h"
 
 namespace pliant {
@@ -14,8 +15,6 @@ namespace {
 constexpr int parts_a_task = 256, pairs_a_task = 2048, renewed_a_task = 64;
 /// Boxes are larger by this share of their part's size than they need be, so that pairs last for more than a frame.
 constexpr float spare_share = 0.1f;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// How far a part reaches from its frame's origin in six directions of some frame.
 struct Extent {

@@ -13,7 +13,7 @@ namespace {
 /// Manifolds whose normals agree better than this are one [cosine].
 constexpr double alike = 0.995;
 /// Points nearer to each other than this share of the solid's size are one.
-constexpr double coincident = 1e-4;
+constexpr double coincident_share = 1e-4;
 
 /// The points of one triangle: points[first] to points[end].
 struct Group {
@@ -111,7 +111,7 @@ void touch_mesh(const ConvexShape& shape, const Posed& pose_in_mesh, const BodyM
   found.clear();
   const SolidInMesh solid(shape, pose_in_mesh, turning);
   const std::vector<TrianglePoint> points = points_on(mesh, solid, reach);
-  for (const Cluster& cluster : clusters_of(points, coincident * solid.size()))
+  for (const Cluster& cluster : clusters_of(points, coincident_share * solid.size()))
     found.push_back({cluster.piece, touch_of(cluster)});
   std::sort(found.begin(), found.end(), [](const MeshTouch& a, const MeshTouch& b) { return a.piece < b.piece; });
 }

@@ -17,17 +17,15 @@ namespace {
 constexpr double straight = 1 - 1e-6;
 /// Flat parts that face each other less than this serve no clipping [cosine].
 constexpr double facing = 0.9;
-/// A point this far beyond an inner side is over both triangles [m].
-constexpr double coincident = 1e-6;
 /// Flat parts of a solid may differ in height by shares of its size between these.
 constexpr double least_slack = 0.01, most_slack = 0.1;
 
 constexpr int first_side = 64;  ///< sides of the triangle; edges of the solid's flat part have smaller numbers
-constexpr std::uint32_t of_triangle = 0x80000000u, is_nearest = 0x20000000u;
+constexpr std::uint32_t triangle_bit = 0x80000000u, is_nearest = 0x20000000u;
 
 /// What makes a point of a triangle: the same number while the same corners and edges do.
 std::uint32_t feature_of(int triangle, std::uint32_t what) {
-  return of_triangle | ((static_cast<std::uint32_t>(triangle) * 2654435761u) ^ what);
+  return triangle_bit | ((static_cast<std::uint32_t>(triangle) * 2654435761u) ^ what);
 }
 
 /// One triangle and one direction of contact.
@@ -98,7 +96,7 @@ Corners over_triangle(const MeshFace& face, const Feature& part, bool is_flipped
   Corners corners = corners_of(part);
   for (std::size_t k = 0; k < 3 && corners.count > 0; ++k) {
     // A corner of the solid exactly above an inner side must not fall between the two triangles.
-    const double slack = face.sides[k].is_inner ? coincident : 0;
+    const double slack = face.sides[k].is_inner ? MeshSide::tolerance : 0;
     const auto beyond = [&](const Vec3d& point) { return face.beyond(k, point, is_flipped) - slack; };
     corners = clipped(corners, beyond, first_side + static_cast<int>(k), part.count == 2);
   }
@@ -119,7 +117,8 @@ void add_points_above(const Facing& at, const TriangleNearest& nearest, std::vec
     if (!is_own && !(sides[0] >= 0 && at.is_convex(sides[0])) && !(sides[1] >= 0 && at.is_convex(sides[1]))) continue;
     const double separation = dot(at.normal, corner.place - face.corners[0]);
     // Nothing that is over the triangle is nearer than the nearest place; what is has been cut off by a valley's plane alone.
-    if (separation > at.reach || (nearest.separation > 0 && separation < nearest.separation - coincident)) continue;
+    if (separation > at.reach || (nearest.separation > 0 && separation < nearest.separation - MeshSide::tolerance))
+      continue;
     const std::uint32_t what = static_cast<std::uint32_t>(corner.before) << 8 | static_cast<std::uint32_t>(corner.after);
     at.add(points, {corner.place - at.normal * separation, corner.place, separation,
                     is_own ? what : feature_of(at.triangle, what)});

@@ -17,8 +17,6 @@ namespace {
 constexpr double preference = 1e-3;
 /// Overlap along the triangle's normal up to this share of the solid's size needs no search if the deepest point is over it.
 constexpr double shallow = 0.05;
-/// A point this far beyond an inner side is over both triangles, so that it does not fall between them [m].
-constexpr double coincident = 1e-6;
 /// Edges more parallel than this have no axis [sine].
 constexpr double parallel = 1e-4;
 
@@ -32,7 +30,7 @@ Vec3d lowest_corner(const MeshFace& face, const Vec3d& direction) {
 bool is_over(const MeshFace& face, const Vec3d& point) {
   for (std::size_t k = 0; k < 3; ++k) {
     const MeshSide& side = face.sides[k];
-    if (dot(side.outward, point - face.corners[k]) > (side.is_inner ? coincident : 0)) return false;
+    if (dot(side.outward, point - face.corners[k]) > (side.is_inner ? MeshSide::tolerance : 0)) return false;
   }
   return true;
 }

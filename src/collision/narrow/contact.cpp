@@ -14,10 +14,6 @@ namespace pliant {
 
 namespace {
 
-BoundingBox<float> merge(const BoundingBox<float>& a, const BoundingBox<float>& b) {
-  return {min(a.low, b.low), max(a.high, b.high)};
-}
-
 bool overlap(const PointBounds& a, const BoundingBox<float>& b, float margin) {
   return a.low.x - margin <= b.high.x && a.low.y - margin <= b.high.y && a.low.z - margin <= b.high.z &&
          b.low.x <= a.high.x + margin && b.low.y <= a.high.y + margin && b.low.z <= a.high.z + margin;
@@ -132,7 +128,7 @@ void move_colliders(const Model& model, const Control& control, double time_befo
 namespace {
 
 /// An object and a collider, with the parameters that all their contacts share.
-struct Meeting {
+struct ColliderQuery {
   const ContactSearch& search;
   const MovingCollider& collider;
   int number;       ///< index of the collider
@@ -140,7 +136,7 @@ struct Meeting {
   Vec3f gravity;    ///< added to a velocity, gives the velocity before this substep's gravity [m/s]
   float static_friction, kinetic_friction, restitution;
 
-  Meeting(const ContactSearch& in, int of, float both)
+  ColliderQuery(const ContactSearch& in, int of, float both)
       : search(in),
         collider(in.colliders[static_cast<std::size_t>(of)]),
         number(of),
@@ -152,7 +148,7 @@ struct Meeting {
 };
 
 /// Appends a contact of particle i with a collider, if there is one.
-void find_contact(const Meeting& m, int i, std::vector<Contact>& contacts) {
+void find_contact(const ColliderQuery& m, int i, std::vector<Contact>& contacts) {
   const MovingCollider& collider = m.collider;
   const AdvanceArguments& a = m.search.particles;
   const Record &x = a.positions[i], &d = a.displacements[i], &v = a.velocities[i], &r = a.remainders[i];
@@ -183,7 +179,8 @@ void find_contact(const Meeting& m, int i, std::vector<Contact>& contacts) {
 }
 
 /// Appends the contacts of particles with a primitive collider, sixteen at a time. `near` has room for a whole last batch.
-void find_contacts_in_lanes(const Meeting& m, std::vector<std::int32_t>& near, int count, std::vector<Contact>& contacts) {
+void find_contacts_in_lanes(const ColliderQuery& m, std::vector<std::int32_t>& near, int count,
+                            std::vector<Contact>& contacts) {
   const MovingCollider& collider = m.collider;
   const PointContactQuery query{m.search.particles, collider.shape,     collider.before, collider.after,
                                 collider.moves,     m.number,           m.thickness,     m.gravity,
@@ -282,7 +279,7 @@ bool stays_clear(const NearPoints::Known& known, const Vec3f& to, float path, fl
 
 /// Finds contacts of the particles near a collider that moves and is given by a grid. Distances are sampled only where those known
 /// from earlier substeps leave a contact possible.
-void find_contacts_in_grid(const Meeting& m, std::vector<Contact>& contacts) {
+void find_contacts_in_grid(const ColliderQuery& m, std::vector<Contact>& contacts) {
   const NearMoving moving(m.search, m.number, m.thickness);
   const MovingCollider& collider = m.collider;
   const AdvanceArguments& a = m.search.particles;
@@ -342,14 +339,14 @@ void find_contacts_with(const ContactSearch& search, int c, std::vector<std::int
   const MovingCollider& collider = search.colliders[c];
   if (!overlap(search.bounds, collider.swept, search.object.thickness) || !meet(search.object, collider)) return;
   const float thickness = search.object.thickness + collider.thickness;
-  const Meeting meeting(search, c, thickness);
+  const ColliderQuery query(search, c, thickness);
   if (search.near_points != nullptr && collider.field != nullptr && !collider.field->is_ground())
-    return find_contacts_in_grid(meeting, contacts);
+    return find_contacts_in_grid(query, contacts);
   const int count = without_centres(search.object, find_near(search, c, thickness, near), near);
   if (search.make_contacts != nullptr && collider.field == nullptr) {
-    find_contacts_in_lanes(meeting, near, count, contacts);
+    find_contacts_in_lanes(query, near, count, contacts);
   } else {
-    for (int k = 0; k < count; ++k) find_contact(meeting, near[k], contacts);
+    for (int k = 0; k < count; ++k) find_contact(query, near[k], contacts);
   }
 }
 
@@ -379,13 +376,13 @@ bool is_near(const MovingCollider& collider, const Record& x, const Record& d, f
 /// their contacts were predicted, so these count for nothing here.
 void find_breaches_of_liquid(const ContactSearch& search, int c, std::vector<Contact>& contacts) {
   const MovingCollider& collider = search.colliders[static_cast<std::size_t>(c)];
-  const Meeting meeting(search, c, share_of_held_height * (search.object.thickness + collider.thickness));
+  const ColliderQuery query(search, c, share_of_held_height * (search.object.thickness + collider.thickness));
   const AdvanceArguments& a = search.particles;
   for (int i = a.first; i < a.last; ++i) {
     const Record& d = a.displacements[i];
-    if (!is_near(collider, a.positions[i], d, meeting.thickness)) continue;
+    if (!is_near(collider, a.positions[i], d, query.thickness)) continue;
     const std::size_t before = contacts.size();
-    find_contact(meeting, i, contacts);
+    find_contact(query, i, contacts);
     if (contacts.size() == before) continue;
     const Contact& found = contacts.back();
     if (!(found.gap + dot(found.normal, Vec3f{d.x, d.y, d.z}) < 0)) contacts.pop_back();
@@ -418,12 +415,12 @@ void find_breaches(const ContactSearch& search, const std::vector<Contact>& know
     const int found =
         search.find_near({a.positions, a.displacements, a.first, a.last, collider.shape, collider.after, 0}, near.data());
     const int count = without_centres(search.object, found, near);
-    const Meeting meeting(search, c, 0);
+    const ColliderQuery query(search, c, 0);
     for (int k = 0; k < count; ++k) {
       if (is_known(c, near[k])) continue;
       const Record &x = a.positions[near[k]], &d = a.displacements[near[k]];
       const Vec3f end = to_local(collider.after, Vec3f{x.x + d.x, x.y + d.y, x.z + d.z});
-      if (signed_distance(collider.shape, end).distance < 0) find_contact(meeting, near[k], contacts);
+      if (signed_distance(collider.shape, end).distance < 0) find_contact(query, near[k], contacts);
     }
   }
 }

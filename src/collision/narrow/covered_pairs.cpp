@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/record.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -9,11 +10,9 @@ namespace pliant {
 namespace {
 
 /// A closest point with a smaller weight of a corner counts as lying on the opposite edge or end.
-constexpr float least_weight = 1e-5f;
+constexpr float least_corner_weight = 1e-5f;
 /// A neighbouring triangle is closer if one of its corners rises towards the vertex by over this share of its distance.
 constexpr float least_rise = 1e-3f;
-
-Vec3f place(const Record& r) { return {r.x, r.y, r.z}; }
 
 /// Branch-free, because the branches would be mispredicted.
 bool has(const Triangle& t, int vertex) {
@@ -22,16 +21,16 @@ bool has(const Triangle& t, int vertex) {
 
 /// The end of an edge if the edge's closest point is that end; -1 if the point lies between the ends.
 int end_of(int a, int b, float weight_of_a, float weight_of_b) {
-  if (abs(weight_of_b) < least_weight) return a;
-  return abs(weight_of_a) < least_weight ? b : -1;
+  if (abs(weight_of_b) < least_corner_weight) return a;
+  return abs(weight_of_a) < least_corner_weight ? b : -1;
 }
 
 /// True if the angle between two edges of a triangle, or between the two edges of a pair, is at least about two degrees.
 bool is_well_conditioned(const PairStencil& pair, const Record* positions) {
   const auto& v = pair.vertex;
   const bool edges = pair.first_side == 2;
-  const Vec3f first = place(positions[v[edges ? 1 : 2]]) - place(positions[v[edges ? 0 : 1]]),
-              second = place(positions[v[3]]) - place(positions[v[edges ? 2 : 1]]);
+  const Vec3f first = xyz(positions[v[edges ? 1 : 2]]) - xyz(positions[v[edges ? 0 : 1]]),
+              second = xyz(positions[v[3]]) - xyz(positions[v[edges ? 2 : 1]]);
   return length_squared(cross(first, second)) > 1e-3f * length_squared(first) * length_squared(second);
 }
 
@@ -52,13 +51,13 @@ bool CoveredPairs::is_closer_beside(const PairStencil& pair, const Closest& at, 
   Vec3f point{};
   for (int i = 1; i < 4; ++i) {
     const float weight = -at.weight[i];
-    if (weight < least_weight) continue;
+    if (weight < least_corner_weight) continue;
     holds[static_cast<std::size_t>(held++)] = pair.vertex[static_cast<std::size_t>(i)];
-    point += (place(positions[pair.vertex[static_cast<std::size_t>(i)]]) - place(positions[vertex])) * weight;
+    point += (xyz(positions[pair.vertex[static_cast<std::size_t>(i)]]) - xyz(positions[vertex])) * weight;
   }
   if (held == 0 || held == 3) return false;
   const auto rises = [&](int corner) {
-    const Vec3f beside = place(positions[corner]) - place(positions[vertex]) - point;
+    const Vec3f beside = xyz(positions[corner]) - xyz(positions[vertex]) - point;
     return dot(at.normal, beside) > least_rise * length(beside);
   };
   return std::any_of(around_.begin(holds[0]), around_.end(holds[0]), [&](int number) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "math/record.h"
 #include "math/vector.h"
 #include "parallel/ranges.h"
 
@@ -17,11 +18,9 @@ constexpr int packets_a_task = 32;
 /// Points per task that look for lines.
 constexpr int points_a_task = 256;
 
-Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
-
 /// The swept box of a point, grown by half the activation distance.
 BoxBounds swept_box(const Record& position, const Record& displacement, float thickness) {
-  const Vec3f from = vector_of(position), to = from + vector_of(displacement);
+  const Vec3f from = xyz(position), to = from + xyz(displacement);
   const Vec3f low = min(from, to), high = max(from, to);
   const float grown = 0.5f * reach_over_thickness * thickness + 1e-6f * (largest(low) + largest(high));
   return {low - Vec3f{grown, grown, grown}, high + Vec3f{grown, grown, grown}};
@@ -67,8 +66,8 @@ void complete(const PairMaterial& material, const PairParticles& particles, Cont
 bool find_point_contact(int i, int j, const PairMaterial& material, const PairParticles& particles, Contact& contact) {
   const Record &p = particles.positions[i], &q = particles.positions[j];
   if (!(p.w + q.w > 0)) return false;
-  const Vec3f x = vector_of(p) - vector_of(q);
-  const Vec3f m = vector_of(particles.displacements[i]) - vector_of(particles.displacements[j]);
+  const Vec3f x = xyz(p) - xyz(q);
+  const Vec3f m = xyz(particles.displacements[i]) - xyz(particles.displacements[j]);
   if (!find_contact(x, m, material, particles.h, contact)) return false;
   contact.point = {i, j, i, i};
   contact.weight = {1, -1, 0, 0};
@@ -80,10 +79,10 @@ bool find_line_contact(int i, const std::array<int, 2>& line, const PairMaterial
                        Contact& contact) {
   const Record &p = particles.positions[i], &a = particles.positions[line[0]], &b = particles.positions[line[1]];
   if (!(p.w + a.w + b.w > 0)) return false;
-  const Vec3f along = vector_of(b) - vector_of(a), from = vector_of(p) - vector_of(a);
+  const Vec3f along = xyz(b) - xyz(a), from = xyz(p) - xyz(a);
   const float squared = dot(along, along), share = squared > 0 ? clamp(dot(from, along) / squared, 0.f, 1.f) : 0.f;
-  const Vec3f start = vector_of(particles.displacements[line[0]]), end = vector_of(particles.displacements[line[1]]);
-  const Vec3f m = vector_of(particles.displacements[i]) - (start + (end - start) * share);
+  const Vec3f start = xyz(particles.displacements[line[0]]), end = xyz(particles.displacements[line[1]]);
+  const Vec3f m = xyz(particles.displacements[i]) - (start + (end - start) * share);
   if (!find_contact(from - along * share, m, material, particles.h, contact)) return false;
   contact.point = {i, line[0], line[1], i};
   contact.weight = {1, share - 1, -share, 0};

@@ -5,13 +5,12 @@
 
 #include "collision/narrow/axes.h"
 #include "geometry/shape_closest.h"
+#include "math/record.h"
 #include "math/wide.h"
 
 namespace pliant {
 
 namespace {
-
-Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 // ---------------------------------------------------------------- four numbers at a time
 
@@ -48,9 +47,7 @@ bool overlap(const SweptBox& a, const SweptBox& b, float margin) {
   return max(max(apart.x, apart.y), apart.z) <= margin;
 }
 
-SweptBox box_of(const PointBounds& bounds) { return {vector_of(bounds.low), vector_of(bounds.high)}; }
-
-SweptBox merge(const SweptBox& a, const SweptBox& b) { return {min(a.low, b.low), max(a.high, b.high)}; }
+SweptBox box_of(const PointBounds& bounds) { return {xyz(bounds.low), xyz(bounds.high)}; }
 
 /// Loads the beginning of an array that is read soon; the processor foresees the rest.
 template <class T>

@@ -2,6 +2,7 @@
 
 #include "geometry/shape_closest.h"
 #include "geometry/triangle.h"
+#include "math/record.h"
 
 namespace pliant {
 
@@ -10,11 +11,9 @@ namespace {
 /// Limit of the speed at which initial overlaps are resolved, as for vertices [m/s].
 constexpr float largest_separation_speed = 2;
 /// Points with a smaller barycentric weight lie on an edge, which has a contact of its own.
-constexpr float least_weight = 1e-4f;
+constexpr float least_barycentric_weight = 1e-4f;
 /// Tolerance of the test whether a triangle's normal lies in the normal cone of a box's corner.
 constexpr float cone_slack = 1e-3f;
-
-Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 Vec3f gravity_on(const Record& x, const Vec3f& gravity) { return x.w > 0 ? gravity : Vec3f{}; }
 
@@ -70,8 +69,8 @@ void add_contact(const Meeting& m, const std::array<int, n>& vertex, const std::
     inverse_mass += a.positions[p].w * weights[i] * weights[i];
     start += ways[i].from * weights[i];
     place += ways[i].at(at.s) * weights[i];
-    position += vector_of(a.positions[p]) * weights[i];
-    velocity += (vector_of(a.velocities[p]) + gravity_on(a.positions[p], a.gravity_begun - a.gravity_step)) * weights[i];
+    position += xyz(a.positions[p]) * weights[i];
+    velocity += (xyz(a.velocities[p]) + gravity_on(a.positions[p], a.gravity_begun - a.gravity_step)) * weights[i];
   }
   if (!(inverse_mass > 0)) return;
   for (std::size_t i = n; i < 4; ++i) c.point[i] = c.point[0];
@@ -136,7 +135,7 @@ struct Face {
     found.weights = closest.weights;
     found.distance = sqrt(closest.distance_squared) - radius;
     const float least = min(min(closest.weights.x, closest.weights.y), closest.weights.z);
-    if (!(least > least_weight)) return found;
+    if (!(least > least_barycentric_weight)) return found;
     const Vec3f normal = triangle_normal(a, b, c);
     const float side = is_box() ? dot(normal, a) : dot(normal, a - point);
     found.normal = side < 0 ? -normal : normal;

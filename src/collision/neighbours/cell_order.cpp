@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/at.h"
+
 namespace pliant {
 
 namespace {
@@ -29,8 +31,6 @@ int bits_for(std::int32_t range) {
 
 /// True if the rows of a layer run backwards, or the columns of a row.
 bool runs_back(std::int32_t place) { return (place & 1) != 0; }
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Counts a place, or an interval of them, from the first in its direction.
 std::int32_t from_first(std::int32_t place, std::int32_t least, std::int32_t most, bool back) {

@@ -4,6 +4,8 @@
 #include <memory>
 #include <numeric>
 
+#include "core/at.h"
+
 namespace pliant {
 
 namespace {
@@ -12,8 +14,6 @@ namespace {
 constexpr float largest_box = 3;
 /// Rows that NeighbourKernels::write_rows may write behind those wanted.
 constexpr int most_rows_beyond = 3;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Resizes without the reserve of vectors that grow by themselves.
 template <class T>

@@ -5,13 +5,12 @@
 #include <utility>
 
 #include "collision/proxies/pair_model.h"
+#include "math/record.h"
 #include "math/vector.h"
 
 namespace pliant {
 
 namespace {
-
-Vec3f place(const Record& r) { return {r.x, r.y, r.z}; }
 
 /// Writes the triangles of a body, with vertices numbered from its first one. Returns false if they do not form a closed
 /// surface.
@@ -29,7 +28,7 @@ bool closed_surface(const PairModel& model, const BodyElements& body, std::vecto
 
 std::vector<Vec3f> places_of(const Record* positions, int first, int count) {
   std::vector<Vec3f> places;
-  for (int i = first; i < first + count; ++i) places.push_back(place(positions[i]));
+  for (int i = first; i < first + count; ++i) places.push_back(xyz(positions[i]));
   return places;
 }
 
@@ -73,8 +72,7 @@ Vec3f mean_normal(const PairModel& model, const Patch& patch, const Record* posi
   float all = 0;
   for (const int number : at_patch) {
     const Triangle& t = model.elements.triangles[static_cast<std::size_t>(number)];
-    const Vec3f normal =
-        cross(place(positions[t[1]]) - place(positions[t[0]]), place(positions[t[2]]) - place(positions[t[0]]));
+    const Vec3f normal = cross(xyz(positions[t[1]]) - xyz(positions[t[0]]), xyz(positions[t[2]]) - xyz(positions[t[0]]));
     sum += normal;
     all += length(normal);
   }
@@ -177,7 +175,7 @@ void Untangler::find_inside(const Record* positions) {
     std::vector<int> inside;
     for (const int v : vertices_) {
       const bool meets = model_.shared->rules.meet(model_.shared->vertex_body[static_cast<std::size_t>(v)], closed.body);
-      if (positions[v].w > 0 && meets && query.is_inside(place(positions[v]))) inside.push_back(v);
+      if (positions[v].w > 0 && meets && query.is_inside(xyz(positions[v]))) inside.push_back(v);
     }
     inside_ += static_cast<std::int64_t>(inside.size());
     for (const Patch& patch : patches_of(model_, inside)) lead_out(patch, closed, positions);
@@ -224,7 +222,7 @@ void Untangler::lead_out(const Patch& patch, const Closed& closed, const Record*
   float across = 0, all = 0;
   const Vec3f normal = mean_normal(model_, patch, positions);
   for (const int v : patch) {
-    const Vec3f from = place(positions[v]);
+    const Vec3f from = xyz(positions[v]);
     const SurfacePoint near = query.closest(from);
     depths.push_back({from, unit_or(near.point - from, Vec3f{0, 1, 0}), near.distance});
     across += near.distance * abs(dot(depths.back().out, normal));
@@ -333,12 +331,11 @@ void Untangler::lead_back(const Record* positions, const std::vector<Intersectio
   std::map<int, Vec3f> ways;
   for (const Intersection& cut : cuts) {
     const Triangle& t = model_.elements.triangles[cut.triangle];
-    const Vec3f normal =
-        cross(place(positions[t[1]]) - place(positions[t[0]]), place(positions[t[2]]) - place(positions[t[0]]));
+    const Vec3f normal = cross(xyz(positions[t[1]]) - xyz(positions[t[0]]), xyz(positions[t[2]]) - xyz(positions[t[0]]));
     for (const auto& [from, to] : {std::pair{cut.a, cut.b}, {cut.b, cut.a}}) {
       const int piece = pieces.of[static_cast<std::size_t>(from)];
       if (piece == largest_piece || piece == pieces.of[static_cast<std::size_t>(to)]) continue;
-      const bool with = dot(normal, place(positions[to]) - place(positions[from])) > 0;
+      const bool with = dot(normal, xyz(positions[to]) - xyz(positions[from])) > 0;
       ways[piece] += unit_or(with ? normal : -normal, Vec3f{});
     }
   }
