@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-bool meet(const Object& a, const Object& b) { return (a.mask & b.groups) != 0 && (b.mask & a.groups) != 0; }
+bool groups_meet(const Object& a, const Object& b) { return (a.mask & b.groups) != 0 && (b.mask & a.groups) != 0; }
 
 }  // namespace
 
@@ -29,8 +29,9 @@ void check_absorbency(Problems& problems, const Object& object) {
 
 void doubt_absorbency(Problems& problems, const Object& object, const Scene& scene) {
   if (!object.absorbency) return;
-  const bool is_met = std::any_of(scene.objects.begin(), scene.objects.end(),
-                                  [&](const Object& other) { return other.fluid && !other.gas && meet(other, object); });
+  const bool is_met = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& other) {
+    return other.fluid && !other.gas && groups_meet(other, object);
+  });
   if (!is_met)
     problems.doubtful("absorbency", "has no effect, since no liquid of the scene meets the object",
                       "add a liquid whose groups and mask meet those of the object");

@@ -6,6 +6,7 @@
 
 #include "geometry/convex_hull.h"
 #include "inspect/problems.h"
+#include "math/vector.h"
 #include "model/body_names.h"
 
 namespace pliant {

@@ -11,6 +11,7 @@
 #include "collision/fields/solid_fields.h"
 #include "constraints/registry.h"
 #include "inspect/problems.h"
+#include "math/vector.h"
 #include "model/soft_body_substeps.h"
 #include "pliant/error.h"
 #include "topology/edges.h"

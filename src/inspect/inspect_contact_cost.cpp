@@ -31,7 +31,7 @@ constexpr double filter_roundings = 32 * 6e-8;
 
 bool touches(const Object& object) { return object.self_collision || object.collides; }
 
-bool meet(const Object& a, const Object& b) {
+bool can_collide(const Object& a, const Object& b) {
   if (&a == &b) return a.self_collision;
   return a.collides && b.collides && (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
 }
@@ -86,7 +86,7 @@ class Neighbours {
     for (; at != all_.end() && static_cast<double>(at->x.x - v.x.x) <= most; ++at) {
       const Object& other = scene_.objects[static_cast<std::size_t>(at->object)];
       const double reach = static_cast<double>(own.thickness) + static_cast<double>(other.thickness) + skin;
-      if (meet(own, other) && static_cast<double>(length_squared(at->x - v.x)) <= reach * reach) ++found;
+      if (can_collide(own, other) && static_cast<double>(length_squared(at->x - v.x)) <= reach * reach) ++found;
     }
     return found;
   }

@@ -33,7 +33,7 @@ struct JointedBody {
   }
 };
 
-bool exists(const Object& object, int body) { return body >= 0 && static_cast<std::size_t>(body) < object.bodies.size(); }
+bool has_body(const Object& object, int body) { return body >= 0 && static_cast<std::size_t>(body) < object.bodies.size(); }
 
 /// True if keyframes move or turn a body.
 bool is_driven(const Object& object, const ObjectBody& body) {
@@ -95,7 +95,7 @@ void doubt_bearings(Problems& problems, const Object& object, const ObjectJoint&
 /// The joint between two bodies, by their particles; null if there is none.
 const ObjectJoint* joint_between(const Object& object, int a, int b) {
   const auto joins = [&](const ObjectJoint& joint) {
-    return exists(object, joint.a) && exists(object, joint.b) && jointed(object, joint.a).body.particle == a &&
+    return has_body(object, joint.a) && has_body(object, joint.b) && jointed(object, joint.a).body.particle == a &&
            jointed(object, joint.b).body.particle == b;
   };
   const auto found = std::find_if(object.joints.begin(), object.joints.end(), joins);
@@ -125,7 +125,7 @@ void doubt_wide_limits(Problems& problems, const Object& object) {
 void doubt_joints(Problems& problems, const Object& object) {
   doubt_wide_limits(problems, object);
   for (const ObjectJoint& joint : object.joints) {
-    if (!exists(object, joint.a) || !exists(object, joint.b)) continue;
+    if (!has_body(object, joint.a) || !has_body(object, joint.b)) continue;
     if (joins_angles(joint))
       doubt_bearings(problems, object, joint);
     else if (!slides(joint))

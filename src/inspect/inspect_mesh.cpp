@@ -7,11 +7,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/at.h"
+#include "inspect/problems.h"
 #include "math/disjoint_sets.h"
 #include "pliant/mesh.h"
 #include "topology/boundary.h"
@@ -32,19 +35,9 @@ constexpr double doubtful_aspect = 100;
 /// Meshes with more triangles are not searched for self-intersections, because the cost grows faster than the mesh.
 constexpr std::size_t most_triangles_to_intersect = 20000;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
-
-/// Equal findings: their number, and the index of the first.
-struct Tally {
-  std::size_t count = 0, first = 0;
-  void add(std::size_t place) {
-    if (count++ == 0) first = place;
-  }
-};
 
 std::string name_of(const Edge& edge) { return std::to_string(edge.a) + "-" + std::to_string(edge.b); }
 
@@ -78,8 +71,8 @@ class Inspector {
     findings_.push_back({false, std::move(message), std::move(advice)});
   }
 
-  Vec3d at(int vertex) const {
-    const Vec3f& p = mesh_.positions[index(vertex)];
+  Vec3d position_of(int vertex) const {
+    const Vec3f& p = mesh_.positions[at(vertex)];
     return {p.x, p.y, p.z};
   }
 
@@ -113,7 +106,7 @@ class Inspector {
     Tally outside, twice;
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       const Triangle& t = mesh_.triangles[i];
-      const auto is_outside = [&](int corner) { return corner < 0 || index(corner) >= mesh_.positions.size(); };
+      const auto is_outside = [&](int corner) { return corner < 0 || at(corner) >= mesh_.positions.size(); };
       if (std::any_of(t.begin(), t.end(), is_outside))
         outside.add(i);
       else if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
@@ -134,7 +127,7 @@ class Inspector {
     double worst = 0;
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       const Triangle& t = mesh_.triangles[i];
-      const Vec3d a = at(t[0]), b = at(t[1]), c = at(t[2]);
+      const Vec3d a = position_of(t[0]), b = position_of(t[1]), c = position_of(t[2]);
       const double twice_area = std::sqrt(length_squared(cross(b - a, c - a)));
       const double longest = std::max({length_squared(b - a), length_squared(c - b), length_squared(a - c)});
       const double aspect = longest / twice_area;
@@ -157,7 +150,7 @@ class Inspector {
     const std::vector<int> folded = folded_edges(mesh_.positions, edges_);
     if (folded.empty()) return;
     tell(counted(folded.size(), "edge folds", "edges fold") + " the surface back on itself, the first " +
-             name_of(edges_[index(folded.front())]),
+             name_of(edges_[at(folded.front())]),
          "the two triangles there lie on one another, so that contact has no side to push to; open the fold, or remove one "
          "of them");
   }
@@ -166,7 +159,7 @@ class Inspector {
     std::vector<int> order(mesh_.positions.size());
     std::iota(order.begin(), order.end(), 0);
     const auto before = [&](int a, int b) {
-      const Vec3f &p = mesh_.positions[index(a)], &q = mesh_.positions[index(b)];
+      const Vec3f &p = mesh_.positions[at(a)], &q = mesh_.positions[at(b)];
       if (p.x != q.x) return p.x < q.x;
       if (p.y != q.y) return p.y < q.y;
       if (p.z != q.z) return p.z < q.z;
@@ -175,9 +168,10 @@ class Inspector {
     std::sort(order.begin(), order.end(), before);
     Tally shared;
     for (std::size_t i = 1; i < order.size(); ++i)
-      if (mesh_.positions[index(order[i])] == mesh_.positions[index(order[i - 1])]) {
+      if (mesh_.positions[at(order[i])] == mesh_.positions[at(order[i - 1])]) {
+        const std::int64_t vertex = order[i];
         ++shared.count;
-        shared.first = shared.count == 1 ? index(order[i]) : std::min(shared.first, index(order[i]));
+        shared.first = shared.count == 1 ? vertex : std::min(shared.first, vertex);
       }
     if (shared.count > 0)
       tell(counted(shared.count, "vertex lies", "vertices lie") + " at the position of another, the first " +
@@ -195,8 +189,9 @@ class Inspector {
     Tally repeated;
     for (std::size_t i = 1; i < sorted.size(); ++i)
       if (sorted[i].first == sorted[i - 1].first) {
+        const auto triangle = static_cast<std::int64_t>(sorted[i].second);
         ++repeated.count;
-        repeated.first = repeated.count == 1 ? sorted[i].second : std::min(repeated.first, sorted[i].second);
+        repeated.first = repeated.count == 1 ? triangle : std::min(repeated.first, triangle);
       }
     if (repeated.count > 0)
       tell(counted(repeated.count, "triangle has", "triangles have") + " the vertices of another, the first " +
@@ -208,7 +203,7 @@ class Inspector {
   void check_isolated() {
     std::vector<bool> used(mesh_.positions.size(), false);
     for (const Triangle& t : mesh_.triangles)
-      for (const int corner : t) used[index(corner)] = true;
+      for (const int corner : t) used[at(corner)] = true;
     Tally isolated;
     for (std::size_t i = 0; i < used.size(); ++i)
       if (!used[i]) isolated.add(i);
@@ -242,8 +237,8 @@ class Inspector {
   void check_corners() {
     DisjointSets corners(3 * mesh_.triangles.size());
     const auto node = [&](int triangle, int vertex) {
-      const Triangle& t = mesh_.triangles[index(triangle)];
-      return 3 * index(triangle) + static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
+      const Triangle& t = mesh_.triangles[at(triangle)];
+      return 3 * at(triangle) + static_cast<std::size_t>(std::find(t.begin(), t.end(), vertex) - t.begin());
     };
     for (const Edge& edge : edges_) {
       if (edge.triangle_count > 2) return;  // reported already; fans are not defined there
@@ -253,7 +248,7 @@ class Inspector {
     }
     std::vector<std::size_t> fans(mesh_.positions.size(), 0);
     for (std::size_t i = 0; i < corners.count(); ++i)
-      if (corners.root(i) == i) ++fans[index(mesh_.triangles[i / 3][i % 3])];
+      if (corners.root(i) == i) ++fans[at(mesh_.triangles[i / 3][i % 3])];
     Tally pinched;
     for (std::size_t i = 0; i < fans.size(); ++i)
       if (fans[i] > 1) pinched.add(i);
@@ -268,9 +263,9 @@ class Inspector {
   std::size_t pieces_apart() const {
     DisjointSets pieces(mesh_.positions.size());
     for (const Triangle& t : mesh_.triangles)
-      for (const int corner : {t[1], t[2]}) pieces.join(index(corner), index(t[0]));
+      for (const int corner : {t[1], t[2]}) pieces.join(at(corner), at(t[0]));
     std::vector<bool> seen(pieces.count(), false);
-    for (const Triangle& t : mesh_.triangles) seen[pieces.root(index(t[0]))] = true;
+    for (const Triangle& t : mesh_.triangles) seen[pieces.root(at(t[0]))] = true;
     return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
   }
 
@@ -292,11 +287,12 @@ class Inspector {
 
   void check_volume(const Pieces& pieces) {
     // Volumes are computed relative to a vertex, so that a mesh far from the origin keeps its precision.
-    std::vector<double> volume(index(pieces.count), 0);
-    const Vec3d origin = at(mesh_.triangles.front()[0]);
+    std::vector<double> volume(at(pieces.count), 0);
+    const Vec3d origin = position_of(mesh_.triangles.front()[0]);
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       const Triangle& t = mesh_.triangles[i];
-      volume[index(pieces.of_triangle[i])] += dot(at(t[0]) - origin, cross(at(t[1]) - origin, at(t[2]) - origin));
+      volume[at(pieces.of_triangle[i])] +=
+          dot(position_of(t[0]) - origin, cross(position_of(t[1]) - origin, position_of(t[2]) - origin));
     }
     Tally inside_out;
     for (std::size_t i = 0; i < volume.size(); ++i)

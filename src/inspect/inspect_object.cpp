@@ -6,6 +6,7 @@
 
 #include "constraints/registry.h"
 #include "inspect/problems.h"
+#include "math/vector.h"
 #include "matter/break_constraints.h"
 #include "pliant/error.h"
 #include "topology/boundary.h"
@@ -15,7 +16,7 @@ namespace pliant {
 
 namespace {
 
-bool exists(const Object& object, int particle) {
+bool has_particle(const Object& object, int particle) {
   return particle >= 0 && particle < static_cast<int>(object.positions.size());
 }
 
@@ -114,7 +115,7 @@ void check_stencils(Problems& problems, const Object& object, const ConstraintGr
       if (type.slots[i] == SlotKind::frame)
         framed = framed && stencil[i] >= 0 && static_cast<std::size_t>(stencil[i]) < object.frames.size();
       else
-        known = known && exists(object, stencil[i]);
+        known = known && has_particle(object, stencil[i]);
       for (std::size_t j = 0; j < i; ++j)
         distinct = distinct && (type.slots[i] != type.slots[j] || stencil[i] != stencil[j]);
     }
@@ -244,7 +245,8 @@ bool check_triangles(Problems& problems, const Object& object) {
   Tally outside, repeated;
   for (std::size_t t = 0; t < object.triangles.size(); ++t) {
     const auto [a, b, c] = object.triangles[t];
-    if (!exists(object, a) || !exists(object, b) || !exists(object, c)) outside.add(static_cast<std::int64_t>(t));
+    if (!has_particle(object, a) || !has_particle(object, b) || !has_particle(object, c))
+      outside.add(static_cast<std::int64_t>(t));
     if (a == b || b == c || c == a) repeated.add(static_cast<std::int64_t>(t));
   }
   problems.grave(outside, "triangle", "uses a particle that does not exist; there are " + of(object.positions.size()),
@@ -305,13 +307,13 @@ void check_volume(Problems& problems, const Object& object, bool triangles_are_s
 void check_control(Problems& problems, const Object& object) {
   Tally pins, attachments;
   for (std::size_t i = 0; i < object.pins.size(); ++i) {
-    if (!exists(object, object.pins[i].particle)) pins.add(static_cast<std::int64_t>(i));
+    if (!has_particle(object, object.pins[i].particle)) pins.add(static_cast<std::int64_t>(i));
     check_motion(problems, "pin " + of(i), object.pins[i].motion);
   }
   for (std::size_t i = 0; i < object.attachments.size(); ++i) {
     const Attachment& attachment = object.attachments[i];
     const std::string name = "attachment " + of(i);
-    if (!exists(object, attachment.particle)) attachments.add(static_cast<std::int64_t>(i));
+    if (!has_particle(object, attachment.particle)) attachments.add(static_cast<std::int64_t>(i));
     require_place(problems, name + ", target", attachment.target);
     check_motion(problems, name, attachment.motion);
     check_stiffness(problems, name, attachment.stiffness);

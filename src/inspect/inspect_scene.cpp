@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "inspect/problems.h"
+#include "math/vector.h"
 #include "matter/object_facts.h"
 #include "model/object_sets.h"
 #include "model/soft_body_substeps.h"

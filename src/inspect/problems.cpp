@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "math/vector.h"
 #include "pliant/error.h"
 
 namespace pliant {
@@ -48,8 +49,6 @@ std::string words(double value) {
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
 }
-
-bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool is_place(const Vec3f& v) {
   return std::fabs(v.x) <= largest_place && std::fabs(v.y) <= largest_place && std::fabs(v.z) <= largest_place;

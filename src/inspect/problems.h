@@ -57,7 +57,6 @@ void require_range(Problems& problems, const std::string& element, double value,
 /// Reports a grave finding if a coordinate is not finite or beyond largest_place.
 void require_place(Problems& problems, const std::string& element, const Vec3f& place);
 
-bool is_finite(const Vec3f& v);
 bool is_place(const Vec3f& v);
 
 /// Largest coordinate [m] and speed [m/s]: products of three such numbers fit a float.

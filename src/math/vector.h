@@ -41,6 +41,12 @@ PLIANT_HD R largest(const Vec3<R>& v) {
   return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
+/// True if all components are finite.
+template <class R>
+PLIANT_HD bool is_finite(const Vec3<R>& v) {
+  return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0;
+}
+
 /// The unit vector v / |v|; `otherwise` if |v|^2 is below the smallest normal float (|v| < 1.1e-19).
 template <class R>
 PLIANT_HD Vec3<R> unit_or(const Vec3<R>& v, const Vec3<R>& otherwise) {
