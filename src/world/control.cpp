@@ -11,14 +11,13 @@
 #include "collision/fields/collider_pose.h"
 #include "constraints/joint_rows.h"
 #include "math/motion.h"
+#include "math/vector.h"
 #include "pliant/error.h"
 #include "world/resting_grains.h"
 
 namespace pliant {
 
 namespace {
-
-bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 [[noreturn]] void refuse(const std::string& object, const std::string& element, const std::string& problem,
                          const std::string& advice) {

@@ -6,18 +6,16 @@
 #include <cmath>
 
 #include "collision/narrow/contact.h"
+#include "core/at.h"
 #include "geometry/shapes.h"
 #include "math/motion.h"
+#include "math/record.h"
 #include "world/particles.h"
 #include "world/resting_grains.h"
 
 namespace pliant {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 /// An opening holds so many layers behind it, which move as it says and cannot be pushed back. Where they could be, each layer pushed back the
 /// next one farther, and jets blew up within ten layers.
@@ -62,7 +60,7 @@ void drain(WorldData& world, int number, FlowReport& report) {
     const LocalShape shape = local_shape(drain.shape);
     const Posed pose{convert<double>(drain.position), normalise(convert<double>(drain.rotation))};
     for_free(world, number, [&](std::size_t i) {
-      const Vec3f local = convert<float>(to_local(pose, convert<double>(vector_of(world.state.positions[i]))));
+      const Vec3f local = convert<float>(to_local(pose, convert<double>(xyz(world.state.positions[i]))));
       if (!(signed_distance(shape, local).distance < 0)) return;
       remove(world.state, i);
       ++report.drained;
@@ -183,7 +181,7 @@ class EmitterRun {
     const float way = (sqrt(length_squared(opening.velocity)) + sqrt(length_squared(world_.model.gravity)) * dt) * 2 * dt;
     const float reach = sqrt(radius) + way + 2 * layer_.distance;
     for (int i = first_; i < first_ + object_.user_particles; ++i) {
-      const Vec3f place = vector_of(state_.positions[at(i)]);
+      const Vec3f place = xyz(state_.positions[at(i)]);
       if (state_.births[at(i)] != not_there && length_squared(place - opening.centre) < reach * reach)
         near_.push_back(place);
     }

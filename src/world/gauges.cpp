@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "math/vector.h"
 #include "pliant/error.h"
 #include "world/gauge_formulas.h"
 
@@ -16,8 +17,6 @@ namespace {
 [[noreturn]] void refuse(const Gauge& gauge, const std::string& problem, const std::string& advice) {
   throw Error({.element = "gauge '" + gauge.name + "'"}, problem, advice);
 }
-
-bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void check_direction(const Gauge& gauge, const Vec3f& direction) {
   if (!is_finite(direction) || !(length_squared(convert<double>(direction)) > 0))

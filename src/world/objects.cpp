@@ -100,7 +100,7 @@ void require_origins(const WorldData& world, int number, const Edit& edit) {
 }
 
 /// Removes the contacts of rigid bodies with a collider. Later colliders move up by one.
-void forget_contacts(WorldData& world, int collider) {
+void forget_contacts_of_collider(WorldData& world, int collider) {
   const int owner = -1 - collider;
   std::erase_if(world.state.body_contacts,
                 [&](const BodyContact& contact) { return contact.a.owner == owner || contact.b.owner == owner; });
@@ -207,7 +207,7 @@ void World::remove(ColliderId collider) {
   const int number = data_->ids.colliders.number(collider);
   forget_pose(*data_, false, collider.slot);
   forget_touching(*data_, collider);
-  forget_contacts(*data_, number);
+  forget_contacts_of_collider(*data_, number);
   data_->ids.colliders.remove(collider);
   data_->ids.colliders.close_gap(number);
   data_->model.colliders.erase(data_->model.colliders.begin() + number);

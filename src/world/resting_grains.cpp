@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "collision/broad/tree.h"
+#include "core/at.h"
 #include "geometry/polyhedron.h"
 #include "math/motion.h"
+#include "math/record.h"
 #include "solver/grains/grain_solver.h"
 #include "world/control.h"
 #include "world/particles.h"
@@ -16,9 +18,6 @@
 namespace pliant {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 /// A grain is slow if it moves by less than this share of its radius in SleepOptions::time, and slower than SleepOptions::speed. A grain or
 /// what it meets has to move so many times as fast to wake it.
@@ -142,7 +141,7 @@ class Movers {
     add_particles(number, object);
   }
 
-  float speed_of(int particle) const { return length(vector_of(world_.state.velocities[at(particle)])); }
+  float speed_of(int particle) const { return length(xyz(world_.state.velocities[at(particle)])); }
 
   /// Grains and liquids, each by itself.
   void add_each(int number, const CompiledObject& object) {
@@ -153,9 +152,9 @@ class Movers {
       const float speed = speed_of(i), size = object.grains ? object.grains->radius : object.thickness;
       const bool is_held = !(world_.state.positions[at(i)].w > 0);  // by an opening, a pin or the user, or it sleeps
       if (is_held && (speed > 0 || (moves && !(own_inverse_mass(world_.model, number, i) > 0))))
-        add(vector_of(world_.state.positions[at(i)]), size + speed * static_cast<float>(dt_), {number, unstoppable});
+        add(xyz(world_.state.positions[at(i)]), size + speed * static_cast<float>(dt_), {number, unstoppable});
       else if (speed > least_fast_)
-        add(vector_of(world_.state.positions[at(i)]), size, {number, speed, true});
+        add(xyz(world_.state.positions[at(i)]), size, {number, speed, true});
     }
   }
 
@@ -188,7 +187,7 @@ class Movers {
     const int first = world_.model.first[at(number)];
     std::vector<Vec3f> places;
     for (int i = 0; i < mesh.particles; ++i) {
-      places.push_back(vector_of(world_.state.positions[at(first + i)]));
+      places.push_back(xyz(world_.state.positions[at(first + i)]));
       places.push_back(convert<float>(after.place(i)));
     }
     add(BoxBounds::of(places.data(), static_cast<int>(places.size())), mesh.thickness, {number, unstoppable});
@@ -201,7 +200,7 @@ class Movers {
     float speed = is_driven(number, object) ? unstoppable : 0;
     for (int i = first; i < first + object.user_particles; ++i) {
       if (!is_there(world_.state, at(i)) || object.bodies.has_centre(i - first)) continue;
-      places.push_back(vector_of(world_.state.positions[at(i)]));
+      places.push_back(xyz(world_.state.positions[at(i)]));
       speed = std::max(speed, speed_of(i));
     }
     if (!places.empty() && speed > 0)
@@ -217,9 +216,9 @@ class Movers {
                                                                   bounding_radius(solid.shape) + object.thickness);
     for (std::size_t b = 0; b < reach.size(); ++b) {
       const CompiledBodies::Body& body = object.bodies.bodies[b];
-      const float spin = length(vector_of(world_.state.frames.angular_velocities[at(first_frame + body.frame)]));
+      const float spin = length(xyz(world_.state.frames.angular_velocities[at(first_frame + body.frame)]));
       const float speed = moves ? unstoppable : speed_of(first + body.particle) + reach[b] * spin;
-      if (speed > 0) add(vector_of(world_.state.positions[at(first + body.particle)]), reach[b], {number, speed});
+      if (speed > 0) add(xyz(world_.state.positions[at(first + body.particle)]), reach[b], {number, speed});
     }
   }
 
@@ -269,7 +268,7 @@ void wake_beside(WorldData& world, const Rest& rest, const Moves& moves) {
 void wake_pushed(WorldData& world, const Rest& rest) {
   wake_beside(world, rest, [&](std::int32_t i, int number) {
     return (*rest.times)[at(i)] != asleep &&
-           length(vector_of(world.state.velocities[at(i)])) > wake_factor * slow_speed(world, number);
+           length(xyz(world.state.velocities[at(i)])) > wake_factor * slow_speed(world, number);
   });
 }
 
@@ -297,7 +296,7 @@ void wake_near_movers(WorldData& world, const Rest& rest, double dt) {
     for (int i = world.model.first[at(number)]; i < world.model.end_of(number); ++i) {
       if (!sleeps(i)) continue;
       float& shift = (*rest.shifts)[at(i)];
-      shift += movers.speed_near(number, vector_of(world.state.positions[at(i)])) * static_cast<float>(dt);
+      shift += movers.speed_near(number, xyz(world.state.positions[at(i)])) * static_cast<float>(dt);
       if (shift > slow_share * object.grains->radius) wake(world, rest, number, i);
     }
   }
@@ -367,7 +366,7 @@ int end_rest(WorldData& world, double elapsed, const Resting& resting) {
   for_grains(world, [&](int number, int i) {
     float& time = (*rest.times)[at(i)];
     if (time == asleep || !(world.state.positions[at(i)].w > 0)) return;  // or an opening holds it
-    const bool is_slow = length(vector_of(world.state.velocities[at(i)])) < slow_speed(world, number);
+    const bool is_slow = length(xyz(world.state.velocities[at(i)])) < slow_speed(world, number);
     const bool was_slow = time > 0;  // at the top of a throw a grain is slow in one frame, not in two
     time = is_slow ? time + static_cast<float>(elapsed) : 0;
     if (is_slow && was_slow && time >= world.settings.sleep.time) fall_asleep(world, rest, i);

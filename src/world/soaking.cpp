@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "collision/broad/tree.h"
+#include "core/at.h"
 #include "geometry/shapes.h"
 #include "geometry/triangle.h"
 #include "math/motion.h"
+#include "math/record.h"
 #include "world/control.h"
 #include "world/particles.h"
 #include "world/wicking.h"
@@ -23,8 +25,6 @@ namespace pliant {
 
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-Vec3f place_of(const Record& r) { return {r.x, r.y, r.z}; }
 void add(Record& to, const Vec3f& what) { to = {to.x + what.x, to.y + what.y, to.z + what.z, to.w}; }
 
 /// How much farther than at contact a particle of liquid still touches a surface, as a share of that distance.
@@ -117,7 +117,7 @@ class Soaking {
     constexpr double earth = 9.80665;
     const Vec3d g = convert<double>(world_.model.gravity) * (-1 / earth);
     std::vector<double> out(surface_.areas.size());
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = dot(g, convert<double>(place_of(corner(static_cast<int>(i)))));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = dot(g, convert<double>(xyz(corner(static_cast<int>(i)))));
     return out;
   }
 
@@ -145,7 +145,7 @@ class Soaking {
     cell_size_ = reach;
     std::vector<BoxBounds> boxes;
     for (const std::array<int, 3>& t : object_.surface.triangles) {
-      const std::array<Vec3f, 3> x{place_of(corner(t[0])), place_of(corner(t[1])), place_of(corner(t[2]))};
+      const std::array<Vec3f, 3> x{xyz(corner(t[0])), xyz(corner(t[1])), xyz(corner(t[2]))};
       boxes.push_back(BoxBounds::of(x.data(), 3).grown(reach));
     }
     if (boxes.empty()) return;
@@ -160,7 +160,7 @@ class Soaking {
     const std::int64_t begin = world_.model.first[at(of)], end = begin + liquid(of).user_particles;
     for (std::int64_t i = begin; i < end; ++i) {
       if (!is_there(state_, at(i)) || !(state_.positions[at(i)].w > 0)) continue;
-      const Vec3f x = place_of(state_.positions[at(i)]);
+      const Vec3f x = xyz(state_.positions[at(i)]);
       const BoxBounds point = BoxBounds::of(&x, 1);
       if (!overlap(point, all)) continue;
       int nearest = -1;
@@ -177,7 +177,7 @@ class Soaking {
 
   ClosestOnTriangle<float> closest_on(int triangle, const Vec3f& x) const {
     const std::array<int, 3>& t = object_.surface.triangles[at(triangle)];
-    return closest_on_triangle(x, place_of(corner(t[0])), place_of(corner(t[1])), place_of(corner(t[2])));
+    return closest_on_triangle(x, xyz(corner(t[0])), xyz(corner(t[1])), xyz(corner(t[2])));
   }
 
   Touch touch_of(int of, std::int64_t particle, int triangle, const ClosestOnTriangle<float>& closest,
@@ -200,14 +200,14 @@ class Soaking {
   }
 
   /// Notes where a particle of liquid is now; where it was before need not be forgotten.
-  void note(std::int64_t particle) { cells_[cell_of(place_of(state_.positions[at(particle)]))].push_back(particle); }
+  void note(std::int64_t particle) { cells_[cell_of(xyz(state_.positions[at(particle)]))].push_back(particle); }
 
   /// True if a particle of liquid may be put at a place: no other one is too near, and no solid.
   bool is_free(const Vec3f& place, int of, std::int64_t but) const {
     const float least = room_of_drop * liquid(of).fluid->spacing;
     const auto is_near = [&](std::int64_t other) {
       return other != but && is_there(state_, at(other)) &&
-             length_squared(place_of(state_.positions[at(other)]) - place) < least * least;
+             length_squared(xyz(state_.positions[at(other)]) - place) < least * least;
     };
     const std::array<std::int64_t, 3> middle = cell_of(place);
     for (std::int64_t c = 0; c < 27; ++c) {
@@ -239,9 +239,9 @@ class Soaking {
     Record& own = state_.velocities[at(touch.particle)];
     const float w = state_.positions[at(touch.particle)].w;
     float inverse = w;
-    Vec3f slower = place_of(own);
+    Vec3f slower = xyz(own);
     for (std::size_t k = 0; k < 3; ++k) {
-      slower = slower - place_of(state_.velocities[at(first_ + touch.corners[k])]) * touch.weights[k];
+      slower = slower - xyz(state_.velocities[at(first_ + touch.corners[k])]) * touch.weights[k];
       inverse += touch.weights[k] * touch.weights[k] * corner(touch.corners[k]).w;
     }
     const Vec3f impulse = slower * (share / inverse);
@@ -260,7 +260,7 @@ class Soaking {
       sum += share(found[k]);
       for (int n = begin_[at(found[k])]; n < begin_[at(found[k]) + 1]; ++n) {
         const int next = neighbours_[at(n)];
-        if (visited_[at(next)] != 0 || length_squared(place_of(corner(next)) - place) > reach_squared) continue;
+        if (visited_[at(next)] != 0 || length_squared(xyz(corner(next)) - place) > reach_squared) continue;
         visited_[at(next)] = 1;
         found.push_back(next);
       }
@@ -290,7 +290,7 @@ class Soaking {
     if (!soaks && !(surface_.described.seepage > 0)) return true;
     const std::vector<int> into = takers(touch, mass);
     if (into.empty() || !soaks) return !into.empty();
-    const Vec3f velocity = place_of(state_.velocities[at(touch.particle)]);
+    const Vec3f velocity = xyz(state_.velocities[at(touch.particle)]);
     float left = mass;
     for (const int one : into) {
       const float taken = std::min(room(one), left);
@@ -314,10 +314,10 @@ class Soaking {
     const float dry = dry_mass(particle);
     if (!(dry > 0) || !(corner(particle).w > 0)) return;
     Record& v = state_.velocities[at(first_ + particle)];
-    add(v, (velocity - place_of(v)) * (mass / (dry + water_[particle])));
+    add(v, (velocity - xyz(v)) * (mass / (dry + water_[particle])));
   }
 
-  void carry(int from, int to, float mass) { mix(to, mass, place_of(state_.velocities[at(first_ + from)])); }
+  void carry(int from, int to, float mass) { mix(to, mass, xyz(state_.velocities[at(first_ + from)])); }
 
   void remove(std::int64_t particle) {
     state_.positions[at(particle)].w = 0;
@@ -371,10 +371,9 @@ class Soaking {
   /// Lets a drop fall off, if there is enough for it within two of its diameters: there surface tension draws it together.
   bool let_fall(int from, int of, std::int64_t spare) {
     const float mass = mass_of(of, spare), reach = 2 * liquid(of).fluid->spacing;
-    const std::vector<int> found =
-        gather({from}, place_of(corner(from)), reach * reach, mass, [&](int i) { return excess(i); });
+    const std::vector<int> found = gather({from}, xyz(corner(from)), reach * reach, mass, [&](int i) { return excess(i); });
     if (found.empty()) return false;
-    const Vec3f place = place_of(corner(from)) + down_ * ((1 + slack / 2) * contact_distance(of));
+    const Vec3f place = xyz(corner(from)) + down_ * ((1 + slack / 2) * contact_distance(of));
     if (!is_free(place, of, -1)) return false;
     float left = mass;
     Vec3f momentum{};
@@ -382,7 +381,7 @@ class Soaking {
       const float taken = std::min(excess(one), left);
       left -= taken;
       water_[one] -= taken;
-      momentum = momentum + place_of(state_.velocities[at(first_ + one)]) * taken;
+      momentum = momentum + xyz(state_.velocities[at(first_ + one)]) * taken;
     }
     const Vec3f v = momentum * (1 / mass);
     state_.positions[at(spare)] = {place.x, place.y, place.z, inverse_mass_of(of, spare)};

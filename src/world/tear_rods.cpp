@@ -7,6 +7,7 @@
 
 #include "constraints/registry.h"
 #include "constraints/rod_joint.h"
+#include "core/at.h"
 #include "math/disjoint_sets.h"
 #include "math/quat.h"
 #include "matter/plane_sides.h"
@@ -16,8 +17,6 @@
 namespace pliant {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The joints of an object's rods that are not broken.
 class WholeRods {

@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/at.h"
+
 namespace pliant {
 
 namespace {
 
 constexpr int most_steps = 100;  // of a frame; what would need more flows slower
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// In how many steps liquid spreads, so that none of them moves more than a quarter of what is between the ends of an edge.
 int steps_of(const CompiledAbsorbency& surface, double seconds) {
