@@ -5,28 +5,20 @@
 #include <cmath>
 #include <cstddef>
 
+#include "collision/broad/bounds.h"
 #include "pliant/queries.h"
 
 namespace pliant {
 
 namespace {
 
-struct Bounds {
-  Vec3f low, high;
-};
-
-Bounds box_of(const std::vector<Vec3f>& positions) {
-  Bounds box{positions.front(), positions.front()};
+BoxBounds box_of(const std::vector<Vec3f>& positions) {
+  BoxBounds box{positions.front(), positions.front()};
   for (const Vec3f& p : positions) {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
   }
   return box;
-}
-
-bool overlap(const Bounds& a, const Bounds& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y && a.low.z <= b.high.z &&
-         b.low.z <= a.high.z;
 }
 
 std::string count_of(std::size_t crossings) {
@@ -51,7 +43,7 @@ bool are_open(const Object& a, const Object& b) {
 }
 
 /// Adds the triangles of a surface that reach into a box.
-void add_triangles(const Object& object, const std::vector<Vec3f>& positions, const Bounds& box, int offset,
+void add_triangles(const Object& object, const std::vector<Vec3f>& positions, const BoxBounds& box, int offset,
                    std::vector<std::array<int, 3>>& triangles) {
   for (const auto& t : object.triangles) {
     const auto corner = [&](int c) { return positions[static_cast<std::size_t>(t[static_cast<std::size_t>(c)])]; };
@@ -62,7 +54,7 @@ void add_triangles(const Object& object, const std::vector<Vec3f>& positions, co
 
 /// The number of edges of one surface that pass through triangles of the other.
 std::size_t crossings_of(const Object& a, const std::vector<Vec3f>& of_a, const Object& b, const std::vector<Vec3f>& of_b) {
-  const Bounds box_of_a = box_of(of_a), box_of_b = box_of(of_b);
+  const BoxBounds box_of_a = box_of(of_a), box_of_b = box_of(of_b);
   if (!overlap(box_of_a, box_of_b)) return 0;
   const auto offset = static_cast<int>(of_a.size());
   std::vector<std::array<int, 3>> triangles;
@@ -106,12 +98,12 @@ std::vector<std::string> passed_through_themselves(const Scene& scene, const Wor
 
 void PassingObjects::look(const World& world, const std::function<bool()>& stops) {
   std::vector<std::vector<Vec3f>> now;
-  std::vector<Bounds> boxes;
+  std::vector<BoxBounds> boxes;
   now.reserve(scene_.objects.size());
   boxes.reserve(scene_.objects.size());
   for (int o = 0; o < static_cast<int>(scene_.objects.size()); ++o) {
     now.push_back(world.object(o).positions());
-    boxes.push_back(now.back().empty() ? Bounds{} : box_of(now.back()));
+    boxes.push_back(now.back().empty() ? BoxBounds{} : box_of(now.back()));
   }
   for (std::size_t i = 0; i < now.size(); ++i)
     for (std::size_t j = i + 1; j < now.size(); ++j) {

@@ -8,7 +8,7 @@ namespace pliant {
 
 namespace {
 
-constexpr double widening = 1e-5;
+constexpr double widening_share = 1e-5;
 
 struct Axes {
   Vec3d axis[3];
@@ -46,7 +46,7 @@ OrientedBoxBounds box_between(const Axes& axes, const Vec3d& origin, const doubl
   }
   box.centre = convert<float>(centre);
   const double shift = length(convert<double>(box.centre) - centre);  // rounding error of the centre
-  const double wider = widening * size + shift;
+  const double wider = widening_share * size + shift;
   box.extents = {detail::float_above(half[0] + wider), detail::float_above(half[1] + wider),
                  detail::float_above(half[2] + wider)};
   return box;
@@ -107,7 +107,7 @@ OrientedBoxBounds OrientedBoxBounds::merged(const OrientedBoxBounds* boxes, int 
 
 OrientedBoxBounds OrientedBoxBounds::grown(float margin) const {
   OrientedBoxBounds box = *this;
-  const double step = static_cast<double>(margin) * (1 + widening);
+  const double step = static_cast<double>(margin) * (1 + widening_share);
   box.extents = {detail::float_above(static_cast<double>(extents.x) + step),
                  detail::float_above(static_cast<double>(extents.y) + step),
                  detail::float_above(static_cast<double>(extents.z) + step)};

@@ -8,7 +8,7 @@ using detail::float_below;
 namespace {
 
 // Factor by which merged spheres are widened; it far exceeds rounding.
-constexpr double widening = 1 + 1e-6;
+constexpr double widening_factor = 1 + 1e-6;
 
 SphereBounds sphere_about(const Vec3d& middle, double radius) { return {convert<float>(middle), float_above(radius)}; }
 
@@ -20,7 +20,7 @@ SphereBounds SphereBounds::of(const Vec3f* points, int count) {
   double squared = 0;
   for (int i = 0; i < count; ++i)
     squared = max(squared, length_squared(convert<double>(points[i]) - convert<double>(centre)));
-  return sphere_about(convert<double>(centre), sqrt(squared) * widening);
+  return sphere_about(convert<double>(centre), sqrt(squared) * widening_factor);
 }
 
 SphereBounds SphereBounds::merged(const SphereBounds* spheres, int count) {
@@ -37,7 +37,7 @@ SphereBounds SphereBounds::merged(const SphereBounds* spheres, int count) {
   for (int i = 0; i < count; ++i)
     radius = max(radius, length(convert<double>(spheres[i].centre) - convert<double>(centre)) +
                              static_cast<double>(spheres[i].radius));
-  return sphere_about(convert<double>(centre), radius * widening);
+  return sphere_about(convert<double>(centre), radius * widening_factor);
 }
 
 SphereBounds SphereBounds::grown(float margin) const { return {centre, detail::rounded_up(radius + margin)}; }
