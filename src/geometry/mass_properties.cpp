@@ -1,12 +1,13 @@
 #include "geometry/mass_properties.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace pliant {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr int sweeps = 12;  ///< of Jacobi's method, whose convergence is quadratic: five suffice for any 3 x 3 matrix
 
 using Matrix = std::array<std::array<double, 3>, 3>;

@@ -29,7 +29,7 @@ float as_compliance(double alpha) { return static_cast<float>(std::min(alpha, la
 std::string name_of(const Edge& edge) { return "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b); }
 
 /// A mesh being converted to cloth, with its measurements.
-struct Piece {
+struct ClothDraft {
   const TriangleMesh& mesh;
   const ClothOptions& options;
   std::vector<Triangle> triangles;  ///< triangles, wound consistently if possible
@@ -59,11 +59,11 @@ struct Piece {
 
 // ------------------------------------------------------------------------------------------------ validation
 
-void require_fraction(const Piece& piece, const char* field, float value) {
+void require_fraction(const ClothDraft& piece, const char* field, float value) {
   if (!(value >= 0 && value <= 1)) piece.refuse(field, "is " + std::to_string(value), "give 0 to 1");
 }
 
-void require_material(const Piece& piece) {
+void require_material(const ClothDraft& piece) {
   const Fabric& m = piece.options.material;
   const auto refuse = [&](const char* field, float value, const char* advice) {
     piece.refuse(std::string("material, ") + field, "is " + std::to_string(value), advice);
@@ -79,7 +79,7 @@ void require_material(const Piece& piece) {
   require_fraction(piece, "material, bending_damping", m.bending_damping);
 }
 
-void require_positions(const Piece& piece) {
+void require_positions(const ClothDraft& piece) {
   if (piece.mesh.positions.empty() || piece.mesh.triangles.empty())
     piece.refuse("", "the mesh has no triangle", "cloth needs at least one");
   for (int v = 0; v < piece.vertex_count(); ++v) {
@@ -90,7 +90,7 @@ void require_positions(const Piece& piece) {
 }
 
 /// Throws an Error if a triangle occurs twice. Edges of three or more triangles are allowed: they get no hinge.
-void require_distinct_triangles(const Piece& piece) {
+void require_distinct_triangles(const ClothDraft& piece) {
   for (const Edge& edge : piece.edges) {
     if (edge.is_inner() && edge.opposites[0] == edge.opposites[1])
       piece.refuse("triangle " + std::to_string(edge.triangles[1]),
@@ -101,7 +101,7 @@ void require_distinct_triangles(const Piece& piece) {
 // ------------------------------------------------------------------------------------------------ winding
 
 /// Six times the volume that the triangles enclose [m^3].
-double six_volumes(const Piece& piece) {
+double six_volumes(const ClothDraft& piece) {
   double sum = 0;
   for (const Triangle& t : piece.triangles) {
     // Positions are relative to a vertex, so that a balloon far from the origin keeps its precision.
@@ -113,7 +113,7 @@ double six_volumes(const Piece& piece) {
 
 /// Makes the winding of triangles consistent, for pictures and balloons. Distances and hinges do not need
 /// it.
-void wind_alike(Piece& piece) {
+void wind_alike(ClothDraft& piece) {
   if (is_wound_consistently(piece.edges)) return;
   const Pieces pieces = find_pieces(piece.edges, static_cast<int>(piece.triangles.size()));
   if (piece.options.volume && !pieces.one_sided_edges.empty())
@@ -125,7 +125,7 @@ void wind_alike(Piece& piece) {
 }
 
 /// Throws an Error unless the mesh is closed, as balloons require. Flips all triangles if they face inward.
-void require_balloon(Piece& piece) {
+void require_balloon(ClothDraft& piece) {
   for (const Edge& edge : piece.edges) {
     if (edge.is_border())
       piece.refuse(name_of(edge), "is open", "a balloon needs a closed mesh: fill the hole or remove the volume");
@@ -142,7 +142,7 @@ void require_balloon(Piece& piece) {
 
 // ------------------------------------------------------------------------------------------------ masses
 
-void measure_areas(Piece& piece) {
+void measure_areas(ClothDraft& piece) {
   piece.areas.reserve(piece.triangles.size());
   for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
     const Triangle& corners = piece.triangles[t];
@@ -157,7 +157,7 @@ void measure_areas(Piece& piece) {
 }
 
 /// Gives each particle a third of the mass of each of its triangles.
-void lump_masses(Piece& piece) {
+void lump_masses(ClothDraft& piece) {
   piece.masses.assign(piece.mesh.positions.size(), 0);
   const double density = piece.options.material.area_density;
   for (std::size_t t = 0; t < piece.triangles.size(); ++t)
@@ -174,7 +174,7 @@ void lump_masses(Piece& piece) {
 
 /// Makes the distance constraints. An edge represents the strip of material beside it: alpha = L^2 / (Y (A1 + A2)) (Van
 /// Gelder 1998).
-ConstraintGroup stretch_group(const Piece& piece) {
+ConstraintGroup stretch_group(const ClothDraft& piece) {
   ConstraintGroup group;
   group.type = "distance";
   const double stiffness = piece.options.material.stretch_stiffness;
@@ -198,7 +198,7 @@ struct Yarns {
   std::array<float, 2> warp{}, weft{};
 };
 
-Yarns yarns_of(const Piece& piece, std::size_t triangle) {
+Yarns yarns_of(const ClothDraft& piece, std::size_t triangle) {
   const Triangle& t = piece.triangles[triangle];
   const Vec3d edge1 = piece.at(t[1]) - piece.at(t[0]), edge2 = piece.at(t[2]) - piece.at(t[0]);
   const Vec3d across = cross(edge1, edge2), normal = across * (1 / length(across));
@@ -217,7 +217,7 @@ Yarns yarns_of(const Piece& piece, std::size_t triangle) {
 
 /// Makes the constraints of woven cloth: of each triangle the stretch of its warp and its weft. A modulus Y of an area A has the compliance
 /// 1 / (Y A).
-ConstraintGroup yarn_group(const Piece& piece) {
+ConstraintGroup yarn_group(const ClothDraft& piece) {
   ConstraintGroup group;
   group.type = "triangle_stretch";
   const Fabric& m = piece.options.material;
@@ -241,7 +241,7 @@ double shear_stiffness(const Fabric& material) {
 }
 
 /// The same for the shear of each triangle.
-ConstraintGroup shear_group(const Piece& piece) {
+ConstraintGroup shear_group(const ClothDraft& piece) {
   ConstraintGroup group;
   group.type = "triangle_shear";
   for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
@@ -261,7 +261,7 @@ ConstraintGroup shear_group(const Piece& piece) {
 constexpr double share_of_rolled_sheet = 3;
 
 /// The compliance of the bending constraint at an inner edge [1/(N m)].
-double hinge_compliance(const Piece& piece, const Edge& edge, bool isometric) {
+double hinge_compliance(const ClothDraft& piece, const Edge& edge, bool isometric) {
   const double stiffness = piece.options.material.bending_stiffness;
   if (isometric) return share_of_rolled_sheet / stiffness;
   return piece.area_at(edge) / (length_squared(piece.at(edge.b) - piece.at(edge.a)) * stiffness);
@@ -282,7 +282,7 @@ std::array<double, 4> squared_gradients(const Vec3d (&x)[4], bool isometric) {
 
 /// A single hinge is an oscillator of mass 1 / w and stiffness 1 / alpha, with w
 /// = sum of w_i |grad_i C|^2. Its critical damping is 2 / sqrt(w alpha) [N m s].
-double critical_damping(const Piece& piece, const int* v, double compliance, bool isometric) {
+double critical_damping(const ClothDraft& piece, const int* v, double compliance, bool isometric) {
   const Vec3d x[4] = {piece.at(v[0]), piece.at(v[1]), piece.at(v[2]), piece.at(v[3])};
   const std::array<double, 4> squared = squared_gradients(x, isometric);
   double inverse_mass = 0;
@@ -292,7 +292,7 @@ double critical_damping(const Piece& piece, const int* v, double compliance, boo
 
 /// Sets the compliance of each hinge, and the damping coefficient of their group as a share of their mean critical
 /// damping.
-void apply_material(const Piece& piece, ConstraintGroup& group, bool isometric) {
+void apply_material(const ClothDraft& piece, ConstraintGroup& group, bool isometric) {
   const double fraction = piece.options.material.bending_damping;
   const std::size_t count = group.particles.size() / 4;
   double critical = 0;
@@ -310,7 +310,7 @@ void apply_material(const Piece& piece, ConstraintGroup& group, bool isometric) 
 }
 
 /// Makes the bending constraints. Their rest angles are left out; the constraint type computes them later.
-ConstraintGroup bending_group(const Piece& piece) {
+ConstraintGroup bending_group(const ClothDraft& piece) {
   const bool isometric = piece.options.bending_model == ClothOptions::Bending::isometric;
   ConstraintGroup group;
   group.type = isometric ? "isometric_bending" : "dihedral_bending";
@@ -333,7 +333,7 @@ bool bends(const ClothOptions& options) {
          (options.bending || options.material.bending_stiffness > 0);
 }
 
-void require_yarns(const Piece& piece) {
+void require_yarns(const ClothDraft& piece) {
   const ClothOptions& options = piece.options;
   if (options.stretch_model == ClothOptions::Stretching::springs) return;
   if (options.stretch)
@@ -344,7 +344,7 @@ void require_yarns(const Piece& piece) {
     piece.refuse("warp", "is not a direction", "give a finite vector of any length but 0");
 }
 
-Object assemble(Piece& piece) {
+Object assemble(ClothDraft& piece) {
   const ClothOptions& options = piece.options;
   Object cloth;
   cloth.name = options.name;
@@ -375,7 +375,7 @@ Object assemble(Piece& piece) {
 }  // namespace
 
 Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options) {
-  Piece piece{mesh, options, mesh.triangles, {}, {}, {}};
+  ClothDraft piece{mesh, options, mesh.triangles, {}, {}, {}};
   require_material(piece);
   require_positions(piece);
   try {

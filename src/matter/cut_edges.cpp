@@ -27,7 +27,7 @@ double area_of(const Object& object, int t) {
 /// Which copy of a particle each triangle uses after a cut, and of which particle it is a copy.
 class Cut {
  public:
-  Cut(const Object& object, const std::set<Edge>& edges, const std::vector<char>& whole)
+  Cut(const Object& object, const std::set<EdgeEnds>& edges, const std::vector<char>& whole)
       : object_(object), edges_(edges), is_split_(object.positions.size()) {
     std::set<int> ends;
     for (const auto& [a, b] : edges_)
@@ -179,7 +179,7 @@ class Cut {
   }
 
   const Object& object_;
-  const std::set<Edge>& edges_;
+  const std::set<EdgeEnds>& edges_;
   Around around_;                              ///< at the particles that are looked up
   std::vector<char> is_split_;                 ///< by particle
   std::map<std::pair<int, int>, int> copies_;  ///< copy that a triangle uses of a particle; key: particle and triangle
@@ -210,23 +210,23 @@ std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& obj
   return {found.begin(), found.end()};
 }
 
-std::set<Edge> edges_between(const Object& object, std::span<const int> part) {
+std::set<EdgeEnds> edges_between(const Object& object, std::span<const int> part) {
   require_triangles(object);
   const std::vector<char> meet = where_parts_meet(object.triangles, part, object.positions.size());
-  const auto is_between = [&](const Edge& edge) {
+  const auto is_between = [&](const EdgeEnds& edge) {
     return meet[static_cast<std::size_t>(edge.first)] != 0 && meet[static_cast<std::size_t>(edge.second)] != 0;
   };
-  std::map<Edge, int> part_of;  // of edges between two such particles: few
-  std::set<Edge> found;
+  std::map<EdgeEnds, int> part_of;  // of edges between two such particles: few
+  std::set<EdgeEnds> found;
   for (std::size_t t = 0; t < object.triangles.size(); ++t) {
     const auto& [a, b, c] = object.triangles[t];
-    for (const Edge& edge : {edge_of(a, b), edge_of(b, c), edge_of(c, a)})
+    for (const EdgeEnds& edge : {edge_of(a, b), edge_of(b, c), edge_of(c, a)})
       if (is_between(edge) && part_of.try_emplace(edge, part[t]).first->second != part[t]) found.insert(edge);
   }
   return found;
 }
 
-Edit cut_edges(const Object& object, const std::set<Edge>& edges, const std::vector<char>& whole) {
+Edit cut_edges(const Object& object, const std::set<EdgeEnds>& edges, const std::vector<char>& whole) {
   require_masses(object);
   require_triangles(object);
   return Cut(object, edges, whole).make();

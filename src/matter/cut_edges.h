@@ -12,9 +12,9 @@
 
 namespace pliant {
 
-/// Two particles, the lower one first.
-using Edge = std::pair<int, int>;
-inline Edge edge_of(int a, int b) { return a < b ? Edge{a, b} : Edge{b, a}; }
+/// The two particles of an edge, the lower one first.
+using EdgeEnds = std::pair<int, int>;
+inline EdgeEnds edge_of(int a, int b) { return a < b ? EdgeEnds{a, b} : EdgeEnds{b, a}; }
 
 inline bool has_corner(const std::array<int, 3>& t, int particle) {
   return t[0] == particle || t[1] == particle || t[2] == particle;
@@ -29,9 +29,9 @@ std::vector<int> triangles_of(const std::vector<int>& stencil, const Object& obj
 
 /// The edges between triangles of different `part`, one number for each triangle. Throws an Error if a triangle uses a particle that does
 /// not exist.
-std::set<Edge> edges_between(const Object& object, std::span<const int> part);
+std::set<EdgeEnds> edges_between(const Object& object, std::span<const int> part);
 
 /// The Edit that opens a surface along these edges (pliant/edit.h: cut). Particles that have 1 in `whole` are not split.
-Edit cut_edges(const Object& object, const std::set<Edge>& edges, const std::vector<char>& whole = {});
+Edit cut_edges(const Object& object, const std::set<EdgeEnds>& edges, const std::vector<char>& whole = {});
 
 }  // namespace pliant

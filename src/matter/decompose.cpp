@@ -20,14 +20,12 @@ namespace pliant {
 
 namespace {
 
-constexpr float cells = 56;  ///< along the longest side
+constexpr float cells_along = 56;  ///< along the longest side
 constexpr float near_surface =
     0.9f;                            ///< nodes up to this share of a cell outside count as solid, so that thin walls do too
 constexpr float automatic = 0.02f;   ///< tolerance, as a share of the longest side
 constexpr int planes_per_axis = 12;  ///< that are tried, evenly spaced
 constexpr std::size_t most_places = 24;  ///< up to which all places of vertices are tried as well
-
-float coordinate(const Vec3f& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
 void require(bool is_right, const char* option, const std::string& advice) {
   if (!is_right) throw Error(Location{.element = option}, "is out of range", advice);
@@ -87,7 +85,7 @@ double volume_of(const ConvexHull& hull) {
 }
 
 /// A part and its hull; without one if it is flat.
-struct Piece {
+struct HulledPart {
   MeshPart part;
   std::optional<ConvexHull> hull;
   float filled = 0;
@@ -102,9 +100,9 @@ class Divider {
     const float longest = std::max({size.x, size.y, size.z});
     tolerance_ = options.tolerance > 0 ? options.tolerance : automatic * longest;
     Executor executor(0);
-    const DistanceGrid grid(query, longest / cells, longest / cells, executor);
+    const DistanceGrid grid(query, longest / cells_along, longest / cells_along, executor);
     field_ = grid.field();
-    Piece whole;
+    HulledPart whole;
     for (const Triangle& t : mesh.triangles)
       whole.part.triangles.push_back({mesh.positions[static_cast<std::size_t>(t[0])],
                                       mesh.positions[static_cast<std::size_t>(t[1])],
@@ -118,7 +116,7 @@ class Divider {
   void run() {
     while (static_cast<int>(pieces_.size()) < options_.most_pieces) {
       const auto deepest = std::max_element(pieces_.begin(), pieces_.end(),
-                                            [](const Piece& a, const Piece& b) { return a.filled < b.filled; });
+                                            [](const HulledPart& a, const HulledPart& b) { return a.filled < b.filled; });
       if (!(deepest->filled > tolerance_)) return;
       const std::optional<AxisPlane> plane = best_plane(deepest->part);
       if (!plane) {
@@ -133,7 +131,7 @@ class Divider {
     }
   }
 
-  const std::vector<Piece>& pieces() const { return pieces_; }
+  const std::vector<HulledPart>& pieces() const { return pieces_; }
 
  private:
   Vec3f place_of(const GridNode& node) const {
@@ -206,7 +204,7 @@ class Divider {
   }
 
   /// A part's hull is that of its triangles, and of its inner nodes, where planes meet inside of the mesh.
-  void find_hull(Piece& piece) const {
+  void find_hull(HulledPart& piece) const {
     std::vector<Vec3f> points;
     for (const std::array<Vec3f, 3>& triangle : piece.part.triangles)
       points.insert(points.end(), triangle.begin(), triangle.end());
@@ -230,7 +228,7 @@ class Divider {
   float tolerance_ = 0;
   std::shared_ptr<const DistanceField> field_;
   std::array<std::vector<float>, 3> places_;
-  std::vector<Piece> pieces_;
+  std::vector<HulledPart> pieces_;
 };
 
 Moments moments_of(const TriangleMesh& mesh) {
@@ -250,7 +248,7 @@ BodyInertia inertia_of(const Moments& of) {
 }
 
 /// One piece for a mesh that fills its hull, without measuring distances.
-std::vector<Piece> pieces_of(const TriangleMesh& mesh, double volume, const DecomposeOptions& options) {
+std::vector<HulledPart> pieces_of(const TriangleMesh& mesh, double volume, const DecomposeOptions& options) {
   constexpr double of_rounding = 1e-5;
   if (std::optional<ConvexHull> hull = convex_hull(mesh.positions); hull) {
     if (std::abs(volume_of(*hull) - volume) <= of_rounding * volume) return {{{}, reduced(hull, options.most_corners), 0}};
@@ -272,7 +270,7 @@ Decomposition decompose(const TriangleMesh& mesh, const DecomposeOptions& option
   Decomposition out;
   out.inertia = inertia_of(times(volume, static_cast<double>(options.density)));
   double sum = 0;
-  for (const Piece& piece : pieces_of(mesh, volume.mass, options)) {
+  for (const HulledPart& piece : pieces_of(mesh, volume.mass, options)) {
     if (!piece.hull) continue;
     sum += volume_of(*piece.hull);
     out.filled = std::max(out.filled, piece.filled);

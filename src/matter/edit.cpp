@@ -14,14 +14,14 @@ namespace pliant {
 
 namespace {
 
-std::set<Edge> edges_of(const Object& object, std::span<const int> path) {
+std::set<EdgeEnds> edges_of(const Object& object, std::span<const int> path) {
   std::vector<char> is_on(object.positions.size());
   for (const int p : path) is_on[static_cast<std::size_t>(p)] = 1;
   require_triangles(object);
   const Around around(object.triangles, is_on);
-  std::set<Edge> edges;
+  std::set<EdgeEnds> edges;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Edge cut = edge_of(path[i], path[i + 1]);
+    const EdgeEnds cut = edge_of(path[i], path[i + 1]);
     if (cut.first == cut.second || triangles_of({cut.first, cut.second}, object, around).empty())
       throw Error({.object = object.name, .element = "edge " + std::to_string(path[i]) + "-" + std::to_string(path[i + 1])},
                   "is not an edge of a triangle, so it cannot be cut", "give a path along edges of triangles");

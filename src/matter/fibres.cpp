@@ -14,8 +14,6 @@ namespace pliant {
 
 namespace {
 
-constexpr double largest_modulus = 1e15, largest_response = 1e26;
-
 [[noreturn]] void refuse(const Object& body, const std::string& element, const std::string& problem,
                          const std::string& advice) {
   throw Error({.object = body.name, .element = "fibres" + (element.empty() ? "" : ", " + element)}, problem, advice);

@@ -6,17 +6,13 @@
 #include <cmath>
 #include <string>
 
+#include "matter/require_option.h"
 #include "pliant/error.h"
 #include "pliant/liquid.h"
 
 namespace pliant {
 
 namespace {
-
-void require(bool is_good, const std::string& name, const char* element, float value, const char* what) {
-  if (!is_good || !std::isfinite(value))
-    throw Error({.object = name, .element = element}, "is " + std::to_string(value), std::string("give a ") + what);
-}
 
 struct Preset {
   const char* name;
@@ -45,14 +41,15 @@ GasOptions gas_preset(std::string_view name) {
 
 Object make_gas(const std::vector<Vec3f>& positions, const GasOptions& options) {
   const Gas& gas = options.gas;
-  require(gas.temperature > 0, options.name, "temperature", gas.temperature, "positive temperature [K]");
-  require(gas.ambient_temperature > 0, options.name, "ambient_temperature", gas.ambient_temperature,
-          "positive temperature [K]");
-  require(gas.ambient_density >= 0, options.name, "ambient_density", gas.ambient_density, "density of 0 or more [kg/m^3]");
-  require(gas.cooling_time >= 0, options.name, "cooling_time", gas.cooling_time, "time of 0 or more [s]");
-  require(gas.diffusivity >= 0, options.name, "diffusivity", gas.diffusivity, "diffusivity of 0 or more [m^2/s]");
-  require(gas.drag >= 0, options.name, "drag", gas.drag, "rate of 0 or more [1/s]");
-  require(gas.vorticity >= 0, options.name, "vorticity", gas.vorticity, "coefficient of 0 or more [m/s]");
+  require_option(gas.temperature > 0, options.name, "temperature", gas.temperature, "positive temperature [K]");
+  require_option(gas.ambient_temperature > 0, options.name, "ambient_temperature", gas.ambient_temperature,
+                 "positive temperature [K]");
+  require_option(gas.ambient_density >= 0, options.name, "ambient_density", gas.ambient_density,
+                 "density of 0 or more [kg/m^3]");
+  require_option(gas.cooling_time >= 0, options.name, "cooling_time", gas.cooling_time, "time of 0 or more [s]");
+  require_option(gas.diffusivity >= 0, options.name, "diffusivity", gas.diffusivity, "diffusivity of 0 or more [m^2/s]");
+  require_option(gas.drag >= 0, options.name, "drag", gas.drag, "rate of 0 or more [1/s]");
+  require_option(gas.vorticity >= 0, options.name, "vorticity", gas.vorticity, "coefficient of 0 or more [m/s]");
   Object object = make_liquid(positions, {.name = options.name, .fluid = options.fluid, .velocity = options.velocity});
   object.gas = gas;
   object.colour = {0.75f, 0.75f, 0.78f};
@@ -61,8 +58,8 @@ Object make_gas(const std::vector<Vec3f>& positions, const GasOptions& options) 
 
 Volume filled_with(const GasOptions& gas, float mass, double rest_volume) {
   constexpr double pressure_of_air = 101325;  // [Pa]
-  require(mass > 0, gas.name, "mass", mass, "positive mass [kg]");
-  require(rest_volume > 0, gas.name, "rest_volume", static_cast<float>(rest_volume), "positive volume [m^3]");
+  require_option(mass > 0, gas.name, "mass", mass, "positive mass [kg]");
+  require_option(rest_volume > 0, gas.name, "rest_volume", static_cast<float>(rest_volume), "positive volume [m^3]");
   const double density = static_cast<double>(gas.fluid.density) * static_cast<double>(gas.gas.ambient_temperature) /
                          static_cast<double>(gas.gas.temperature);
   const double volume = static_cast<double>(mass) / density;
@@ -81,8 +78,8 @@ Object make_tracers(const TracersOptions& options) {
   if (options.capacity < 1 || options.capacity > most)
     throw Error({.object = options.name, .element = "capacity"}, "is " + std::to_string(options.capacity),
                 "give 1 to " + std::to_string(most));
-  require(tracers.rate > 0, options.name, "rate", tracers.rate, "positive rate [1/s]");
-  require(tracers.lifetime > 0, options.name, "lifetime", tracers.lifetime, "positive time [s]");
+  require_option(tracers.rate > 0, options.name, "rate", tracers.rate, "positive rate [1/s]");
+  require_option(tracers.lifetime > 0, options.name, "lifetime", tracers.lifetime, "positive time [s]");
   Object object;
   object.name = options.name;
   object.positions.assign(static_cast<std::size_t>(options.capacity), tracers.source.centre);

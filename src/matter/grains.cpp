@@ -4,29 +4,22 @@
 #include <cmath>
 #include <string>
 
+#include "matter/require_option.h"
 #include "matter/spare_particles.h"
 #include "pliant/error.h"
 
 namespace pliant {
-
-namespace {
-
-void require(bool is_good, const std::string& name, const char* element, float value, const char* what) {
-  if (!is_good || !std::isfinite(value))
-    throw Error({.object = name, .element = element}, "is " + std::to_string(value), std::string("give a ") + what);
-}
-
-}  // namespace
 
 Object make_grains(const std::vector<Vec3f>& positions, const GrainsOptions& options) {
   constexpr float sphere = 4.18879020f;  // 4/3 pi: volume over the cube of the radius
   const Grains& grains = options.grains;
   if (positions.empty() && options.capacity == 0)
     throw Error({.object = options.name}, "grains without particles", "give a position or more");
-  require(grains.radius > 0, options.name, "radius", grains.radius, "positive, finite radius [m]");
-  require(grains.density > 0, options.name, "density", grains.density, "positive, finite density [kg/m^3]");
-  require(grains.friction >= 0, options.name, "friction", grains.friction, "finite coefficient of 0 or more [-]");
-  require(grains.cohesion >= 0, options.name, "cohesion", grains.cohesion, "finite tensile stress of 0 or more [Pa]");
+  require_option(grains.radius > 0, options.name, "radius", grains.radius, "positive, finite radius [m]");
+  require_option(grains.density > 0, options.name, "density", grains.density, "positive, finite density [kg/m^3]");
+  require_option(grains.friction >= 0, options.name, "friction", grains.friction, "finite coefficient of 0 or more [-]");
+  require_option(grains.cohesion >= 0, options.name, "cohesion", grains.cohesion,
+                 "finite tensile stress of 0 or more [Pa]");
   Object object;
   object.name = options.name;
   object.positions = positions;

@@ -13,13 +13,6 @@ namespace pliant {
 
 namespace {
 
-void append(const Vec3d& v, std::vector<float>& to) {
-  for (const double x : {v.x, v.y, v.z}) to.push_back(static_cast<float>(x));
-}
-void append(const Quatd& q, std::vector<float>& to) {
-  for (const double x : {q.x, q.y, q.z, q.w}) to.push_back(static_cast<float>(x));
-}
-
 double distance(const Vec3d& a, const Vec3d& b) { return std::sqrt(length_squared(b - a)); }
 
 /// Sets the joint frame with `axis` as its x-axis.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -15,12 +16,10 @@ namespace pliant {
 
 namespace {
 
-constexpr double pi = 3.14159265358979324;
+using std::numbers::pi;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float above_zero = 1e-20f;
 constexpr const char* world_name = "world";
-
-bool is_finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// True also for the world's body before it is added.
 bool is_fixed(const Object& object, const JointBody& body) {
@@ -30,13 +29,6 @@ bool is_fixed(const Object& object, const JointBody& body) {
 
 /// Rest data are finite.
 float limited(float value) { return std::min(value, joint::no_limit); }
-
-void append(const Vec3d& v, std::vector<float>& to) {
-  for (const double x : {v.x, v.y, v.z}) to.push_back(static_cast<float>(x));
-}
-void append(const Quatd& q, std::vector<float>& to) {
-  for (const double x : {q.x, q.y, q.z, q.w}) to.push_back(static_cast<float>(x));
-}
 
 /// The rotation that takes x to axis 0, 1 or 2, and permutes the others.
 Quatd exchange_axes(int axis) {
@@ -91,6 +83,13 @@ std::size_t group_for(Object& object, const std::string& type, const Stiffness& 
 }
 
 }  // namespace
+
+void append(const Vec3d& v, std::vector<float>& to) {
+  for (const double x : {v.x, v.y, v.z}) to.push_back(static_cast<float>(x));
+}
+void append(const Quatd& q, std::vector<float>& to) {
+  for (const double x : {q.x, q.y, q.z, q.w}) to.push_back(static_cast<float>(x));
+}
 
 Quatd rotation_from_x(const Vec3d& axis) {
   if (axis.x < -1 + 1e-12) return {0, 0, 1, 0};  // half a turn about z

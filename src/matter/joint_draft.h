@@ -22,6 +22,10 @@ struct JointBody {
   Quatd local(const Quatd& axes) const { return normalise(multiply(conjugate(pose.rotation), axes)); }
 };
 
+/// Appends a vector or a quaternion to rest data.
+void append(const Vec3d& v, std::vector<float>& to);
+void append(const Quatd& q, std::vector<float>& to);
+
 class JointDraft {
  public:
   /// Throws an Error if a body does not exist, if a and b are the same or both fixed, or if an option is wrong.

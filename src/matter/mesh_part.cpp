@@ -10,26 +10,23 @@ namespace pliant {
 namespace {
 
 /// The thirteen directions between neighbours of a grid.
-constexpr std::array<std::array<std::int32_t, 3>, GridSlabs::directions> ways{{{1, 0, 0},
-                                                                               {0, 1, 0},
-                                                                               {0, 0, 1},
-                                                                               {0, 1, 1},
-                                                                               {0, 1, -1},
-                                                                               {1, 0, 1},
-                                                                               {1, 0, -1},
-                                                                               {1, 1, 0},
-                                                                               {1, -1, 0},
-                                                                               {1, 1, 1},
-                                                                               {1, 1, -1},
-                                                                               {1, -1, 1},
-                                                                               {1, -1, -1}}};
+constexpr std::array<std::array<std::int32_t, 3>, GridSlabs::directions> grid_directions{{{1, 0, 0},
+                                                                                          {0, 1, 0},
+                                                                                          {0, 0, 1},
+                                                                                          {0, 1, 1},
+                                                                                          {0, 1, -1},
+                                                                                          {1, 0, 1},
+                                                                                          {1, 0, -1},
+                                                                                          {1, 1, 0},
+                                                                                          {1, -1, 0},
+                                                                                          {1, 1, 1},
+                                                                                          {1, 1, -1},
+                                                                                          {1, -1, 1},
+                                                                                          {1, -1, -1}}};
 
 std::int32_t along(std::size_t way, const std::array<std::int32_t, 3>& at) {
-  return ways[way][0] * at[0] + ways[way][1] * at[1] + ways[way][2] * at[2];
+  return grid_directions[way][0] * at[0] + grid_directions[way][1] * at[1] + grid_directions[way][2] * at[2];
 }
-
-float& coordinate(Vec3f& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-float coordinate(const Vec3f& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
 /// Where a segment meets the plane; the same for both directions of the segment.
 Vec3f crossing(Vec3f a, Vec3f b, const AxisPlane& plane) {
@@ -61,7 +58,7 @@ void clip(const std::array<Vec3f, 3>& triangle, const AxisPlane& plane, float si
 }  // namespace
 
 void GridSlabs::add(const std::array<std::int32_t, 3>& at) {
-  for (std::size_t k = 0; k < ways.size(); ++k) {
+  for (std::size_t k = 0; k < grid_directions.size(); ++k) {
     const std::int32_t place = along(k, at);
     low_[k] = is_empty_ ? place : std::min(low_[k], place);
     high_[k] = is_empty_ ? place : std::max(high_[k], place);
@@ -71,7 +68,7 @@ void GridSlabs::add(const std::array<std::int32_t, 3>& at) {
 
 bool GridSlabs::contain(const std::array<std::int32_t, 3>& at) const {
   if (is_empty_) return false;
-  for (std::size_t k = 0; k < ways.size(); ++k) {
+  for (std::size_t k = 0; k < grid_directions.size(); ++k) {
     const std::int32_t place = along(k, at);
     if (place < low_[k] || place > high_[k]) return false;
   }

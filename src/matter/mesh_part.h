@@ -30,6 +30,10 @@ class GridSlabs {
   bool is_empty_ = true;
 };
 
+/// The coordinate of a point along axis 0, 1 or 2.
+inline float& coordinate(Vec3f& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+inline float coordinate(const Vec3f& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
 /// A plane perpendicular to an axis.
 struct AxisPlane {
   int axis = 0;

@@ -15,6 +15,7 @@
 #include "matter/around.h"
 #include "matter/edit_parts.h"
 #include "matter/solid_border.h"
+#include "matter/tetrahedron_faces.h"
 
 namespace pliant {
 
@@ -22,15 +23,13 @@ namespace {
 
 using Corners = std::array<int, 4>;
 
-bool holds(const Corners& t, int particle) { return std::find(t.begin(), t.end(), particle) != t.end(); }
-
 /// The corners that two tetrahedra share; nothing if these are not three.
 std::optional<Face> shared_face(const Corners& a, const Corners& b) {
   Face face{};
   std::size_t count = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     if (count + 1 < i) return {};  // two of them are not shared
-    if (!holds(b, a[i])) continue;
+    if (!has_corner(b, a[i])) continue;
     if (count == 3) return {};
     face[count++] = a[i];
   }
@@ -206,7 +205,7 @@ class Parting {
       if (type.slots[slot] == SlotKind::point && static_cast<int>(slot) != tied_slot(type)) points.push_back(stencil[slot]);
     if (points.size() < 2) return out;
     for (const int t : around_[points.back()])
-      if (std::all_of(points.begin(), points.end(), [&](int p) { return holds(at(t), p); })) out.push_back(t);
+      if (std::all_of(points.begin(), points.end(), [&](int p) { return has_corner(at(t), p); })) out.push_back(t);
     return out;
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -17,7 +18,7 @@ namespace pliant {
 
 namespace {
 
-constexpr double pi = 3.14159265358979324;
+using std::numbers::pi;
 /// Caps reach a radius beyond the ends of a segment, so two segments with one of this length between them do not touch.
 constexpr double least_length_in_radii = 2.25;
 /// The moment of inertia about the axis is that of a cylinder of at least this radius, as a share of the segment's length: contact would

@@ -25,9 +25,7 @@ using Tetrahedron = std::array<int, 4>;
 
 /// A tetrahedron whose volume is below this share of the product of three edges is flat: its constraints would be zero.
 constexpr double least_volume = 1e-5;
-constexpr double largest_modulus = 1e15, largest_quantity = 1e12, largest_plastic = static_cast<double>(1e30f);
-/// Of compliances and dampings: over the square of a substep, a larger one would overflow.
-constexpr double largest_response = 1e26;
+constexpr double largest_quantity = 1e12, largest_plastic = static_cast<double>(1e30f);
 
 struct Source {
   const TetrahedralMesh& mesh;
@@ -113,14 +111,14 @@ MeasuredTetrahedra wound_alike(const Source& from) {
   return out;
 }
 
-struct Face {
+struct SortedFace {
   std::array<int, 3> sorted;
   std::size_t tetrahedron;
   std::size_t number;
 };
 
-std::vector<Face> sorted_faces(const std::vector<Tetrahedron>& tetrahedra) {
-  std::vector<Face> all;
+std::vector<SortedFace> sorted_faces(const std::vector<Tetrahedron>& tetrahedra) {
+  std::vector<SortedFace> all;
   all.reserve(4 * tetrahedra.size());
   for (std::size_t t = 0; t < tetrahedra.size(); ++t)
     for (std::size_t f = 0; f < tetrahedron_faces.size(); ++f) {
@@ -129,18 +127,18 @@ std::vector<Face> sorted_faces(const std::vector<Tetrahedron>& tetrahedra) {
       all.push_back({sorted, t, f});
     }
   int particles = 0;
-  for (const Face& face : all) particles = std::max(particles, face.sorted[0] + 1);
+  for (const SortedFace& face : all) particles = std::max(particles, face.sorted[0] + 1);
   sort_by_first(
-      all, static_cast<std::size_t>(particles), [](const Face& face) { return face.sorted[0]; },
-      [](const Face& a, const Face& b) {
+      all, static_cast<std::size_t>(particles), [](const SortedFace& face) { return face.sorted[0]; },
+      [](const SortedFace& a, const SortedFace& b) {
         return std::tie(a.sorted, a.tetrahedron, a.number) < std::tie(b.sorted, b.tetrahedron, b.number);
       });
   return all;
 }
 
 std::vector<std::array<int, 3>> border_of(const Source& from, const std::vector<Tetrahedron>& tetrahedra) {
-  const std::vector<Face> all = sorted_faces(tetrahedra);
-  std::vector<Face> border;
+  const std::vector<SortedFace> all = sorted_faces(tetrahedra);
+  std::vector<SortedFace> border;
   for (std::size_t i = 0; i < all.size();) {
     std::size_t end = i;
     while (end < all.size() && all[end].sorted == all[i].sorted) ++end;
@@ -150,12 +148,12 @@ std::vector<std::array<int, 3>> border_of(const Source& from, const std::vector<
     if (end - i == 1) border.push_back(all[i]);
     i = end;
   }
-  std::sort(border.begin(), border.end(), [](const Face& a, const Face& b) {
+  std::sort(border.begin(), border.end(), [](const SortedFace& a, const SortedFace& b) {
     return std::pair(a.tetrahedron, a.number) < std::pair(b.tetrahedron, b.number);
   });
   std::vector<std::array<int, 3>> out;
   out.reserve(border.size());
-  for (const Face& face : border) out.push_back(face_of(tetrahedra[face.tetrahedron], face.number));
+  for (const SortedFace& face : border) out.push_back(face_of(tetrahedra[face.tetrahedron], face.number));
   return out;
 }
 

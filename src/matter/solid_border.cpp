@@ -13,12 +13,12 @@
 #include "matter/cut_edges.h"
 #include "matter/tetrahedron_faces.h"
 #include "pliant/soft_body.h"
+#include "topology/edges.h"
 
 namespace pliant {
 
 namespace {
 
-using Triangle = std::array<int, 3>;
 using Corners = std::array<int, 4>;
 
 /// A triangle, and the face that it is: four times the tetrahedron plus the face's number.
@@ -26,10 +26,6 @@ struct BorderFace {
   std::int64_t face = 0;
   Triangle triangle{};
 };
-
-bool holds(const Corners& t, int particle) {
-  return t[0] == particle || t[1] == particle || t[2] == particle || t[3] == particle;
-}
 
 bool is_reached(const Triangle& triangle, const std::vector<char>& reached) {
   return std::any_of(triangle.begin(), triangle.end(), [&](int p) { return reached[static_cast<std::size_t>(p)] != 0; });
@@ -71,7 +67,8 @@ std::optional<std::vector<BorderFace>> faces_of(const std::vector<Triangle>& tri
   auto next = triangles.begin();
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
     sum ^= numbers.of_faces(tetrahedra[t]);
-    if (next == triangles.end() || !holds(tetrahedra[t], (*next)[0]) || !holds(tetrahedra[t], (*next)[1])) continue;
+    if (next == triangles.end() || !has_corner(tetrahedra[t], (*next)[0]) || !has_corner(tetrahedra[t], (*next)[1]))
+      continue;
     const Corners corners = wound(tetrahedra[t], positions);
     for (std::size_t f = 0; f < tetrahedron_faces.size() && next != triangles.end(); ++f)
       if (*next == face_of(corners, f)) found.push_back({static_cast<std::int64_t>(4 * t + f), *next++});
@@ -161,7 +158,7 @@ std::vector<Triangle> triangles_of_cloth(const Object& object, const std::vector
     const std::span<const int> at = around[triangle[0]];
     return std::any_of(at.begin(), at.end(), [&](int t) {
       const Corners& corners = tetrahedra[static_cast<std::size_t>(t)];
-      return holds(corners, triangle[1]) && holds(corners, triangle[2]);
+      return has_corner(corners, triangle[1]) && has_corner(corners, triangle[2]);
     });
   });
   return found;

@@ -1,6 +1,7 @@
 // Makes closed triangle meshes of the solids of rigid bodies.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -14,7 +15,7 @@ namespace pliant {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// A point of the outline that is turned about the y-axis; a radius of 0 makes one vertex.
 struct Outline {

@@ -32,8 +32,8 @@ std::vector<char> held_particles(const Object& object) {
 namespace {
 
 /// The ends of those that are links.
-std::set<Edge> ends_of(const Object& object, const std::set<std::pair<int, int>>& links) {
-  std::set<Edge> ends;
+std::set<EdgeEnds> ends_of(const Object& object, const std::set<std::pair<int, int>>& links) {
+  std::set<EdgeEnds> ends;
   for (const auto& [group, number] : links) {
     if (!is_length(object.constraints[static_cast<std::size_t>(group)].type)) continue;
     const std::vector<int>& particles = object.constraints[static_cast<std::size_t>(group)].particles;
@@ -44,10 +44,10 @@ std::set<Edge> ends_of(const Object& object, const std::set<std::pair<int, int>>
 }
 
 /// The limits of a group that limit these lengths, ascending.
-std::vector<int> limits_of(const ConstraintGroup& group, const std::set<Edge>& lengths, const Object& object) {
+std::vector<int> limits_of(const ConstraintGroup& group, const std::set<EdgeEnds>& lengths, const Object& object) {
   if (group.type != DistanceLimit::name || lengths.empty()) return {};
   std::vector<char> at(object.positions.size());
-  for (const Edge& length : lengths) at[static_cast<std::size_t>(length.first)] = 1;
+  for (const EdgeEnds& length : lengths) at[static_cast<std::size_t>(length.first)] = 1;
   std::vector<int> found = constraints_at(group, at, object);
   std::erase_if(found, [&](int c) {
     const std::vector<int> limited = stencil_of(group, 2, c);
@@ -60,7 +60,7 @@ std::vector<int> limits_of(const ConstraintGroup& group, const std::set<Edge>& l
 
 Object without_constraints(const Object& object, const std::set<std::pair<int, int>>& links) {
   Object without = object;
-  const std::set<Edge> ends = ends_of(object, links);
+  const std::set<EdgeEnds> ends = ends_of(object, links);
   for (int g = 0; g < static_cast<int>(object.constraints.size()) && !links.empty(); ++g) {
     const ConstraintGroup& group = object.constraints[static_cast<std::size_t>(g)];
     std::vector<int> gone = limits_of(group, ends, object);  // of a link that goes, its limit goes too
@@ -157,7 +157,7 @@ bool is_held_together(const Object& object, const Breaks& at) {
   const auto is_held = [&](int p) { return held[static_cast<std::size_t>(p)] != 0; };
   return at.links.empty() &&
          std::all_of(at.edges.begin(), at.edges.end(),
-                     [&](const Edge& edge) { return is_held(edge.first) && is_held(edge.second); }) &&
+                     [&](const EdgeEnds& edge) { return is_held(edge.first) && is_held(edge.second); }) &&
          std::all_of(at.faces.begin(), at.faces.end(),
                      [&](const Face& face) { return std::all_of(face.begin(), face.end(), is_held); });
 }
@@ -221,7 +221,7 @@ void add_cut(const Object& object, const PlaneCut& cut, double time, Breaks& bre
   const PlaneSides sides(object, cut, time);
   const std::vector<char> is_solid = add_cut_faces(object, sides, breaks);
   require_triangles(object);
-  for (const Edge& edge : edges_between(object, sides.ahead_of(object.triangles)))
+  for (const EdgeEnds& edge : edges_between(object, sides.ahead_of(object.triangles)))
     if (sides.is_reached(std::array<int, 2>{edge.first, edge.second}) &&
         is_solid[static_cast<std::size_t>(edge.first)] == 0 && is_solid[static_cast<std::size_t>(edge.second)] == 0)
       breaks.edges.insert(edge);

@@ -75,13 +75,13 @@ class SurfaceTear {
   }
 
   /// The edges at p between triangles on both sides of the plane through p across the way to `toward`.
-  std::set<Edge> edges_across(int p, int toward) const {
+  std::set<EdgeEnds> edges_across(int p, int toward) const {
     const Vec3d way = at(toward) - at(p);
     const auto is_ahead = [&](int t) {
       const auto& [a, b, c] = triangle(t);
       return dot(at(a) + at(b) + at(c) - at(p) * 3., way) > 0;
     };
-    std::set<Edge> found;
+    std::set<EdgeEnds> found;
     for (const int one : around(p))
       for (const int two : around(p)) {
         if (!is_ahead(one) || is_ahead(two)) continue;
@@ -101,7 +101,7 @@ class SurfaceTear {
 
   bool split(int p, int toward) {
     if (held(p)) return false;
-    const std::set<Edge> edges = edges_across(p, toward);
+    const std::set<EdgeEnds> edges = edges_across(p, toward);
     if (edges.empty()) return false;
     breaks_.edges.insert(edges.begin(), edges.end());
     relieve(p);

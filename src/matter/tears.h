@@ -16,7 +16,7 @@ namespace pliant {
 
 /// What comes apart in one Edit.
 struct Breaks {
-  std::set<Edge> edges;                 ///< of triangles
+  std::set<EdgeEnds> edges;             ///< of triangles
   std::set<Face> faces;                 ///< of tetrahedra
   std::set<std::pair<int, int>> links;  ///< constraints that are removed: group, and number in it
 

@@ -18,6 +18,10 @@ inline std::array<int, 3> face_of(const std::array<int, 4>& t, std::size_t face)
   return {t[a], t[b], t[c]};
 }
 
+inline bool has_corner(const std::array<int, 4>& t, int particle) {
+  return t[0] == particle || t[1] == particle || t[2] == particle || t[3] == particle;
+}
+
 /// The ways from the first corner of a tetrahedron to the others.
 inline std::array<Vec3d, 3> ways_of(const std::array<int, 4>& t, const std::vector<Vec3f>& positions) {
   const auto at = [&](std::size_t i) { return convert<double>(positions[static_cast<std::size_t>(t[i])]); };

@@ -193,11 +193,11 @@ TEST(LocalEdit, EdgesBetweenPartsAreThoseOfAllTriangles) {
   for (int cloth = 0; cloth < 60; ++cloth) {
     const Object object = sheet(random);
     const std::vector<int> part = some_parts(random, object.triangles.size());
-    std::map<Edge, std::set<int>> parts;
+    std::map<EdgeEnds, std::set<int>> parts;
     for (std::size_t t = 0; t < part.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i)
         parts[edge_of(object.triangles[t][i], object.triangles[t][(i + 1) % 3])].insert(part[t]);
-    std::set<Edge> edges;
+    std::set<EdgeEnds> edges;
     for (const auto& [edge, numbers] : parts)
       if (numbers.size() > 1) edges.insert(edge);
     EXPECT_EQ(edges_between(object, part), edges) << cloth;
