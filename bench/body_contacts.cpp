@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "math/levels.h"
+#include "levels/compiled.h"
 #include "pliant/error.h"
 #include "solver/bodies/manifold_blocks.h"
 #include "solver/kernels.h"
@@ -157,7 +157,7 @@ const bool added = [] {
   add("colours", Part::colours, "");
   add("fill", Part::fill, "");
   add("take", Part::take, "");
-  for (const char* isa : {PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_NAME, ) "sequential"}) {
+  for (const char* isa : {PLIANT_FOR_EACH_COMPILED_LEVEL(PLIANT_LEVEL_NAME, ) "sequential"}) {
     add("prepare", Part::prepare, isa);
     add("warm_start", Part::warm_start, isa);
     add("position_pass", Part::position_pass, isa);

@@ -37,4 +37,10 @@ PLIANT_HD Matrix3d inverse(const Matrix3d& m) {
            s * (m[3] * m[7] - m[4] * m[6]), s * (m[1] * m[6] - m[0] * m[7]), s * (m[0] * m[4] - m[1] * m[3])}};
 }
 
+/// Solves m x = b by Cramer's rule, given the rows of m; not finite if m is singular.
+PLIANT_HD Vec3d solve_by_cramer(const Vec3d (&row)[3], const Vec3d& b) {
+  const Vec3d minor0 = cross(row[1], row[2]), minor1 = cross(row[2], row[0]), minor2 = cross(row[0], row[1]);
+  return (minor0 * b.x + minor1 * b.y + minor2 * b.z) * (1 / dot(row[0], minor0));
+}
+
 }  // namespace pliant

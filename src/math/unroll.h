@@ -8,3 +8,10 @@
 #else
 #define PLIANT_UNROLL _Pragma("GCC unroll 8")
 #endif
+
+/// Put before loops that should not be unrolled: whose body is long, or that run for the last batch of a segment alone.
+#if defined(__clang__)
+#define PLIANT_KEEP_LOOP _Pragma("clang loop unroll(disable)")
+#else
+#define PLIANT_KEEP_LOOP _Pragma("GCC unroll 1")
+#endif

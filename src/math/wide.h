@@ -1,4 +1,5 @@
-// Wide: sixteen floats with the interface of one.
+// Wide: sixteen floats with the interface of one. A unit that defines PLIANT_ONE_REGISTER gets as many floats as a native vector has, and
+// walks over a batch of sixteen itself (math/isa.h).
 //
 // One logical width on every machine, so that the grouping of constraints is machine-independent. It
 // is stored as an array of native vectors (four of SSE, two of AVX2, one of AVX-512). A raw 64-byte
@@ -13,28 +14,11 @@
 #include <cstdint>
 #include <cstring>
 
+#include "math/isa.h"
 #include "math/scalar.h"
+#include "math/unroll.h"
 #include "pliant/state.h"
 #include "pliant/vec3.h"
-
-// PLIANT_X86_BITS: the widest x86 registers that this unit may use, or 0.
-#if defined(PLIANT_LEVEL_IS_generic) || !defined(__x86_64__)
-#define PLIANT_ISA isa_generic
-#define PLIANT_PART_WIDTH 4
-#define PLIANT_X86_BITS 0
-#elif defined(__AVX512F__)
-#define PLIANT_ISA isa_v4
-#define PLIANT_PART_WIDTH 16
-#define PLIANT_X86_BITS 512
-#elif defined(__AVX2__)
-#define PLIANT_ISA isa_v3
-#define PLIANT_PART_WIDTH 8
-#define PLIANT_X86_BITS 256
-#else
-#define PLIANT_ISA isa_v2
-#define PLIANT_PART_WIDTH 4
-#define PLIANT_X86_BITS 128
-#endif
 
 #if PLIANT_X86_BITS > 0
 #include <immintrin.h>
@@ -43,7 +27,7 @@
 namespace pliant {
 inline namespace PLIANT_ISA {
 
-inline constexpr int wide_width = 16;
+inline constexpr int wide_width = PLIANT_WIDE_WIDTH;
 inline constexpr int part_width = PLIANT_PART_WIDTH;
 inline constexpr int wide_parts = wide_width / part_width;
 
@@ -51,12 +35,12 @@ typedef float Part __attribute__((vector_size(4 * PLIANT_PART_WIDTH)));
 typedef std::int32_t PartMask __attribute__((vector_size(4 * PLIANT_PART_WIDTH)));
 typedef float Quad __attribute__((vector_size(16)));
 
-/// Sixteen booleans. A lane is true if all its bits are set.
+/// A boolean for each lane. A lane is true if all its bits are set.
 struct WideMask {
   PartMask part[wide_parts];
 };
 
-/// Sixteen floats, one for each lane.
+/// Floats, one for each lane: sixteen, unless a unit asks for one register.
 struct Wide {
   Part part[wide_parts];
 
@@ -68,13 +52,13 @@ struct Wide {
 };
 
 // Loops over parts are unrolled by hand, because not every compiler does so early enough to keep the parts in registers.
-#if PLIANT_PART_WIDTH == 16
+#if PLIANT_WIDE_WIDTH == PLIANT_PART_WIDTH
 #define PLIANT_EACH_PART(...) \
   {                           \
     constexpr int i = 0;      \
     __VA_ARGS__;              \
   }
-#elif PLIANT_PART_WIDTH == 8
+#elif PLIANT_WIDE_WIDTH == 2 * PLIANT_PART_WIDTH
 #define PLIANT_EACH_PART(...) \
   {                           \
     {                         \
@@ -298,10 +282,10 @@ PLIANT_HD Registers load_indexed(const Record* base, const std::int32_t* index) 
 /// Loads four contiguous groups of four records; group j starts at base[run[j]]: lane 4 L + j gets base[run[j] + L].
 PLIANT_HD Registers load_runs(const Record* base, const std::int32_t* run) {
   Registers r;
-  std::memcpy(r.at[0], base + run[0], 64);
-  std::memcpy(r.at[1], base + run[1], 64);
-  std::memcpy(r.at[2], base + run[2], 64);
-  std::memcpy(r.at[3], base + run[3], 64);
+  std::memcpy(r.at[0], base + run[0], sizeof r.at[0]);
+  std::memcpy(r.at[1], base + run[1], sizeof r.at[1]);
+  std::memcpy(r.at[2], base + run[2], sizeof r.at[2]);
+  std::memcpy(r.at[3], base + run[3], sizeof r.at[3]);
   return r;
 }
 
@@ -322,7 +306,7 @@ PLIANT_REGISTER_OPERATOR(-)
 
 /// All bits set where a record has x, y and z. The table is a local: at namespace scope each unit would export it.
 PLIANT_HD PartMask xyz_mask() {
-  constexpr std::int32_t xyz_bits[wide_width] = {-1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0};
+  constexpr std::int32_t xyz_bits[16] = {-1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0, -1, -1, -1, 0};
   PartMask mask;
   std::memcpy(&mask, xyz_bits, sizeof mask);
   return mask;
@@ -401,10 +385,10 @@ PLIANT_HD Registers to_registers(const WideRecords& a) {
 
 /// Stores the first `runs` (1..4) groups of four records: the inverse of load_runs.
 PLIANT_HD void store_runs(Record* base, const std::int32_t* run, const Registers& r, int runs) {
-  std::memcpy(static_cast<void*>(base + run[0]), r.at[0], 64);
-  if (runs > 1) std::memcpy(static_cast<void*>(base + run[1]), r.at[1], 64);
-  if (runs > 2) std::memcpy(static_cast<void*>(base + run[2]), r.at[2], 64);
-  if (runs > 3) std::memcpy(static_cast<void*>(base + run[3]), r.at[3], 64);
+  std::memcpy(static_cast<void*>(base + run[0]), r.at[0], sizeof r.at[0]);
+  if (runs > 1) std::memcpy(static_cast<void*>(base + run[1]), r.at[1], sizeof r.at[1]);
+  if (runs > 2) std::memcpy(static_cast<void*>(base + run[2]), r.at[2], sizeof r.at[2]);
+  if (runs > 3) std::memcpy(static_cast<void*>(base + run[3]), r.at[3], sizeof r.at[3]);
 }
 
 template <int part>
@@ -428,24 +412,35 @@ PLIANT_HD void store_indexed(Record* base, const std::int32_t* index, const Regi
 #else
 #define PLIANT_QUAD(j, quad) quad_of<0>(r.at[j][quad])
 #endif
-#define PLIANT_STORE(j)                                 \
-  store_quad(base + index[0 + (j)], PLIANT_QUAD(j, 0)); \
-  store_quad(base + index[4 + (j)], PLIANT_QUAD(j, 1)); \
-  store_quad(base + index[8 + (j)], PLIANT_QUAD(j, 2)); \
-  store_quad(base + index[12 + (j)], PLIANT_QUAD(j, 3));
+#define PLIANT_STORE_QUAD(j, quad) store_quad(base + index[4 * (quad) + (j)], PLIANT_QUAD(j, quad));
+#if PLIANT_WIDE_WIDTH == 16
+#define PLIANT_STORE(j)   \
+  PLIANT_STORE_QUAD(j, 0) \
+  PLIANT_STORE_QUAD(j, 1) \
+  PLIANT_STORE_QUAD(j, 2) \
+  PLIANT_STORE_QUAD(j, 3)
+#elif PLIANT_WIDE_WIDTH == 8
+#define PLIANT_STORE(j)   \
+  PLIANT_STORE_QUAD(j, 0) \
+  PLIANT_STORE_QUAD(j, 1)
+#else
+#define PLIANT_STORE(j) PLIANT_STORE_QUAD(j, 0)
+#endif
   PLIANT_STORE(0)
   PLIANT_STORE(1)
   PLIANT_STORE(2)
   PLIANT_STORE(3)
 #undef PLIANT_STORE
+#undef PLIANT_STORE_QUAD
 #undef PLIANT_QUAD
 }
 
-/// Stores the records of the first `lanes` (1..16) lanes by index; the other lanes are padding.
+/// Stores the records of the first `lanes` lanes by index; the other lanes are padding.
 PLIANT_HD void store_indexed_some(Record* base, const std::int32_t* index, const Registers& r, int lanes) {
-  Record records[4][4];
+  Record records[4][wide_width / 4];
   static_assert(sizeof records == sizeof r);
   std::memcpy(static_cast<void*>(records), &r, sizeof r);
+  PLIANT_KEEP_LOOP
   for (int lane = 0; lane < lanes; ++lane) base[index[lane]] = records[lane % 4][lane / 4];
 }
 

@@ -33,10 +33,6 @@ struct PairKernels;       // collision/proxies/pair_kernels.h
 struct SweepKernels {
   /// Projects every constraint of the segments, segment by segment.
   void (*sweep)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
-
-  /// Like sweep, with relaxation. If arguments.corrections is set, stores corrections there instead of applying them:
-  /// that of a batch's `slot` and `lane` at record 16 (size batch + slot) + correction_place(lane) of its pool's array.
-  void (*sweep_general)(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 };
 
 /// What moves particles between the sweeps.
@@ -61,6 +57,12 @@ struct StepKernels {
 PLIANT_DECLARE_LEVELS(SweepKernels, sweep_kernels)
 PLIANT_DECLARE_LEVELS(StepKernels, step_kernels)
 const SweepKernels& sweep_kernels_sequential();
+
+/// Like SweepKernels::sweep, with relaxation. If arguments.corrections is set, stores corrections there instead of applying them:
+/// that of a batch's `slot` and `lane` at record 16 (size batch + slot) + correction_place(lane) of its pool's array. One constraint after
+/// another on every level: only comparisons use it (Jacobi sweeps, relaxation).
+void sweep_general(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
+
 const StepKernels& step_kernels_sequential();
 
 /// All kernels of one instruction set level. A World picks one table when it is made.
@@ -80,11 +82,12 @@ struct Kernels : SweepKernels, StepKernels {
   const TensionKernels& tension;
 };
 
-/// The readable reference in plain floats. Kernels without a scalar version (multigrid, pairs) use the generic level.
+/// The readable reference in plain floats. Kernels without a scalar version (multigrid, pairs) are those of the
+/// narrowest level of the build.
 const Kernels& kernels_sequential();
 
 /// Returns the widest kernels that this machine runs, or those that `isa` names: a level of math/levels.h, or
-/// "sequential". Throws an Error if the name is unknown or if this machine cannot run them.
+/// "sequential". Throws an Error if the build does not hold them or if this machine cannot run them.
 const Kernels& pick_kernels(const std::string& isa);
 
 }  // namespace pliant

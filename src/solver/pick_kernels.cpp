@@ -3,6 +3,7 @@
 
 #include "collision/neighbours/neighbour_kernels.h"
 #include "collision/proxies/pair_kernels.h"
+#include "levels/compiled.h"
 #include "math/runs_level.h"
 #include "pliant/error.h"
 #include "solver/bodies/manifold_kernels.h"
@@ -30,14 +31,14 @@ namespace {
                                fluid_kernels_##suffix(),  viscosity_kernels_##suffix(), tension_kernels_##suffix()};  \
     return table;                                                                                                     \
   }
-PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_TABLE, )
+PLIANT_FOR_EACH_COMPILED_LEVEL(PLIANT_LEVEL_TABLE, )
 
 struct Level {
   const Kernels& (*kernels)();
   bool (*runs)();
 };
 #define PLIANT_LEVEL_ENTRY(suffix, isa, ...) {kernels_##suffix, runs_##suffix},
-constexpr Level levels[] = {PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_ENTRY, )};
+constexpr Level levels[] = {PLIANT_FOR_EACH_COMPILED_LEVEL(PLIANT_LEVEL_ENTRY, )};
 
 std::string level_names() {
   std::string names;
@@ -48,11 +49,21 @@ std::string level_names() {
 }  // namespace
 
 const Kernels& kernels_sequential() {
-  static const Kernels table{sweep_kernels_sequential(),  step_kernels_sequential(),      "sequential",
-                             chain_kernels_sequential(),  multigrid_kernels_generic(),    contact_kernels_sequential(),
-                             length_kernels_sequential(), pair_kernels_generic(),         manifold_kernels_sequential(),
-                             rod_kernels_sequential(),    motion_kernels_sequential(),    neighbour_kernels_sequential(),
-                             fluid_kernels_sequential(),  viscosity_kernels_sequential(), tension_kernels_sequential()};
+  static const Kernels table{sweep_kernels_sequential(),
+                             step_kernels_sequential(),
+                             "sequential",
+                             chain_kernels_sequential(),
+                             PLIANT_OF_BASE_LEVEL(multigrid_kernels)(),
+                             contact_kernels_sequential(),
+                             length_kernels_sequential(),
+                             base_pair_kernels(),
+                             manifold_kernels_sequential(),
+                             rod_kernels_sequential(),
+                             motion_kernels_sequential(),
+                             neighbour_kernels_sequential(),
+                             fluid_kernels_sequential(),
+                             viscosity_kernels_sequential(),
+                             tension_kernels_sequential()};
   return table;
 }
 
@@ -64,7 +75,7 @@ const Kernels& pick_kernels(const std::string& isa) {
       throw Error({}, "this machine cannot run the code path '" + isa + "'", "leave settings.isa empty");
     if ((isa.empty() || isa == kernels.isa) && level.runs()) return kernels;
   }
-  throw Error({}, "unknown code path '" + isa + "'", "use " + level_names() + "sequential or leave it empty");
+  throw Error({}, "this build has no code path '" + isa + "'", "use " + level_names() + "sequential or leave it empty");
 }
 
 }  // namespace pliant

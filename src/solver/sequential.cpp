@@ -146,8 +146,12 @@ bool all_finite(const Record* records, int first, int last) {
 
 }  // namespace
 
+void sweep_general(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& a) {
+  sweep<true>(pools, first, last, a);
+}
+
 const SweepKernels& sweep_kernels_sequential() {
-  static constexpr SweepKernels table{&sweep<false>, &sweep<true>};
+  static constexpr SweepKernels table{&sweep<false>};
   return table;
 }
 

@@ -1,4 +1,5 @@
 // Selects a table of kernels by what this machine runs.
+#include "levels/compiled.h"
 #include "math/runs_level.h"
 #include "surface/surface_kernels.h"
 
@@ -8,7 +9,7 @@ std::vector<const SurfaceKernels*> all_kernels() {
   std::vector<const SurfaceKernels*> tables;
 #define PLIANT_ADD_LEVEL(suffix, isa, ...) \
   if (runs_##suffix()) tables.push_back(&surface_kernels_##suffix());
-  PLIANT_FOR_EACH_LEVEL(PLIANT_ADD_LEVEL, )
+  PLIANT_FOR_EACH_COMPILED_LEVEL(PLIANT_ADD_LEVEL, )
 #undef PLIANT_ADD_LEVEL
   return tables;
 }

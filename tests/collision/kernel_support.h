@@ -4,19 +4,18 @@
 #include <vector>
 
 #include "collision/proxies/pair_kernels.h"
+#include "levels/compiled.h"
+#include "math/runs_level.h"
 
 namespace pliant::testing_support {
 
 /// All of them; the first runs on any machine.
 inline std::vector<const PairKernels*> all_kernels() {
-  std::vector<const PairKernels*> all{&pair_kernels_generic()};
-#if defined(__x86_64__)
-  all.push_back(&pair_kernels_v2());
-  if (__builtin_cpu_supports("avx2")) all.push_back(&pair_kernels_v3());
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl"))
-    all.push_back(&pair_kernels_v4());
-#endif
+  std::vector<const PairKernels*> all;
+#define PLIANT_ADD_LEVEL(suffix, isa, ...) \
+  if (runs_##suffix()) all.insert(all.begin(), &pair_kernels_##suffix());
+  PLIANT_FOR_EACH_COMPILED_LEVEL(PLIANT_ADD_LEVEL, )
+#undef PLIANT_ADD_LEVEL
   return all;
 }
 

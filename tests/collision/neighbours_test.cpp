@@ -6,6 +6,8 @@
 #include <random>
 
 #include "collision/neighbours/neighbour_lists.h"
+#include "levels/compiled.h"
+#include "math/runs_level.h"
 
 namespace pliant {
 namespace {
@@ -63,12 +65,11 @@ struct Level {
 };
 
 std::vector<Level> levels() {
-  std::vector<Level> all{{"sequential", neighbour_kernels_sequential}, {"generic", neighbour_kernels_generic}};
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("sse4.2")) all.push_back({"v2", neighbour_kernels_v2});
-  if (__builtin_cpu_supports("avx2")) all.push_back({"v3", neighbour_kernels_v3});
-  if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) all.push_back({"v4", neighbour_kernels_v4});
-#endif
+  std::vector<Level> all{{"sequential", neighbour_kernels_sequential}};
+#define PLIANT_ADD_LEVEL(suffix, isa, ...) \
+  if (runs_##suffix()) all.push_back({isa, neighbour_kernels_##suffix});
+  PLIANT_FOR_EACH_COMPILED_LEVEL(PLIANT_ADD_LEVEL, )
+#undef PLIANT_ADD_LEVEL
   return all;
 }
 
@@ -77,7 +78,7 @@ TEST(Neighbours, AreThoseOfBruteForceAtAnyDensity) {
     const std::vector<Record> points = cloud(701, size, 3);
     const auto expected = by_brute_force(points);
     for (const Level& level : levels()) EXPECT_EQ(by_lists(points, level.kernels()), expected) << size << ' ' << level.name;
-    EXPECT_EQ(by_lists(points, neighbour_kernels_generic(), 3), expected) << "on three threads";
+    EXPECT_EQ(by_lists(points, PLIANT_OF_BASE_LEVEL(neighbour_kernels)(), 3), expected) << "on three threads";
   }
 }
 
@@ -85,7 +86,7 @@ TEST(Neighbours, AreFoundFarFromTheOriginAndBeyondTheGrid) {
   for (const float far : {1000.f, -3e5f, 1e9f}) {
     std::vector<Record> points = cloud(200, 0.5f, 5);
     for (std::size_t i = 0; i < points.size(); i += 2) points[i].x += far;
-    EXPECT_EQ(by_lists(points, neighbour_kernels_generic()), by_brute_force(points)) << far;
+    EXPECT_EQ(by_lists(points, PLIANT_OF_BASE_LEVEL(neighbour_kernels)()), by_brute_force(points)) << far;
   }
 }
 
@@ -93,7 +94,7 @@ TEST(Neighbours, AreFoundBesidePointsAtBothEndsOfTheGrid) {
   std::vector<Record> points = cloud(300, 0.5f, 11);
   points[0] = {1e8f, 1e8f, 1e8f, 0};
   points[1] = {-1e8f, -1e8f, -1e8f, 0};
-  EXPECT_EQ(by_lists(points, neighbour_kernels_generic()), by_brute_force(points));
+  EXPECT_EQ(by_lists(points, PLIANT_OF_BASE_LEVEL(neighbour_kernels)()), by_brute_force(points));
 }
 
 TEST(Neighbours, AreFoundBesideThousandsOfCandidatesThatAreNone) {
@@ -118,8 +119,8 @@ TEST(Neighbours, AreFoundBesideThousandsOfCandidatesThatAreNone) {
 }
 
 TEST(Neighbours, OfNoPointAndOfOneAreNone) {
-  EXPECT_TRUE(by_lists({}, neighbour_kernels_generic()).empty());
-  EXPECT_TRUE(by_lists({{1, 2, 3, 0}}, neighbour_kernels_generic()).front().empty());
+  EXPECT_TRUE(by_lists({}, PLIANT_OF_BASE_LEVEL(neighbour_kernels)()).empty());
+  EXPECT_TRUE(by_lists({{1, 2, 3, 0}}, PLIANT_OF_BASE_LEVEL(neighbour_kernels)()).front().empty());
 }
 
 TEST(Neighbours, OfPlacesThatAreNotFiniteAreNone) {
@@ -159,9 +160,9 @@ TEST(Neighbours, OfAStrayPointCostNoMemory) {
   std::vector<Record> points = cloud(2000, 1, 9);
   Executor executor(1);
   NeighbourLists near, stray;
-  near.find(executor, neighbour_kernels_generic(), points, reach);
+  near.find(executor, PLIANT_OF_BASE_LEVEL(neighbour_kernels)(), points, reach);
   points.back() = {9000, -4000, 2e4f, 0};
-  stray.find(executor, neighbour_kernels_generic(), points, reach);
+  stray.find(executor, PLIANT_OF_BASE_LEVEL(neighbour_kernels)(), points, reach);
   EXPECT_LT(stray.bytes(), near.bytes() + near.bytes() / 4);
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "math/levels.h"
+#include "levels/compiled.h"
 #include "pliant/error.h"
 #include "solver/kernels.h"
 
@@ -14,14 +14,14 @@ namespace pliant::testing_support {
 /// All names, the narrowest kernels first.
 inline const std::vector<std::string>& isa_names() {
   static const std::vector<std::string> names = [] {
-    const std::vector<std::string> widest_first{PLIANT_FOR_EACH_LEVEL(PLIANT_LEVEL_NAME, )};
+    const std::vector<std::string> widest_first{PLIANT_FOR_EACH_COMPILED_LEVEL(PLIANT_LEVEL_NAME, )};
     return std::vector<std::string>(widest_first.rbegin(), widest_first.rend());
   }();
   return names;
 }
 #undef PLIANT_LEVEL_NAME
 
-/// The names of the SIMD kernels that this machine can run. The first is "generic", which runs on any machine.
+/// The names of the SIMD kernels that this machine can run. The first is the narrowest of the build.
 inline std::vector<std::string> available_isas() {
   std::vector<std::string> available;
   for (const std::string& name : isa_names()) {

@@ -126,6 +126,8 @@ struct PairKernels {
 };
 
 PLIANT_DECLARE_LEVELS(PairKernels, pair_kernels)
+/// Those of the narrowest level of the build, which run wherever it does.
+const PairKernels& base_pair_kernels();
 
 /// Factor that covers the rounding of distance bounds.
 inline constexpr float bound_slack = 1.0001f;

@@ -2,6 +2,7 @@
 
 #include "collision/proxies/pair_kernels.h"
 #include "geometry/triangle.h"
+#include "levels/compiled.h"
 
 namespace pliant {
 
@@ -33,11 +34,13 @@ PairDistance pair_distance(const PairStencil& pair, const Record* positions) {
   return out;
 }
 
+const PairKernels& base_pair_kernels() { return PLIANT_OF_BASE_LEVEL(pair_kernels)(); }
+
 void pair_distances(const PairStencil* pairs, int count, const Record* positions, PairBatch& out) {
   PairStencils batch;
   for (int lane = 0; lane < 16; ++lane)
     for (int i = 0; i < 4; ++i) batch.vertex[i][lane] = pairs[lane < count ? lane : 0].vertex[i];
-  pair_kernels_generic().distances(batch, pairs[0].first_side, positions, out);
+  base_pair_kernels().distances(batch, pairs[0].first_side, positions, out);
 }
 
 }  // namespace pliant

@@ -34,7 +34,7 @@ struct PairCounts {
 class SurfaceContact {
  public:
   /// `kernels` must be of an instruction set level that this machine runs; all give the same bits.
-  explicit SurfaceContact(const PairModel& model, const PairKernels& kernels = pair_kernels_generic());
+  explicit SurfaceContact(const PairModel& model, const PairKernels& kernels = base_pair_kernels());
 
   /// Applies the changes of update_pair_model between frames, and keeps what was found about other bodies. Not for
   /// models with untangling, which need a new SurfaceContact.

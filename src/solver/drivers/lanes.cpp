@@ -7,7 +7,7 @@ namespace {
 void project_segments(const Substep& s, int object, int first, int last, bool first_pass) {
   const CompiledObject& from = s.model.objects[object];
   const SweepKernels& kernels = from.sweep == Sweep::sequential ? sweep_kernels_sequential() : s.kernels;
-  const auto sweep = s.context.options.relaxation == 1 ? kernels.sweep : kernels.sweep_general;
+  const auto sweep = s.context.options.relaxation == 1 ? kernels.sweep : &sweep_general;
   sweep(from.pools.data(), from.segments.data() + first, from.segments.data() + last, arguments(s, object, first_pass));
 }
 

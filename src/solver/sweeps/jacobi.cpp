@@ -74,12 +74,11 @@ void iterate_jacobi(Substep& s, bool first) {
   }
   for_swept_tiles(s, "solve: tiles", [&](int task) {
     const CompiledObject& object = object_of(s, task);
-    s.kernels.sweep_general(object.pools.data(), object.segments.data() + tile_of(s, task).first_segment,
-                            object.segments.data() + tile_of(s, task).last_segment,
-                            arguments_of(model.tiles()[task].object));
+    sweep_general(object.pools.data(), object.segments.data() + tile_of(s, task).first_segment,
+                  object.segments.data() + tile_of(s, task).last_segment, arguments_of(model.tiles()[task].object));
   });
   for_inter_tile(s, [&](int number, const Segment* segment) {
-    s.kernels.sweep_general(model.objects[number].pools.data(), segment, segment + 1, arguments_of(number));
+    sweep_general(model.objects[number].pools.data(), segment, segment + 1, arguments_of(number));
   });
   for_swept_tiles(s, "solve: gather", [&](int task) { gather(tile_of(s, task), work_of(task), displacements(task)); });
   walk(s, Driver::volume, {first});
