@@ -12,10 +12,6 @@ namespace {
 
 constexpr int vertices_at_a_time = 4096;
 
-Vertex operator+(const Vertex& a, const Vertex& b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.unused + b.unused}; }
-Vertex operator-(const Vertex& a, const Vertex& b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.unused - b.unused}; }
-Vertex operator*(const Vertex& a, float s) { return {a.x * s, a.y * s, a.z * s, a.unused * s}; }
-
 /// Moves each vertex by a share of the way to the mean of its neighbours.
 void move_to_mean(const LinkedMesh& mesh, float share, Vertex* to, Executor& executor) {
   for_items(executor, "surface: smoothing", mesh.size, vertices_at_a_time, [&](int v) {
