@@ -7,7 +7,6 @@ namespace pliant {
 
 namespace {
 
-using std::numbers::pi;
 constexpr int sweeps = 12;  ///< of Jacobi's method, whose convergence is quadratic: five suffice for any 3 x 3 matrix
 
 using Matrix = std::array<std::array<double, 3>, 3>;
@@ -94,7 +93,7 @@ Moments times(const Moments& moments, double factor) {
 }
 
 Moments moments_of_sphere(double radius) {
-  const double mass = 4 * pi / 3 * radius * radius * radius, square = mass * radius * radius / 5;
+  const double mass = 4 * std::numbers::pi / 3 * radius * radius * radius, square = mass * radius * radius / 5;
   return centred(mass, square, square, square);
 }
 
@@ -104,19 +103,20 @@ Moments moments_of_box(const Vec3d& half) {
 }
 
 Moments moments_of_cylinder(double radius, double half_length) {
-  const double mass = 2 * pi * radius * radius * half_length, across = mass * radius * radius / 4;
+  const double mass = 2 * std::numbers::pi * radius * radius * half_length, across = mass * radius * radius / 4;
   return centred(mass, across, mass * half_length * half_length / 3, across);
 }
 
 Moments moments_of_capsule(double radius, double half_length) {
   Moments out = moments_of_cylinder(radius, half_length);
-  const double caps = 4 * pi / 3 * radius * radius * radius, across = caps * radius * radius / 5;
+  const double caps = 4 * std::numbers::pi / 3 * radius * radius * radius, across = caps * radius * radius / 5;
   const double along = caps * (half_length * half_length + 0.75 * half_length * radius + radius * radius / 5);
   return out += centred(caps, across, along, across);
 }
 
 Moments moments_of_cone(double radius, double half_length) {
-  const double height = 2 * half_length, mass = pi / 3 * radius * radius * height, across = 0.15 * mass * radius * radius;
+  const double height = 2 * half_length, mass = std::numbers::pi / 3 * radius * radius * height,
+               across = 0.15 * mass * radius * radius;
   const double centre = height / 4 - half_length;  // the variance of the height is 3/80 of its square
   Moments out = centred(mass, across, mass * (3. / 80 * height * height + centre * centre), across);
   out.first = {0, mass * centre, 0};

@@ -17,7 +17,7 @@ namespace {
 
 using Intersections = Settings::Intersections;
 
-constexpr const char* what_to_do =
+constexpr const char* advice_on_tangles =
     "move one of them or repair the mesh, or set initial_intersections to \"untangle\" or \"leave\"";
 
 /// The intersections between two parts: their number, and the first.
@@ -64,7 +64,7 @@ void name_crossings(Problems& problems, const Surfaces& all, const Crossings& cr
                               " at the start, one of " + std::to_string(crossings.count) + " crossing" +
                               (crossings.count == 1 ? "" : "s");
   if (what == Intersections::refuse)
-    problems.grave(edge, problem, what_to_do);
+    problems.grave(edge, problem, advice_on_tangles);
   else if (what == Intersections::untangle)
     problems.doubtful(edge, problem,
                       "parts that are cut off or inside a closed collider will be moved apart at untangling_speed; a slit "
@@ -149,7 +149,7 @@ void name_inside(Problems& problems, const Scene& scene, const Surfaces& all, co
       const Tally inside = inside_of(all, object, closed.query);
       const std::string problem = "is inside of " + closed.name + " at the start";
       if (what == Intersections::refuse)
-        problems.grave(inside, "particle", problem, what_to_do);
+        problems.grave(inside, "particle", problem, advice_on_tangles);
       else if (what == Intersections::leave)
         problems.doubtful(inside, "particle", problem,
                           "move one of them, or set initial_intersections to \"untangle\", which moves it out");

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double most_nodes = 1 << 22;  // of up to six tetrahedra each
 /// Nodes up to this share of a cell outside of the mesh belong to the body; the border is then about as often outside as inside.
-constexpr float reach = 0.25f;
+constexpr float share_of_cell_outside = 0.25f;
 /// Of a tetrahedron when a corner is moved: volume over that of a regular one with edges of the same root mean square.
 constexpr double least_quality = 0.25;
 /// Pieces of fewer tetrahedra are dropped: two dozen share one edge of the lattice.
@@ -68,7 +68,7 @@ class Filling {
   Filling(const MeshQuery& query, const Lattice& lattice) : query_(query), lattice_(lattice), places_(lattice.places()) {
     is_kept_.reserve(places_.size());
     for (const Vec3f& p : places_)
-      is_kept_.push_back(query_.closest(p, reach * lattice_.side).triangle >= 0 || query_.is_inside(p));
+      is_kept_.push_back(query_.closest(p, share_of_cell_outside * lattice_.side).triangle >= 0 || query_.is_inside(p));
     add_tetrahedra();
   }
 

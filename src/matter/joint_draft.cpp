@@ -16,8 +16,6 @@ namespace pliant {
 
 namespace {
 
-using std::numbers::pi;
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float above_zero = 1e-20f;
 constexpr const char* world_name = "world";
 
@@ -59,7 +57,7 @@ std::string in_words(float value, bool is_angle) {
   char text[80];
   const auto number = static_cast<double>(value);
   if (is_angle)
-    std::snprintf(text, sizeof text, "%.4g rad (%.4g degrees)", number, number * 180 / pi);
+    std::snprintf(text, sizeof text, "%.4g rad (%.4g degrees)", number, number * 180 / std::numbers::pi);
   else
     std::snprintf(text, sizeof text, "%.6g m", number);
   return text;
@@ -103,7 +101,7 @@ Quatd rotation_from_xy(const Vec3d& x, const Vec3d& y) {
   return multiply(to_x, Quatd{sin(half), 0, 0, cos(half)});
 }
 
-double principal_angle(double angle) { return std::remainder(angle, 2 * pi); }
+double principal_angle(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 JointDraft::JointDraft(Object& object, std::string kind, int a, int b, const JointOptions& options)
     : object_(object), kind_(std::move(kind)), name_(options.name), options_(options) {
@@ -184,6 +182,7 @@ JointBody JointDraft::third(int body) const {
 
 void JointDraft::add_world() {
   object_.positions.push_back({});
+  constexpr float infinity = std::numeric_limits<float>::infinity();
   object_.masses.push_back(infinity);
   if (!object_.velocities.empty()) object_.velocities.push_back({});
   object_.frames.push_back({{}, {}, {infinity, infinity, infinity}});
@@ -226,10 +225,11 @@ void JointDraft::limit_angle(int axis, const JointRange& range) {
   require_range(range, true);
   const double low = static_cast<double>(range.low), high = static_cast<double>(range.high);
   constexpr double rounding = 1e-6;  // of -180 to 180 degrees in single precision
-  if (high - low > 2 * pi + rounding)
+  if (high - low > 2 * std::numbers::pi + rounding)
     refuse("has a range of " + in_words(static_cast<float>(high - low), true), "give at most a full turn, or no range");
   const float middle = middles_[static_cast<std::size_t>(axis)] = static_cast<float>(principal_angle((low + high) / 2));
-  add("joint_angle", axis, {middle, static_cast<float>(std::min((high - low) / 2, pi)), joint::no_limit}, range.compliance);
+  add("joint_angle", axis, {middle, static_cast<float>(std::min((high - low) / 2, std::numbers::pi)), joint::no_limit},
+      range.compliance);
 }
 
 void JointDraft::limit_offset(int axis, const JointRange& range) {

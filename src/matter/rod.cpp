@@ -18,7 +18,6 @@ namespace pliant {
 
 namespace {
 
-using std::numbers::pi;
 /// Caps reach a radius beyond the ends of a segment, so two segments with one of this length between them do not touch.
 constexpr double least_length_in_radii = 2.25;
 /// The moment of inertia about the axis is that of a cylinder of at least this radius, as a share of the segment's length: contact would
@@ -159,7 +158,7 @@ void carry_across(std::vector<Segment>& segments, const RodOptions& options) {
 BodyOptions body_of(const Segment& segment, const Vec3d& middle, const RodOptions& options, std::size_t number) {
   const double radius = segment.radius(), a = segment.start_radius, b = segment.end_radius;
   const double squares = (a * a + a * b + b * b) / 3;
-  const double mass = static_cast<double>(options.material.density) * pi * squares * segment.length;
+  const double mass = static_cast<double>(options.material.density) * std::numbers::pi * squares * segment.length;
   const double centre = segment.length * (b * b - a * a) / (12 * squares);  // from the middle
   const double turning = std::max(radius, least_turning_radius * segment.length);
   const auto about_axis = static_cast<float>(mass * turning * turning / 2),
@@ -295,7 +294,8 @@ class RodBuilder {
 }  // namespace
 
 RodStiffness stiffness_of(const RodMaterial& material, float radius) {
-  const double r2 = static_cast<double>(radius) * static_cast<double>(radius), area = pi * r2, second = area * r2 / 4;
+  const double r2 = static_cast<double>(radius) * static_cast<double>(radius), area = std::numbers::pi * r2,
+               second = area * r2 / 4;
   const double e = static_cast<double>(material.youngs_modulus), g = static_cast<double>(material.shear_modulus);
   RodStiffness found;
   found.stretch = static_cast<float>(e * area);
@@ -333,7 +333,8 @@ std::vector<Vec3f> helix(float radius, float height, float turns, int segments) 
                 "give a positive radius, finite sizes, and 2 to 1048576 segments");
   std::vector<Vec3f> points;
   for (int i = 0; i <= segments; ++i) {
-    const double share = static_cast<double>(i) / segments, angle = 2 * pi * static_cast<double>(turns) * share;
+    const double share = static_cast<double>(i) / segments,
+                 angle = 2 * std::numbers::pi * static_cast<double>(turns) * share;
     points.push_back({radius * static_cast<float>(cos(angle)), height * static_cast<float>(share),
                       radius * static_cast<float>(sin(angle))});
   }

@@ -15,8 +15,6 @@ namespace pliant {
 
 namespace {
 
-using std::numbers::pi;
-
 /// A point of the outline that is turned about the y-axis; a radius of 0 makes one vertex.
 struct Outline {
   double radius, y;
@@ -39,7 +37,7 @@ TriangleMesh revolved(const std::vector<Outline>& outline, int segments) {
   for (const Outline& at : outline) {
     const int first = static_cast<int>(mesh.positions.size()), count = at.radius > 0 ? segments : 1;
     for (int side = 0; side < count; ++side) {
-      const SineCosine turn = sine_cosine(2 * pi * side / segments);
+      const SineCosine turn = sine_cosine(2 * std::numbers::pi * side / segments);
       mesh.positions.push_back(convert<float>(Vec3d{at.radius * turn.sine, at.y, at.radius * turn.cosine}));
     }
     if (first > 0) join(mesh, before, before_count, first, count);
@@ -53,7 +51,7 @@ TriangleMesh capsule_mesh(double radius, double half_length, int segments) {
   std::vector<Outline> outline;
   const int steps = segments / 4;  // from a pole to the equator
   for (int step = 0; step <= 2 * steps; ++step) {
-    const SineCosine turn = sine_cosine(0.5 * pi * step / steps);
+    const SineCosine turn = sine_cosine(0.5 * std::numbers::pi * step / steps);
     const bool is_pole = step == 0 || step == 2 * steps;
     const double shift = step <= steps ? half_length : -half_length;
     outline.push_back({is_pole ? 0 : radius * turn.sine, radius * turn.cosine + shift});

@@ -17,7 +17,7 @@ namespace {
 /// Edges that a shear wave passes in a substep. One sweep carries a force about an edge far, so a body that is solved with longer
 /// substeps yields more than its modulus says, by one to two times the square of this (docs/guide/soft_bodies.md).
 constexpr double edges_per_substep = 0.25;
-constexpr int fewest = 20, most = 1000;
+constexpr int fewest_soft_substeps = 20, most_soft_substeps = 1000;
 /// What a tetrahedron of a cube of side a, cut into six, has: sum of squared gradients of its four barycentric coordinates, times a^2; and
 /// the mean of its squared edges over a^2.
 constexpr double gradients_of_cube = 6, edges_of_cube = 5. / 3;
@@ -113,12 +113,12 @@ bool is_soft_body(const Object& object) {
 
 double needed_substeps_of_soft_body(const Object& object, double frame_time) {
   const MeasuredSolid solid = solid_of(object);
-  if (solid.tetrahedra.empty() || !(solid.mass > 0)) return fewest;
+  if (solid.tetrahedra.empty() || !(solid.mass > 0)) return fewest_soft_substeps;
   const double time = solid.damping / solid.stiffness;
   // h^2 (1 + time / h) rate^2 = edges^2: damping slows a sweep down by the bracket.
   const double squared = edges_per_substep * edges_per_substep / rate_squared(solid);
   const double h = 2 * squared / (std::sqrt(time * time + 4 * squared) + time);
-  return std::max(frame_time / h, static_cast<double>(fewest));
+  return std::max(frame_time / h, static_cast<double>(fewest_soft_substeps));
 }
 
 SoftBodyNumbers numbers_of_soft_body(const Object& object, const Vec3f& gravity) {
@@ -135,7 +135,8 @@ SoftBodyNumbers numbers_of_soft_body(const Object& object, const Vec3f& gravity)
 }
 
 int substeps_of_soft_body(const Object& object, double frame_time) {
-  return static_cast<int>(std::ceil(std::min(needed_substeps_of_soft_body(object, frame_time), static_cast<double>(most))));
+  return static_cast<int>(
+      std::ceil(std::min(needed_substeps_of_soft_body(object, frame_time), static_cast<double>(most_soft_substeps))));
 }
 
 }  // namespace pliant

@@ -25,13 +25,13 @@ namespace {
 
 /// Upper limit of numbers and generations in a layout. It is far below the largest int, so that counting on cannot
 /// overflow.
-constexpr int most = std::numeric_limits<int>::max() / 4;
+constexpr int largest_number = std::numeric_limits<int>::max() / 4;
 
 /// The numbers of the slots in use. Throws an Error unless there are `count`, each below `taken.size()` and used once.
 std::vector<int> numbers_in(const std::vector<WorldLayout::Slot>& slots, std::size_t count, std::vector<char>& taken) {
   std::vector<int> numbers;
   for (const WorldLayout::Slot& slot : slots) {
-    if (slot.generation < 0 || slot.generation > most)
+    if (slot.generation < 0 || slot.generation > largest_number)
       refuse("generation " + std::to_string(slot.generation) + " is out of range");
     if (slot.number < 0) continue;
     if (slot.number >= static_cast<int>(taken.size()) || taken[slot.number] != 0)
@@ -69,7 +69,7 @@ Scene without_pairs_of_others(const Scene& scene) {
 }
 
 void require_place(const StateBlock& block, int first_frame, const CompiledObject& object) {
-  const auto is_in_range = [](int value) { return value >= 0 && value <= most; };
+  const auto is_in_range = [](int value) { return value >= 0 && value <= largest_number; };
   if (!is_in_range(block.first) || !is_in_range(block.generation) || !is_in_range(first_frame))
     refuse("the place of object '" + object.name + "' is out of range");
   if (block.particles != object.particles)

@@ -11,7 +11,7 @@ namespace pliant {
 namespace {
 
 /// Manifolds whose normals agree better than this are one [cosine].
-constexpr double alike = 0.995;
+constexpr double alike_cosine = 0.995;
 /// Points nearer to each other than this share of the solid's size are one.
 constexpr double coincident_share = 1e-4;
 
@@ -58,8 +58,8 @@ std::vector<Cluster> clusters_of(const std::vector<TrianglePoint>& points, doubl
   std::vector<Cluster> clusters;
   for (const Group& group : groups_of(points)) {
     const Vec3d& normal = points[group.first].normal;
-    auto place =
-        std::find_if(clusters.begin(), clusters.end(), [&](const Cluster& c) { return dot(c.normal, normal) > alike; });
+    auto place = std::find_if(clusters.begin(), clusters.end(),
+                              [&](const Cluster& c) { return dot(c.normal, normal) > alike_cosine; });
     if (place == clusters.end()) place = clusters.insert(place, {normal, group.triangle, {}});
     add_points(*place, points, group, tolerance);
   }
