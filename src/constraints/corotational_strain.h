@@ -25,7 +25,7 @@ struct CorotationalStrain : TetrahedronStrain {
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
     const ByColumns<R> f = deformation(x, p);
-    const Symmetric<R> e = green_strain(f);
+    const SymmetricTensor<R> e = green_strain(f);
     const ByColumns<R> far = less_rotation(f), near = f.times(less_inverse_stretch(e));
     const R volume = dot(f.x, cross(f.y, f.z));  // a mirrored one has the same E
     const auto is_near = e.squares() < select(volume > R(0), near_rest<R>(), R(-1));
@@ -52,18 +52,18 @@ struct CorotationalStrain : TetrahedronStrain {
   /// 1 - U^-1, where F = R U, so that F - R = F (1 - U^-1), from U^2 = 1 + 2 E: E - 3/2 E^2 + 5/2 E^3 - 35/8 E^4. F and R nearly
   /// cancel where the strain is small.
   template <class R>
-  PLIANT_HD static Symmetric<R> less_inverse_stretch(const Symmetric<R>& e) {
+  PLIANT_HD static SymmetricTensor<R> less_inverse_stretch(const SymmetricTensor<R>& e) {
     return times(e, times(e, times(e, scaled(e, R(-35 / 8.f)), R(2.5f)), R(-1.5f)), R(1));
   }
 
   template <class R>
-  PLIANT_HD static Symmetric<R> scaled(const Symmetric<R>& a, const R& by) {
+  PLIANT_HD static SymmetricTensor<R> scaled(const SymmetricTensor<R>& a, const R& by) {
     return {a.xx * by, a.yy * by, a.zz * by, a.xy * by, a.xz * by, a.yz * by};
   }
 
   /// a (b + c), for matrices that commute.
   template <class R>
-  PLIANT_HD static Symmetric<R> times(const Symmetric<R>& a, const Symmetric<R>& b, const R& c) {
+  PLIANT_HD static SymmetricTensor<R> times(const SymmetricTensor<R>& a, const SymmetricTensor<R>& b, const R& c) {
     const R xx = b.xx + c, yy = b.yy + c, zz = b.zz + c;
     return {a.xx * xx + a.xy * b.xy + a.xz * b.xz, a.xy * b.xy + a.yy * yy + a.yz * b.yz,
             a.xz * b.xz + a.yz * b.yz + a.zz * zz, a.xx * b.xy + a.xy * yy + a.xz * b.yz,
@@ -86,7 +86,7 @@ struct CorotationalStrain : TetrahedronStrain {
       s = s - max((square - R(2)) * square - j * s + rest, R(0)) / slope;
     }
     const R four_square = R(4) * s * s, per_slope = R(1) / max(s * (four_square - R(4)) - j, R(1e-4f));
-    const Symmetric<R> c{dot(f.x, f.x), dot(f.y, f.y), dot(f.z, f.z), dot(f.x, f.y), dot(f.x, f.z), dot(f.y, f.z)};
+    const SymmetricTensor<R> c{dot(f.x, f.x), dot(f.y, f.y), dot(f.z, f.z), dot(f.x, f.y), dot(f.x, f.z), dot(f.y, f.z)};
     const ByColumns<R> fc = f.times(c);
     const R of_f = (four_square + R(4)) * per_slope, of_k = R(8) * s * per_slope, of_fc = R(8) * per_slope;
     return {given.x - (f.x * of_f + k.x * of_k - fc.x * of_fc), given.y - (f.y * of_f + k.y * of_k - fc.y * of_fc),

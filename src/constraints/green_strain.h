@@ -26,7 +26,7 @@ struct GreenStrain : TetrahedronStrain {
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
     const ByColumns<R> f = deformation(x, p);
-    const Symmetric<R> e = green_strain(f);
+    const SymmetricTensor<R> e = green_strain(f);
     const R value = select(is_solid(p), sqrt(R(2) * e.squares()), R(0)), share = held(f);
     const R scale = share * R(2) / max(value, R(1e-7f));
     const ByColumns<R> g = f.times(e);

@@ -12,7 +12,7 @@ namespace pliant {
 
 /// A symmetric 3 x 3 matrix.
 template <class R>
-struct Symmetric {
+struct SymmetricTensor {
   R xx, yy, zz, xy, xz, yz;
 
   PLIANT_HD R trace() const { return xx + yy + zz; }
@@ -26,7 +26,7 @@ struct ByColumns {
   Vec3<R> x, y, z;
 
   PLIANT_HD R squares() const { return dot(x, x) + dot(y, y) + dot(z, z); }
-  PLIANT_HD ByColumns times(const Symmetric<R>& s) const {
+  PLIANT_HD ByColumns times(const SymmetricTensor<R>& s) const {
     return {x * s.xx + y * s.xy + z * s.xz, x * s.xy + y * s.yy + z * s.yz, x * s.xz + y * s.yz + z * s.zz};
   }
 };
@@ -110,7 +110,7 @@ struct TetrahedronStrain {
 
   /// Green's strain E = (F^T F - 1) / 2.
   template <class R>
-  PLIANT_HD static Symmetric<R> green_strain(const ByColumns<R>& f) {
+  PLIANT_HD static SymmetricTensor<R> green_strain(const ByColumns<R>& f) {
     const R one(1), half(0.5f);
     return {(dot(f.x, f.x) - one) * half, (dot(f.y, f.y) - one) * half, (dot(f.z, f.z) - one) * half,
             dot(f.x, f.y) * half,         dot(f.x, f.z) * half,         dot(f.y, f.z) * half};

@@ -12,8 +12,6 @@ namespace pliant {
 
 namespace {
 
-using Vec3d = Vec3<double>;
-
 /// The deformation of a cluster's present rest shape, F = sum w (x - c) q^T (sum w q q^T)^-1. All zero if that shape has no volume.
 Matrix3d deformation(const CompiledClusters& clusters, const CompiledCluster& cluster, const SweepArguments& a) {
   const Record& origin = a.positions[clusters.members[cluster.first].particle];

@@ -11,8 +11,6 @@ namespace pliant {
 
 namespace {
 
-using Vec3d = Vec3<double>;
-
 /// Positions relative to a cluster's first particle, so that rounding does not grow with the distance from the origin.
 struct ClusterPlaces {
   const Record* positions;

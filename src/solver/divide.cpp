@@ -12,7 +12,7 @@ namespace pliant {
 namespace {
 
 /// Upper limit of a collider's displacement per substep, as a share of the thickness of a pair.
-constexpr double share_of_thickness = 0.5;
+constexpr double displacement_over_thickness = 0.5;
 
 bool come_near(const CarrierBox& a, const CarrierBox& b, double margin) {
   const Vec3d apart = max(a.low - b.high, b.low - a.high);
@@ -95,12 +95,12 @@ std::string too_fast(const CompiledObject& collider, const CompiledObject& objec
 }
 
 /// The collider and the object that require the most substeps.
-struct Demand {
+struct ColliderDemand {
   double substeps = 0;  ///< substeps required, before the limit is applied
   int collider = 0, object = 0;
 };
 
-std::string divides(const Model& model, const Demand& demand, int planned, int substeps) {
+std::string divides(const Model& model, const ColliderDemand& demand, int planned, int substeps) {
   char text[160];
   std::snprintf(text, sizeof text, "the frame has %d substeps instead of %d and takes about %.1f times as long", substeps,
                 planned, static_cast<double>(substeps) / planned);
@@ -115,7 +115,7 @@ int divided_substeps(const Model& model, const Control& control, const PairModel
                      const PlannedFrame& frame, std::vector<std::string>& warnings) {
   const int most = std::max(frame.substeps, frame.most_substeps);
   int substeps = frame.substeps;
-  Demand demand;
+  ColliderDemand demand;
   for (const int c : pairs.members) {
     const CompiledObject& collider = model.objects[c];
     if (!collider.is_collider) continue;
@@ -123,7 +123,8 @@ int divided_substeps(const Model& model, const Control& control, const PairModel
     if (!(sweep.largest > 0)) continue;
     for (const int o : pairs.members) {
       if (model.objects[o].is_collider || !pairs.shared->rules.meet(c, o)) continue;
-      const double thickness = pairs.shared->rules.material(c, o).thickness, allowed = share_of_thickness * thickness;
+      const double thickness = pairs.shared->rules.material(c, o).thickness,
+                   allowed = displacement_over_thickness * thickness;
       if (!(allowed > 0) || !(sweep.largest > allowed)) continue;
       const double margin = thickness + sweep.largest * frame.substeps * 0.1;
       if (!come_near(sweep.box, foreseen(model, state, o, frame.dt), margin)) continue;

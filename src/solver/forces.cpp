@@ -4,6 +4,7 @@
 
 #include "math/functions.h"
 #include "math/quat.h"
+#include "math/record.h"
 #include "math/vector.h"
 #include "parallel/launch.h"
 #include "solver/air.h"
@@ -11,8 +12,6 @@
 namespace pliant {
 
 namespace {
-
-Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 void push(Record& velocity, const Vec3f& change) {
   velocity = {velocity.x + change.x, velocity.y + change.y, velocity.z + change.z, 0};
@@ -38,7 +37,7 @@ void apply_air_to_capsules(const Model& model, int o, const Vec3f& air, const Ve
     Record& v = velocities[body.particle];
     const Record& q = orientations[body.frame];
     const Vec3f along = rotate(Quatf{q.x, q.y, q.z, q.w}, rotate(convert<float>(solid.pose.rotation), Vec3f{0, 1, 0}));
-    const Vec3f force = air_force_on_cylinder(air - (vector_of(v) + gravity), along, 2 * solid.shape.half_length,
+    const Vec3f force = air_force_on_cylinder(air - (xyz(v) + gravity), along, 2 * solid.shape.half_length,
                                               solid.shape.radius, model.wind.air_density, object.drag, 2 * h * x.w);
     push(v, force * (h * x.w));
   });
@@ -66,8 +65,6 @@ void apply_air(const Model& model, State& state, Workspace& workspace, Executor&
   });
 }
 
-bool is_finite(const Vec3f& v) { return (v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0; }
-
 /// A non-finite force that was skipped: the index of its force field, and the user's index of the particle.
 struct LeftOut {
   int particle = -1, field = -1;
@@ -79,7 +76,7 @@ LeftOut apply_fields(const Model& model, const Record& x, const Vec3f& gravity, 
   LeftOut first;
   if (x.w == 0) return first;
   for (std::size_t f = 0; f < model.forces.size(); ++f) {
-    const Vec3f force = model.forces[f](vector_of(x), vector_of(v) + gravity, 1 / x.w, static_cast<float>(time));
+    const Vec3f force = model.forces[f](xyz(x), xyz(v) + gravity, 1 / x.w, static_cast<float>(time));
     if (is_finite(force)) {
       push(v, force * (h * x.w));
     } else if (first.field < 0) {

@@ -1,6 +1,6 @@
 // The formulas of MotionKernels for frames, written once: R is float for one frame, Wide for sixteen (math/wide.h).
 //
-// Include it after all_zero(R), which is true if a number is zero in all lanes.
+// Of a wide R it also uses all_zero(R), which is true if a number is zero in all lanes.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,8 @@
 #include "solver/motion_kernels.h"
 
 namespace pliant::motion_formulas {
+
+PLIANT_HD bool all_zero(float sum) { return sum == 0; }
 
 /// Records of one index, or of one in each lane.
 template <class R>

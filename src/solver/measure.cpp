@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "constraints/registry.h"
+#include "math/record.h"
 #include "solver/visit.h"
 #include "solver/volume.h"
 
@@ -12,7 +13,7 @@ namespace pliant {
 namespace {
 
 /// A view of an object's particles and of its multipliers of the last substep.
-struct View {
+struct StateView {
   const CompiledObject& object;
   const Record *positions, *orientations;
   const std::vector<AlignedVector<float>>& multipliers;  ///< multipliers of each pool, empty if they are not stored
@@ -24,13 +25,11 @@ struct View {
   }
 };
 
-View view_of(const Model& model, const State& state, const Workspace& workspace, std::size_t o, float h) {
+StateView view_of(const Model& model, const State& state, const Workspace& workspace, std::size_t o, float h) {
   const int first = model.first[o];
   return {model.objects[o], state.positions.data() + first, state.frames.orientations.data() + model.first_frame[o],
           workspace.multipliers[o], double(h)};
 }
-
-Vec3f place_of(const Record& p) { return {p.x, p.y, p.z}; }
 
 /// Evaluates C. It is zero where the force that would reduce it is excluded by a bound, as within a joint's limits.
 void evaluate(const ConstraintDefinition& type, StencilArrays<float>& arrays, float (&bounds)[3 * most_components]) {
@@ -43,7 +42,7 @@ void evaluate(const ConstraintDefinition& type, StencilArrays<float>& arrays, fl
 }
 
 /// Adds the norm of C + alpha~ lambda of every constraint of a type; C is a vector if the type has several rows.
-void add_residuals(const View& view, int type, ErrorSum& sum) {
+void add_residuals(const StateView& view, int type, ErrorSum& sum) {
   const ConstraintDefinition& definition = constraint_type(type);
   if (definition.acts_on_motion) return;  // imposes a speed, which has no C to be met
   StencilArrays<float> arrays;
@@ -85,7 +84,7 @@ void add_ratios(const CompiledObject& object, const Record* positions, int type,
   for_constraints(object, type, [&](const ConstraintPlace& at, const std::int32_t* particle) {
     const float rest = at.value(0);
     if (!(rest > 0)) return;
-    const Vec3f way = place_of(positions[particle[1]]) - place_of(positions[particle[0]]);
+    const Vec3f way = xyz(positions[particle[1]]) - xyz(positions[particle[0]]);
     ratios.push_back(std::sqrt(dot(way, way)) / rest);
     sum += static_cast<double>(ratios.back());
   });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/matrix.h"
 #include "solver/points.h"
 #include "solver/substep.h"
 
@@ -44,21 +45,6 @@ RigidSums sums_of(const AdvanceArguments& a, Since since) {
   }
   return sums;
 }
-
-/// A symmetric matrix of three rows.
-struct Symmetric {
-  Vec3d diagonal, others;  ///< xx, yy, zz; yz, zx, xy
-};
-
-/// Solves m x = b by Cramer's rule; not finite if m is singular.
-Vec3d solve(const Symmetric& m, const Vec3d& b) {
-  const Vec3d row0{m.diagonal.x, m.others.z, m.others.y}, row1{m.others.z, m.diagonal.y, m.others.x},
-      row2{m.others.y, m.others.x, m.diagonal.z};
-  const Vec3d minor0 = cross(row1, row2), minor1 = cross(row2, row0), minor2 = cross(row0, row1);
-  return (minor0 * b.x + minor1 * b.y + minor2 * b.z) * (1 / dot(row0, minor0));
-}
-
-bool is_finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Objects of which momentum is conserved.
 struct Inflated {
@@ -125,8 +111,10 @@ RigidStep rigid_step(const RigidSums& sums) {
                       about_centre(sums.squares.z, centre.z, centre.z)};
   const Vec3d products{about_centre(sums.products.x, centre.y, centre.z), about_centre(sums.products.y, centre.z, centre.x),
                        about_centre(sums.products.z, centre.x, centre.y)};
-  const Symmetric inertia{{squares.y + squares.z, squares.z + squares.x, squares.x + squares.y}, -products};
-  const Vec3d rotation = solve(inertia, sums.corrections.angular - cross(centre, push));
+  const Vec3d moments{squares.y + squares.z, squares.z + squares.x, squares.x + squares.y};
+  const Vec3d inertia[3] = {
+      {moments.x, -products.z, -products.y}, {-products.z, moments.y, -products.x}, {-products.y, -products.x, moments.z}};
+  const Vec3d rotation = solve_by_cramer(inertia, sums.corrections.angular - cross(centre, push));
   const Vec3d translation = push * (1 / sums.mass) - cross(rotation, centre);
   return is_finite(rotation) && is_finite(translation) ? RigidStep{translation, rotation} : RigidStep{};
 }

@@ -1,19 +1,9 @@
 #include "solver/motion_kernels.h"
 
-#include "math/scalar.h"
-
-namespace pliant::motion_formulas {
-PLIANT_HD bool all_zero(float sum) { return sum == 0; }
-}  // namespace pliant::motion_formulas
-
-#include "solver/motion_loops.h"  // after what it uses for floats
+#include "solver/motion_loops.h"
 
 namespace pliant {
 
-namespace {
-struct ThisUnit {};
-}  // namespace
-
-const MotionKernels& motion_kernels_sequential() { return motion_formulas::Loops<float, 1, ThisUnit>::table; }
+const MotionKernels& motion_kernels_sequential() { return motion_formulas::Loops<float, 1, void>::table; }
 
 }  // namespace pliant

@@ -6,7 +6,7 @@
 
 namespace pliant::motion_formulas {
 
-/// `Unit` is a type of an unnamed namespace, so that the linker never mixes the code of two levels.
+/// `Unit` is a type of an unnamed namespace, so that the linker never mixes the code of two levels; void for the sequential reference.
 template <class R, int lanes, class Unit>
 struct Loops {
   using At = Lanes<R, lanes>;

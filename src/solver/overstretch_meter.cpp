@@ -18,7 +18,7 @@ constexpr float decrease = 0.8f;
 /// A threshold that is taken from a value is a little less, so that it finds that value again.
 constexpr float a_little_less = 0.999f;
 /// How often the threshold is halved before everything that is too long is listed.
-constexpr int halvings = 4;
+constexpr int threshold_halvings = 4;
 /// Bins begin at the threshold. Each is as wide as these bits of a float count: 64 bins from a value to its double.
 constexpr int bits_per_bin = 17;
 
@@ -62,7 +62,7 @@ Overstretch OverstretchMeter::measure(const MeasuredFrame& frame, Executor* exec
   const std::size_t beyond = number_beyond(measured.constraints);
   std::size_t found = find(frame, executor);
   for (int halved = 0; found < beyond && above_ > 0; ++halved) {
-    above_ = halved < halvings ? above_ / 2 : 0;
+    above_ = halved < threshold_halvings ? above_ / 2 : 0;
     found = find(frame, executor);
   }
   count(frame, measured);

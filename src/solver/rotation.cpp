@@ -30,10 +30,10 @@ void for_frames(Substep& s, const char* name, FunctionRef<void(int, int)> body) 
 
 /// Turns a frame to `after` at the end of a substep, by the shorter way.
 void drive_frame(const FrameArrays& a, int frame, Quatf after, float h) {
-  const Quatf before = bodies::quaternion(a.starts[frame]);
+  const Quatf before = quaternion(a.starts[frame]);
   if (before.x * after.x + before.y * after.y + before.z * after.z + before.w * after.w < 0)
     after = {-after.x, -after.y, -after.z, -after.w};
-  const Vec3f turn = bodies::turn_between(before, after), spin = rotate(conjugate(after), turn) * (1 / h);
+  const Vec3f turn = turn_between(before, after), spin = rotate(conjugate(after), turn) * (1 / h);
   a.orientations[frame] = {after.x, after.y, after.z, after.w};
   a.angular_velocities[frame] = {spin.x, spin.y, spin.z, 0};
   a.predicted[frame] = {turn.x, turn.y, turn.z, 0};

@@ -2,6 +2,7 @@
 
 #include "constraints/registry.h"
 #include "math/quat.h"
+#include "math/record.h"
 #include "solver/bodies/joint_formulas.h"
 #include "solver/bodies/tied_body.h"
 #include "solver/project.h"
@@ -14,9 +15,6 @@ namespace {
 /// A pivot below this share of its diagonal entry is rounding error. Its row then depends linearly on earlier rows and
 /// is ignored.
 constexpr float least_pivot = 1e-6f;
-
-Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
-Quatf quaternion(const Record& r) { return {r.x, r.y, r.z, r.w}; }
 
 /// The generalised inverse mass W of one slot. It maps a gradient to a displacement, or to a rotation vector.
 struct SlotMass {

@@ -1,6 +1,7 @@
 // The current substep: the data on which every stage of solver/step.cpp works.
 #pragma once
 
+#include "core/at.h"
 #include "solver/step.h"
 
 namespace pliant {
@@ -68,6 +69,12 @@ double time_left(const Substep& s);
 
 /// The change of velocity by gravity over a time [m/s].
 Vec3f gravity_for(const Substep& s, double seconds);
+
+/// The position of a particle at the end of the substep as of now [m]; w is 0.
+inline Record predicted_position(const Substep& s, std::int32_t particle) {
+  const Record &x = s.state.positions[at(particle)], &d = s.work.displacements[at(particle)];
+  return {x.x + d.x, x.y + d.y, x.z + d.z, 0};
+}
 
 /// The arrays of an object's particles and multipliers, for projection.
 SweepArguments arguments(const Substep& s, int object, bool first_pass);

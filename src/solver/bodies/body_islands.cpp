@@ -11,8 +11,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 bool is_zero(const Vec3f& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
 bool differ(const Quatd& a, const Quatd& b) { return a.x != b.x || a.y != b.y || a.z != b.z || a.w != b.w; }

@@ -13,8 +13,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 /// The joint, and whether it is a motor of it, of each constraint of an object: [pool][16 batch + lane].
 class JointsOfConstraints {
  public:

@@ -2,17 +2,15 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 
+#include "core/at.h"
 #include "math/quat.h"
+#include "math/record.h"
 #include "pliant/state.h"
 #include "solver/bodies/joint_formulas.h"
 
-namespace pliant::bodies {
+namespace pliant {
 
-inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
-inline Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
-inline Quatf quaternion(const Record& r) { return {r.x, r.y, r.z, r.w}; }
 inline Record plus(const Record& r, const Vec3f& v) { return {r.x + v.x, r.y + v.y, r.z + v.z, r.w}; }
 
 /// A symmetric matrix (xx, yy, zz, yz, zx, xy) times a vector.
@@ -21,7 +19,7 @@ inline Vec3f times(const std::array<float, 6>& m, const Vec3f& v) {
 }
 
 /// Turns an orientation by a small rotation vector in world axes.
-inline void turn(const Vec3f& theta, Record& orientation) {
+inline void rotate_by(const Vec3f& theta, Record& orientation) {
   const Quatf now = joint_formulas::turned(quaternion(orientation), theta);
   orientation = {now.x, now.y, now.z, now.w};
 }
@@ -33,4 +31,4 @@ inline Vec3f turn_between(const Quatf& from, const Quatf& to) {
   return {sign * turn.x, sign * turn.y, sign * turn.z};
 }
 
-}  // namespace pliant::bodies
+}  // namespace pliant

@@ -12,8 +12,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 constexpr int bodies_a_task = 256;
 
 /// Calls body(first, last) for ranges of `count` bodies on all threads.

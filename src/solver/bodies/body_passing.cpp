@@ -14,8 +14,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 /// A ball that slides along cloth meets a few triangles in a substep; in all but violent impacts two or three rounds do.
 constexpr int rounds_of_both_sides = 8;
 /// Up to this round the points stay and the body alone moves, so that it stops before light cloth too. Momentum is not kept then.

@@ -8,8 +8,6 @@
 
 namespace pliant {
 
-using namespace bodies;
-
 BodyPoints::BodyPoints(const Model& model, const std::vector<int>& objects, const std::vector<TouchedBody>& bodies,
                        const ContactRules& rules) {
   for (const int o : objects)

@@ -11,8 +11,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 bool is_zero(const Record& r) { return r.x == 0 && r.y == 0 && r.z == 0; }
 
 /// True if a particle follows keyframes.

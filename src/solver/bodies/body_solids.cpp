@@ -15,8 +15,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 constexpr int sides_of_round_solids = 32;
 
 /// A closed mesh of a solid that is no primitive: its polyhedron, or a prism or pyramid of many sides.
@@ -79,10 +77,6 @@ BoundingBox<float> box_around(const BoxBounds& box, const Posef& pose) {
                       abs(rotate(pose.rotation, Vec3f{0, 0, half.z}));
   const Vec3f grown = reach + reach * 1e-5f;
   return {centre - grown, centre + grown};
-}
-
-BoundingBox<float> merged(const BoundingBox<float>& a, const BoundingBox<float>& b) {
-  return {min(a.low, b.low), max(a.high, b.high)};
 }
 
 Posef pose_of(const Record& position, const Record& orientation) { return {xyz(position), quaternion(orientation)}; }
@@ -170,7 +164,7 @@ void BodySolids::place(const Substep& s) {
       return solid.field == nullptr ? bounding_box(solid.shape, pose, solid.margin)
                                     : box_around(solid.field->bounds(), pose);
     };
-    moving.swept = merged(box(moving.before), box(moving.after));
+    moving.swept = merge(box(moving.before), box(moving.after));
   }
 }
 

@@ -15,10 +15,8 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 /// Most rounds in which impacts are passed on from body to body in a substep.
-constexpr int most_rounds_of_impacts = 32;
+constexpr int most_rounds_of_body_impacts = 32;
 /// Where the contacts of the last substep turn a jointed body by more than this in a substep [rad], as where a long chain hits
 /// a peg, joints take up only what the position pass leaves of them: the solve of joints is linear. The same as |f| h^2 |r| over
 /// the inertia, for which joints have this limit, too (joint_forest_solve.cpp).
@@ -143,7 +141,7 @@ void BodySolver::start_substep(const Substep& s) {
   const Vec3f fall = s.model.gravity * s.h;
   motions_.change_once([&] {
     bool goes_on = true;
-    for (int round = 0; goes_on && round < most_rounds_of_impacts; ++round)
+    for (int round = 0; goes_on && round < most_rounds_of_body_impacts; ++round)
       goes_on = blocks_.bounce(executor, kernels, motions_.all(), s.h, fall);
   });
   note_bounces(s);

@@ -14,8 +14,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 std::pair<Posed, Posed> poses_between(const MovingCollider& collider) {
   return {convert<double>(collider.before), convert<double>(collider.after)};
 }

@@ -9,11 +9,9 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
-constexpr float fastest = 0.25f;        ///< [m/s]
-constexpr float few = 6;                ///< overlaps of a body that do not share the speed
-constexpr float sizes_a_second = 2.5f;  ///< of small bodies
+constexpr float fastest_depenetration = 0.25f;  ///< [m/s]
+constexpr float few_overlaps = 6;               ///< overlaps of a body that do not share the speed
+constexpr float sizes_a_second = 2.5f;          ///< of small bodies
 
 /// What a unit impulse along the normal at a point does to its velocity [1/kg].
 float inverse_mass_at(const Vec3f& arm, const Vec3f& normal, const BodyMotion& body) {
@@ -23,11 +21,11 @@ float inverse_mass_at(const Vec3f& arm, const Vec3f& normal, const BodyMotion& b
 
 }  // namespace
 
-float depenetration_speed(float size) { return std::min(fastest, sizes_a_second * size); }
+float depenetration_speed(float size) { return std::min(fastest_depenetration, sizes_a_second * size); }
 
 bool limit_depths(const BodyMotion& a, const BodyMotion& b, float size, int others, PressedBy by, float h, Manifold& m) {
   constexpr ContactSoftness softness;
-  const float share = std::min(few / static_cast<float>(std::max(others, 1)), 1.f);
+  const float share = std::min(few_overlaps / static_cast<float>(std::max(others, 1)), 1.f);
   const float margin = share * depenetration_speed(size) * h / softness.beta;
   const float depth_an_approach =
       by == PressedBy::bodies ? softness.epsilon * h / ((1 - softness.epsilon) * softness.beta) : h / softness.beta;

@@ -11,8 +11,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 /// Contacts are found again in a frame if a body has turned by more than this since they were found [rad].
 constexpr float far_turned = 0.2f, soon_far_turned = 0.5f * far_turned;
 /// The same if two bodies, of which some bounce, have moved against each other by more than this share of half of the smaller one's

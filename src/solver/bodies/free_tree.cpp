@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/matrix.h"
 #include "math/vector.h"
 #include "solver/bodies/body_math.h"
 #include "solver/stencil.h"
@@ -12,20 +13,10 @@ namespace pliant {
 
 namespace {
 
-using bodies::quaternion, bodies::xyz;
-
 Vec3d times(const Symmetric& m, const Vec3d& v) {
   const auto e = [&](std::size_t i) { return static_cast<double>(m[i]); };
   return {e(0) * v.x + e(5) * v.y + e(4) * v.z, e(5) * v.x + e(1) * v.y + e(3) * v.z, e(4) * v.x + e(3) * v.y + e(2) * v.z};
 }
-
-/// Solves m x = b for a matrix of three rows, by Cramer's rule; not finite if m is singular.
-Vec3d solve(const Vec3d (&row)[3], const Vec3d& b) {
-  const Vec3d minor0 = cross(row[1], row[2]), minor1 = cross(row[2], row[0]), minor2 = cross(row[0], row[1]);
-  return (minor0 * b.x + minor1 * b.y + minor2 * b.z) * (1 / dot(row[0], minor0));
-}
-
-bool is_finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Adds what a rotation by theta changes of the angular momentum of a particle at x that is now at y, about any point:
 /// m x cross (theta cross y) = m (x.y theta - y (x.theta)).
@@ -100,7 +91,7 @@ void FreeTree::restore() const {
     add_particle(mass_of(bodies_[i]), start_of(bodies_[i]), place_of(bodies_[i]) - middle, row);
     add_inertia(inertias_[i], row);
   }
-  const Vec3d theta = solve(row, before_ - momentum());
+  const Vec3d theta = solve_by_cramer(row, before_ - momentum());
   if (!is_finite(theta)) return;
   for (const JointForest::Body& body : bodies_) {
     const Vec3f by = convert<float>(cross(theta, place_of(body) - middle));

@@ -9,8 +9,6 @@
 
 namespace pliant {
 
-using namespace bodies;
-
 HeldBodies::HeldBodies(const ContactBodies& bodies, std::span<const BodyLink> links)
     : bodies_(&bodies), is_held_(at(bodies.dynamic())) {
   int first = 0;

@@ -17,7 +17,7 @@ constexpr float held_compliance = 1e6f;
 /// A bound beyond this is none.
 constexpr float most_held = 1e15f;
 /// Solves with rows that may leave their bounds again, then solves in which they may only reach them.
-constexpr int free_rounds = 4, most_rounds = 10;
+constexpr int free_solves = 4, most_solves = 10;
 
 /// J M^-1 J^T of a row, with the mean inertia of each body: a scale.
 float inverse_mass(const JointForest& forest, const BoundedRow& bounded) {
@@ -91,14 +91,14 @@ void solve_within_bounds(JointForest& forest) {
     bounded.inverse_mass = inverse_mass(forest, bounded);
     write_row(forest, bounded);
   }
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_solves; ++round) {
     solve_once(forest);
     bool changes = false;
     const auto left_out = [&](const BoundedRow& bounded) { return is_left_out(forest, bounded); };
     const bool is_partial = std::any_of(forest.bounded.begin(), forest.bounded.end(), left_out);
     for (BoundedRow& bounded : forest.bounded) {
       if (is_partial && !left_out(bounded)) continue;  // what the others do follows from those that were left out
-      const RowState next = next_state(forest, bounded, round < free_rounds);
+      const RowState next = next_state(forest, bounded, round < free_solves);
       changes = changes || next != bounded.state;
       bounded.state = next;
     }

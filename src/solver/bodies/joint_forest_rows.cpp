@@ -12,7 +12,6 @@ namespace pliant {
 
 namespace {
 
-using bodies::quaternion, bodies::xyz;
 using BoundedRow = JointForest::BoundedRow;
 using RowState = BoundedRow::State;
 

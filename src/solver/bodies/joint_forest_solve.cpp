@@ -14,8 +14,6 @@ namespace pliant {
 
 namespace {
 
-using bodies::quaternion, bodies::times, bodies::xyz;
-
 /// Sets the forces by which the last solve's multipliers pull, in the order of the joints.
 void find_pulls(const JointForest& forest, std::vector<JointForest::Pull>& pulls) {
   pulls.assign(forest.joints.size(), {});

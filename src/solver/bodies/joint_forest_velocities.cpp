@@ -16,8 +16,6 @@ namespace pliant {
 
 namespace {
 
-using bodies::plus, bodies::quaternion, bodies::xyz;
-
 /// From this angle in a substep on [rad].
 constexpr float fast_angle = 1;
 

@@ -8,6 +8,7 @@
 #include "constraints/rod_joint.h"
 #include "math/disjoint_sets.h"
 #include "math/quat.h"
+#include "math/record.h"
 #include "solver/bodies/body_links.h"
 #include "solver/bodies/joint_forest.h"
 #include "solver/substep.h"
@@ -16,8 +17,6 @@
 namespace pliant {
 
 namespace {
-
-Vec3f xyz(const Record& r) { return {r.x, r.y, r.z}; }
 
 /// Adds what one constraint does to body b: gradients times lambda / h^2.
 void add_part(const LoadView& view, const CompiledJoint& joint, const ConstraintPlace& at, const std::int32_t* number,

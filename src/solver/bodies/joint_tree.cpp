@@ -14,15 +14,15 @@ namespace {
 constexpr int body_unknowns = 6;
 /// Between two joints with the ground a joint may find that one side cannot move along some direction at all, and has no pivot
 /// there before the other side is known. Joints get this share of their inverse mass as compliance in such trees.
-constexpr double softness = 1e-4;
+constexpr double compliance_share = 1e-4;
 /// A row with compliance of its own needs no more than this share, above least_pivot of the blocks.
 constexpr double least_compliance = 2e-6;
 
-using bodies::at;
-using namespace joint_tree_formulas;
+using BodyInverseMass = joint_tree_formulas::InverseMass<double>;
+
 /// In double: along a chain whose joints hold angles, the smallest eigenvalues of the system fall with the fourth power of its length, below a
 /// float's rounding of the largest at a hundred links.
-using RowGradient = Gradient<double>;
+using RowGradient = joint_tree_formulas::Gradient<double>;
 
 RowGradient gradient(const std::array<Vec3f, 2>& g) { return {convert<double>(g[0]), convert<double>(g[1])}; }
 
@@ -43,8 +43,8 @@ struct Gradients {
 };
 
 /// What a body yields by, in double.
-InverseMass<double> inverse_of(const BodyMass& body) {
-  InverseMass<double> of{};
+BodyInverseMass inverse_mass_of(const BodyMass& body) {
+  BodyInverseMass of{};
   of.mass = 1 / static_cast<double>(body.mass);
   std::copy(body.inverse.begin(), body.inverse.end(), of.inertia);
   return of;
@@ -222,13 +222,13 @@ void JointTree::fill_joint(std::size_t n, const std::vector<BodyMass>& masses, c
   for (const int body : {ends.a, ends.b}) {
     if (body < 0) continue;
     const BodyMass& mass = masses[at(body)];
-    const InverseMass<double> inverse = inverse_of(mass);
+    const BodyInverseMass inverse = inverse_mass_of(mass);
     const Gradients g(rows, ends, body);
     const bool is_held = ends.a >= 0 && ends.b >= 0 && held_[at(body)] != 0;
     for (int r = 0; is_held && r < rows.rows; ++r) {
       const auto own = static_cast<double>(rows.compliance[at(r)]);
       if (own == 0)
-        m[r * stride + r] -= softness * inverse_mass(g[r], mass);
+        m[r * stride + r] -= compliance_share * inverse_mass(g[r], mass);
       else
         m[r * stride + r] -= std::max(0., least_compliance * product(accelerated(g[r], inverse), g[r]) - own);
     }
@@ -282,7 +282,7 @@ void JointTree::move_eliminated(const std::vector<BodyMass>& masses, const std::
     for (const int body : {ends.a, ends.b}) {
       if (body < 0 || !is_eliminated(body)) continue;
       const Gradients g(rows, ends, body);
-      move_body(g.of.data(), blocks_->x(n), rows.rows, inverse_of(masses[at(body)]), moves_[at(body)]);
+      move_body(g.of.data(), blocks_->x(n), rows.rows, inverse_mass_of(masses[at(body)]), moves_[at(body)]);
     }
   }
 }

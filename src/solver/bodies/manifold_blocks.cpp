@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 
+#include "core/at.h"
 #include "parallel/ranges.h"
 
 namespace pliant {
@@ -15,8 +16,6 @@ constexpr int block_width = 16;
 constexpr int blocks_a_task = 32;
 /// Blocks per task where they are filled.
 constexpr int blocks_a_fill = 16;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// True if a manifold has a normal impulse.
 bool presses(const ManifoldBlock& block, int lane) {

@@ -12,7 +12,7 @@ namespace formulas = manifold_formulas;
 
 namespace {
 
-using Row = ManifoldRows<1>;
+using ManifoldRow = ManifoldRows<1>;
 
 /// Two bodies, as formulas need them.
 struct Pair {
@@ -38,10 +38,10 @@ void store(const formulas::Motion<float>& from, BodyMotion& body) {
 // ---------------------------------------------------------------- passes over one row
 
 struct Prepare {
-  void operator()(Row& row, Pair& p) const { formulas::prepare(row, p.a, p.b); }
+  void operator()(ManifoldRow& row, Pair& p) const { formulas::prepare(row, p.a, p.b); }
 };
 struct WarmStart {
-  void operator()(Row& row, Pair& p) const {
+  void operator()(ManifoldRow& row, Pair& p) const {
     formulas::warm_start(row, p.a, p.b);
     if (row.rolling[0] > 0) formulas::warm_start_rolling(row, p.a, p.b);
   }
@@ -50,20 +50,20 @@ struct Bounce {
   float h;
   Vec3f fall;
   bool* bounced;
-  void operator()(Row& row, Pair& p) const {
+  void operator()(ManifoldRow& row, Pair& p) const {
     if (formulas::bounce(row, p.a, p.b, p.moved_a, p.moved_b, h, fall)) *bounced = true;
   }
 };
 struct PositionPass {
   PassNumbers numbers;
-  void operator()(Row& row, Pair& p) const {
+  void operator()(ManifoldRow& row, Pair& p) const {
     if (row.rolling[0] > 0) formulas::resist_rolling(row, p.a, p.b);
     formulas::position_pass(row, p.a, p.b, p.moved_a, p.moved_b, numbers);
   }
 };
 struct VelocityPass {
   PassNumbers numbers;
-  void operator()(Row& row, Pair& p) const {
+  void operator()(ManifoldRow& row, Pair& p) const {
     if (row.rolling[0] > 0) formulas::resist_rolling(row, p.a, p.b);
     formulas::velocity_pass(row, p.a, p.b, numbers);
   }
@@ -71,8 +71,8 @@ struct VelocityPass {
 
 // ---------------------------------------------------------------- one manifold
 
-Row row_of(const Manifold& m) {
-  Row row;
+ManifoldRow gather_row(const Manifold& m) {
+  ManifoldRow row;
   put_manifold(m, row, 0);
   std::memcpy(row.mobility, m.mobility.data(), sizeof row.mobility);
   std::memcpy(row.mass, m.mass.data(), sizeof row.mass);
@@ -83,8 +83,8 @@ Row row_of(const Manifold& m) {
 }
 
 template <class Pass>
-Row run(const Manifold& m, BodyMotion& a, BodyMotion& b, const Pass& pass) {
-  Row row = row_of(m);
+ManifoldRow run(const Manifold& m, BodyMotion& a, BodyMotion& b, const Pass& pass) {
+  ManifoldRow row = gather_row(m);
   Pair pair = pair_of(a, b);
   pass(row, pair);
   store(pair.a, a);
@@ -94,14 +94,14 @@ Row run(const Manifold& m, BodyMotion& a, BodyMotion& b, const Pass& pass) {
 
 // ---------------------------------------------------------------- blocks, lane after lane
 
-constexpr std::size_t row_count = sizeof(Row) / sizeof(float);
-static_assert(sizeof(ManifoldRows<16>) == 16 * sizeof(Row), "a lane of a block is every sixteenth float");
+constexpr std::size_t row_count = sizeof(ManifoldRow) / sizeof(float);
+static_assert(sizeof(ManifoldRows<16>) == 16 * sizeof(ManifoldRow), "a lane of a block is every sixteenth float");
 
 template <class Pass>
 void run_lane(ManifoldBlock& block, int lane, BodyMotion* motions, const Pass& pass) {
   float* const first = reinterpret_cast<float*>(&block.rows) + lane;
   float values[row_count];
-  Row row;
+  ManifoldRow row;
   for (std::size_t i = 0; i < row_count; ++i) values[i] = first[16 * i];
   std::memcpy(&row, values, sizeof row);
   BodyMotion &a = motions[block.a[lane] / records_a_motion], &b = motions[block.b[lane] / records_a_motion];
@@ -133,7 +133,7 @@ void velocity_pass_blocks(const BlockRange& range, const PassNumbers& numbers) {
 
 void prepare(Manifold& m, const BodyMotion& a, const BodyMotion& b) {
   BodyMotion of_a = a, of_b = b;
-  const Row row = run(m, of_a, of_b, Prepare{});
+  const ManifoldRow row = run(m, of_a, of_b, Prepare{});
   std::memcpy(m.mobility.data(), row.mobility, sizeof row.mobility);
   std::memcpy(m.mass.data(), row.mass, sizeof row.mass);
   std::memcpy(m.slide.data(), row.slide, sizeof row.slide);

@@ -13,16 +13,14 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 /// The gap that is kept, as a share of the cloth's thickness.
-constexpr float share_of_thickness = 0.1f;
+constexpr float gap_over_thickness = 0.1f;
 /// A projected contact may lack this share of its gap, or the rounding of positions: this share of them.
-constexpr double share_left = 0.02, rounding = 5e-7;
+constexpr double gap_tolerance = 0.02, rounding_share = 5e-7;
 /// Overlaps up to this share of the thickness come from rounding and from contacts that yield. They may not grow.
 constexpr double shallow = 0.25;
 /// Beyond this share of the radius of the ball inside a solid, a triangle could pass it within a substep.
-constexpr float share_of_size = 0.5f;
+constexpr float motion_over_inner_radius = 0.5f;
 /// Pairs are found for the motion of about so many substeps, and for this share of a solid's radius.
 constexpr float substeps_of_pairs = 16, share_of_radius = 0.15f;
 /// The same for which pairs are far.
@@ -61,7 +59,7 @@ float outer_radius(const ConvexShape& shape) {
   return std::sqrt(most) + shape.radius;
 }
 
-float gap_of(const Substep& s, int object) { return share_of_thickness * s.model.objects[at(object)].thickness; }
+float gap_of(const Substep& s, int object) { return gap_over_thickness * s.model.objects[at(object)].thickness; }
 
 /// A triangle, or a line whose last vertex is repeated.
 struct Element {
@@ -254,7 +252,7 @@ void PassingFilter::check(const Substep& s, int number, Solid& solid, Pair& pair
   pair.next = pair.bound - moved;
   pair.overlaps = false;
   if (pair.next > kept) return;
-  const bool is_slow = moved < share_of_size * solid.inner;
+  const bool is_slow = moved < motion_over_inner_radius * solid.inner;
   const Element end = at_end(s, pair.element);
   const auto gap_along = [&](const Vec3d& n) { return nearest_along(end, n) - reach_along(solid.shape, motion.after, n); };
   if (is_slow && pair.normal != Vec3f{}) {
@@ -271,10 +269,10 @@ void PassingFilter::check(const Substep& s, int number, Solid& solid, Pair& pair
   const auto thickness = static_cast<double>(s.model.objects[at(pair.object)].thickness);
   pair.overlaps = true;  // if not found otherwise
   if (before.separation < -shallow * thickness) return;
-  const double rounded = rounding * (1 + largest(motion.after.position));
+  const double rounded = rounding_share * (1 + largest(motion.after.position));
   const double least = std::min(std::max(static_cast<double>(kept), 2 * rounded), std::max(before.separation, 2 * rounded));
   const double wanted = before.separation < 0 ? before.separation : least;
-  const double needed = wanted - std::max(share_left * wanted, rounded);
+  const double needed = wanted - std::max(gap_tolerance * wanted, rounded);
   const double gap = gap_along(before.normal);
   if (gap >= needed) {
     pair.overlaps = false;

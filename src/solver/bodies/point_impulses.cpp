@@ -10,8 +10,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 /// The impulse at an arm from a body's centre that changes the velocity of its point against points of inverse mass `w` by `change`.
 Vec3f impulse_for(const Vec3f& change, const BodyMotion& body, const Vec3f& arm, float w) {
   const float mass = w + body.inverse_mass;
@@ -63,7 +61,7 @@ void PointImpulses::end_pass(Substep& s, const BodySolids& solids) {
     if (turned == Vec3f{}) continue;
     const std::size_t frame = at(all[b].frame);
     s.work.frames.corrections[frame] = plus(s.work.frames.corrections[frame], turned);
-    turn(turned, s.state.frames.orientations[frame]);
+    rotate_by(turned, s.state.frames.orientations[frame]);
   }
 }
 

@@ -15,8 +15,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 /// A point of an edge or triangle with a smaller weight in the contact hardly feels the body.
 constexpr float least_weight = 0.3f;
 
@@ -268,7 +266,7 @@ void PointLoads::end_chains(Substep& s, const std::vector<BodyMotion>& motions, 
     const Vec3f turned = times(motion.inverse_inertia, cross(arm, impulse));
     Record& corrections = s.work.frames.corrections[at(body.frame)];
     corrections = plus(corrections, turned);
-    turn(turned, s.state.frames.orientations[at(body.frame)]);
+    rotate_by(turned, s.state.frames.orientations[at(body.frame)]);
   }
 }
 

@@ -14,8 +14,6 @@ namespace pliant {
 
 namespace {
 
-using bodies::at, bodies::times, bodies::xyz;
-
 // ---------------------------------------------------------------- which rods are alike
 
 bool is_rod(const CompiledObject& object, const JointForest& forest) {

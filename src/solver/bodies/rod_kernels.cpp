@@ -4,10 +4,6 @@
 
 namespace pliant {
 
-namespace {
-struct ThisUnit {};
-}  // namespace
-
-const RodKernels& rod_kernels_sequential() { return rod_formulas::Loops<float, double, 1, 1, ThisUnit>::table; }
+const RodKernels& rod_kernels_sequential() { return rod_formulas::Loops<float, double, 1, 1, void>::table; }
 
 }  // namespace pliant

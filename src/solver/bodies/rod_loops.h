@@ -18,7 +18,7 @@ namespace pliant::rod_formulas {
 using namespace joint_tree_formulas;
 using block_tree::is_one_number;
 
-/// `Unit` is a type of an unnamed namespace, so that the linker never mixes the code of two levels.
+/// `Unit` is a type of an unnamed namespace, so that the linker never mixes the code of two levels; void for the sequential reference.
 template <class F, class D, int lanes, int double_lanes, class Unit>
 struct Loops {
   using At = motion_formulas::Lanes<F, lanes>;

@@ -13,8 +13,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 /// Lists hold for about so many substeps at the present speed.
 constexpr float substeps_of_lists = 8;
 

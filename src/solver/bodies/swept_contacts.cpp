@@ -11,14 +11,12 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 /// A motion below this share of a solid's smallest half side is seen by contacts at the substep's end.
-constexpr float share_of_size = 0.5f;
+constexpr float motion_over_half_side = 0.5f;
 /// Room for rounding at the edges of a triangle, in barycentric coordinates.
 constexpr float beside = 1e-3f;
 /// Times are found to 1e-6 of a substep.
-constexpr int halvings = 20;
+constexpr int time_bisections = 20;
 /// Hits of neighbouring triangles at an edge are taken together if they are this near in time.
 constexpr float same_time = 1e-3f;
 
@@ -72,7 +70,7 @@ struct Passing {
   float time() const {
     float low = 0, high = 1;
     const float before = side(0);
-    for (int i = 0; i < halvings; ++i) {
+    for (int i = 0; i < time_bisections; ++i) {
       const float middle = 0.5f * (low + high);
       (side(middle) * before > 0 ? low : high) = middle;
     }
@@ -123,7 +121,7 @@ void SweptContacts::detect_solid(const Substep& s, const SurfaceTiles& surfaces,
   found.contacts.clear();
   found.is_fast = false;
   const Vec3f from = centre_of(solid, solid.before), to = centre_of(solid, solid.after);
-  const float path = length(to - from), size = share_of_size * smallest(half_sides_of(solid));
+  const float path = length(to - from), size = motion_over_half_side * smallest(half_sides_of(solid));
   const BoxBounds of_path{min(from, to), max(from, to)};  // of the centre, which alone is tested
   for (const int t : surfaces.tiles_near(number)) {
     const SurfaceTile& tile = surfaces.tiles()[at(t)];

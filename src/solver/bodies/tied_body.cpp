@@ -15,8 +15,6 @@ constexpr int freedoms = 6;
 /// Smallest inverse mass of a tie's particle, as a share of the body's there: particles that are fixed would overdetermine the body.
 constexpr double least_yield = 1e-7;
 
-using bodies::quaternion, bodies::xyz;
-
 /// The body at the start of the projection.
 struct Body {
   const Record& position;
@@ -44,11 +42,9 @@ struct Tie {
   float inverse_mass = 0;
 };
 
-Vec3d wide(const Vec3f& v) { return convert<double>(v); }
-
 /// The inverse mass of a place of a body, summed over three directions.
 double mobility(const Body& body, const Vec3d& a) {
-  const Vec3d i = wide(body.inverse_inertia);
+  const Vec3d i = convert<double>(body.inverse_inertia);
   return 3 * static_cast<double>(body.inverse_mass) + i.x * (a.y * a.y + a.z * a.z) + i.y * (a.x * a.x + a.z * a.z) +
          i.z * (a.x * a.x + a.y * a.y);
 }
@@ -69,17 +65,17 @@ Tie tie_of(const ConstraintPlace& at, const std::int32_t* number, const SweepArg
   const Vec3f motion = xyz(d) - xyz(r) - body.motion - cross(body.turned, outward);
   if (pool.law == Law::damped) rhs = rhs - motion * gamma;
   const float damped = 1 + gamma;
-  const Vec3d place = wide(arm);
+  const Vec3d place = convert<double>(arm);
   const double yield = static_cast<double>(p.w) + static_cast<double>(compliance) / static_cast<double>(damped);
   const double least = max(least_yield * mobility(body, place), static_cast<double>(smallest_denominator));
-  return {place, wide(rotate(conjugate(body.orientation), rhs * (1 / damped))), 1 / max(yield, least), p.w};
+  return {place, convert<double>(rotate(conjugate(body.orientation), rhs * (1 / damped))), 1 / max(yield, least), p.w};
 }
 
 /// The symmetric system in the body's scaled motion.
 class System {
  public:
   explicit System(const Body& body) : root_(std::sqrt(static_cast<double>(body.inverse_mass))) {
-    const Vec3d i = wide(body.inverse_inertia);
+    const Vec3d i = convert<double>(body.inverse_inertia);
     roots_ = {std::sqrt(i.x), std::sqrt(i.y), std::sqrt(i.z)};
   }
 
@@ -179,11 +175,11 @@ void project_tied_body(const CompiledObject& object, const Segment& segment, con
     const Vec3f change = rotate(body.orientation, convert<float>(local) * points.relaxation);
     if (multipliers != nullptr) keep(change, points.first_pass, multipliers);
     Record& d = points.displacements[particle];
-    d = bodies::plus(d, change * tie.inverse_mass);
+    d = plus(d, change * tie.inverse_mass);
   });
   const std::int32_t frame = of_body[1] - object.particles;
   Record& d = points.displacements[of_body[0]];
-  d = bodies::plus(d, rotate(body.orientation, convert<float>(move) * points.relaxation));
+  d = plus(d, rotate(body.orientation, convert<float>(move) * points.relaxation));
   rotate_frame(rotate(body.orientation, convert<float>(turn) * points.relaxation), frames.orientations[frame],
                frames.corrections[frame]);
 }

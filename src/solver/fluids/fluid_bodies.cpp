@@ -6,8 +6,6 @@
 
 namespace pliant {
 
-using namespace bodies;
-
 namespace {
 
 int body_of(const Substep& s, const NearSolid& near) { return s.bodies->solids().body_of_solid()[at(near.solid)]; }
@@ -83,7 +81,7 @@ void FluidBodies::push(Substep& s, const FluidWalls& walls, const Records& weigh
     if (turned_[body] == Vec3f{}) continue;
     Record& corrections = s.work.frames.corrections[at(of.frame)];
     corrections = plus(corrections, turned_[body]);
-    turn(turned_[body], s.state.frames.orientations[at(of.frame)]);
+    rotate_by(turned_[body], s.state.frames.orientations[at(of.frame)]);
   }
 }
 

@@ -6,9 +6,7 @@ namespace pliant {
 
 namespace {
 
-struct ThisUnit {};
-
-struct OneLane : OneSlot {
+struct OneDensitySlot : OneSlot {
   static int number_of(bool is_set) { return is_set ? 1 : 0; }
   static void store_vectors(Vec3f* to, const Vec3f& a) { *to = a; }
   static void add(const FluidArrays& a, int slot, const Vec3f& way) {
@@ -20,6 +18,6 @@ struct OneLane : OneSlot {
 
 }  // namespace
 
-const FluidKernels& fluid_kernels_sequential() { return fluid_formulas::Loops<OneLane, ThisUnit>::table; }
+const FluidKernels& fluid_kernels_sequential() { return fluid_formulas::Loops<OneDensitySlot, void>::table; }
 
 }  // namespace pliant

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/at.h"
 #include "parallel/launch.h"
 #include "solver/fluids/fluid_kernels.h"
 #include "solver/fluids/fluid_log.h"
@@ -18,19 +19,10 @@ namespace {
 constexpr int oldest_neighbours = 5;
 /// Share of a correction that is made, because neighbours correct the same error: without it particles overshoot.
 constexpr float relaxation = 0.4f;
-/// A place where nobody is near [m].
-constexpr float nowhere = 1e18f;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Liquids mix if these are equal.
 auto kind_of(const CompiledObject& object) {
   return std::tuple{object.fluid->spacing, object.fluid->speed_of_sound, object.groups, object.mask};
-}
-
-Record predicted(const Substep& s, std::int32_t particle) {
-  const Record &x = s.state.positions[at(particle)], &d = s.work.displacements[at(particle)];
-  return {x.x + d.x, x.y + d.y, x.z + d.z, 0};
 }
 
 /// Calls body(i) for each i in [0, count) on all threads.
@@ -111,7 +103,7 @@ void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
   Records& by_point = pool.weighted;  // scratch
   by_point.resize(pool.points.size());
   for_all(s, "neighbours: order", static_cast<int>(by_point.size()),
-          [&](int i) { by_point[at(i)] = predicted(s, pool.points[at(i)]); });
+          [&](int i) { by_point[at(i)] = predicted_position(s, pool.points[at(i)]); });
   pool.neighbours.find(s.context.executor, s.kernels.neighbours, by_point, pool.law.reach, pool.viscosity.has_any());
   pool.tension.find_neighbours(s, pool, by_point);
   const std::vector<std::int32_t>& order = pool.neighbours.order().points();
@@ -165,7 +157,7 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
   const NeighbourLists& lists = pool.neighbours;
   const FluidBounds bounds = FluidBodies::bounds(s, pool.objects.front());
   for_groups(s.context.executor, "solve: places of liquids", lists, [&](int group, int first, int last) {
-    for (int slot = first; slot < last; ++slot) pool.places[at(slot)] = predicted(s, pool.of_slot[at(slot)]);
+    for (int slot = first; slot < last; ++slot) pool.places[at(slot)] = predicted_position(s, pool.of_slot[at(slot)]);
     pool.walls.measure(s.kernels.fluids, pool.law, bounds, pool.places, group);
   });
   pool.bodies.count(s, pool.walls);

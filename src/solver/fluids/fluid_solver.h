@@ -19,6 +19,9 @@ namespace pliant {
 
 struct Substep;
 
+/// A place where nobody is near [m].
+inline constexpr float nowhere = 1e18f;
+
 /// Liquids with one spacing that mix. Particles are numbered by slots, in the order of cells.
 struct FluidPool {
   std::vector<int> objects;  ///< ascending

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "core/at.h"
+
 namespace pliant {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Primitive colliders meet every object.
 bool can_meet(const CompiledObject& liquid, const MovingCollider& collider) {

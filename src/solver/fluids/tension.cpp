@@ -2,19 +2,12 @@
 
 #include <algorithm>
 
+#include "core/at.h"
 #include "solver/fluids/fluid_solver.h"
 #include "solver/fluids/for_groups.h"
 #include "solver/substep.h"
 
 namespace pliant {
-
-namespace {
-
-constexpr float nowhere = 1e18f;  ///< a place where nobody is near [m]
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 void FluidTension::add(const Fluid& fluid, int particles) {
   has_any_ = has_any_ || fluid.surface_tension > 0;

@@ -4,12 +4,6 @@
 
 namespace pliant {
 
-namespace {
-
-struct ThisUnit {};
-
-}  // namespace
-
-const TensionKernels& tension_kernels_sequential() { return tension_formulas::Loops<OneSlot, ThisUnit>::table; }
+const TensionKernels& tension_kernels_sequential() { return tension_formulas::Loops<OneSlot, void>::table; }
 
 }  // namespace pliant

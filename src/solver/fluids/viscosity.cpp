@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/at.h"
 #include "solver/bodies/body_math.h"
 #include "solver/bodies/body_solver.h"
 #include "solver/fluids/fluid_solver.h"
@@ -11,17 +12,11 @@
 
 namespace pliant {
 
-using namespace bodies;
-
 namespace {
 
 constexpr int most_iterations = 200;
 /// A solve ends when the residual is this share of what it was, as root mean square over all masses, or so many spacings.
-constexpr double tolerance = 1e-4, least_residual = 1e-7;
-
-std::size_t to_index(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-Vec3d wide(const Vec3f& a) { return convert<double>(a); }
+constexpr double residual_share = 1e-4, least_residual = 1e-7;
 
 }  // namespace
 
@@ -35,7 +30,7 @@ void FluidViscosity::add(float viscosity, int particles) {
   if (particles == 0) return;
   are_alike_ = are_alike_ && (of_point_.empty() || of_point_.front() == viscosity);
   has_any_ = has_any_ || viscosity > 0;
-  of_point_.resize(of_point_.size() + to_index(particles), viscosity);
+  of_point_.resize(of_point_.size() + at(particles), viscosity);
 }
 
 ViscosityArrays FluidViscosity::arrays(const Substep& s, const FluidPool& pool) {
@@ -55,15 +50,15 @@ void FluidViscosity::gather(Substep& s, const FluidPool& pool, bool is_first) {
   forces_.resize(padded);
   residuals_.resize(padded);
   if (is_first) impulses_.assign(padded, {});
-  parts_.resize(to_index(pool.neighbours.groups()));
+  parts_.resize(at(pool.neighbours.groups()));
   const std::vector<std::int32_t>& points = pool.neighbours.order().points();
   for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int, int first, int last) {
-    for (std::size_t slot = to_index(first); slot < to_index(last); ++slot) {
-      const std::size_t particle = to_index(pool.of_slot[slot]);
+    for (std::size_t slot = at(first); slot < at(last); ++slot) {
+      const std::size_t particle = at(pool.of_slot[slot]);
       const float inverse = s.state.positions[particle].w;
       inverse_masses_[slot] = inverse;
       masses_[slot] = inverse > 0 ? 1 / inverse : 0;
-      viscosities_[slot] = of_point_[to_index(points[slot])];
+      viscosities_[slot] = of_point_[at(points[slot])];
       motions_[slot] = s.work.displacements[particle];
     }
   });
@@ -126,7 +121,7 @@ void FluidViscosity::resist_bodies(const Records& motions, bool with_walls) {
 void FluidViscosity::start(Substep& s, const FluidPool& pool) {
   resist(s, pool, motions_, true);
   for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int, int first, int last) {
-    for (std::size_t slot = to_index(first); slot < to_index(last); ++slot) {
+    for (std::size_t slot = at(first); slot < at(last); ++slot) {
       const Vec3f lack = xyz(impulses_[slot]) + xyz(forces_[slot]) * inverse_masses_[slot];
       residuals_[slot] = inverse_masses_[slot] > 0 ? plus(Record{}, -lack) : Record{};
     }
@@ -146,17 +141,18 @@ double FluidViscosity::sum(double of_bodies) const {
 double FluidViscosity::squared_residual(Substep& s, const FluidPool& pool) {
   for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int group, int first, int last) {
     double part = 0;
-    for (std::size_t slot = to_index(first); slot < to_index(last); ++slot)
-      part += static_cast<double>(masses_[slot]) * dot(wide(xyz(residuals_[slot])), wide(xyz(residuals_[slot])));
-    parts_[to_index(group)] = part;
+    for (std::size_t slot = at(first); slot < at(last); ++slot)
+      part += static_cast<double>(masses_[slot]) *
+              dot(convert<double>(xyz(residuals_[slot])), convert<double>(xyz(residuals_[slot])));
+    parts_[at(group)] = part;
   });
   double of_bodies = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!bodies_[i].is_held) continue;
     const BodyMotion& motion = s.bodies->present_motions()[i];
     const Twist& r = bodies_[i].residual;
-    of_bodies += static_cast<double>(motion.inverse_mass) * dot(wide(r.linear), wide(r.linear)) +
-                 dot(wide(r.angular), wide(times(motion.inverse_inertia, r.angular)));
+    of_bodies += static_cast<double>(motion.inverse_mass) * dot(convert<double>(r.linear), convert<double>(r.linear)) +
+                 dot(convert<double>(r.angular), convert<double>(times(motion.inverse_inertia, r.angular)));
   }
   return sum(of_bodies);
 }
@@ -164,7 +160,7 @@ double FluidViscosity::squared_residual(Substep& s, const FluidPool& pool) {
 /// direction = residual + share times direction.
 void FluidViscosity::turn_direction(Substep& s, const FluidPool& pool, float share) {
   for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int, int first, int last) {
-    for (std::size_t slot = to_index(first); slot < to_index(last); ++slot)
+    for (std::size_t slot = at(first); slot < at(last); ++slot)
       directions_[slot] = plus(residuals_[slot], xyz(directions_[slot]) * share);
   });
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -184,23 +180,23 @@ double FluidViscosity::work_along(Substep& s, const FluidPool& pool) {
   resist(s, pool, directions_, false);
   for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int group, int first, int last) {
     double part = 0;
-    for (std::size_t slot = to_index(first); slot < to_index(last); ++slot) {
-      const Vec3d way = wide(xyz(directions_[slot]));
-      part += dot(way, way * static_cast<double>(masses_[slot]) + wide(xyz(forces_[slot])));
+    for (std::size_t slot = at(first); slot < at(last); ++slot) {
+      const Vec3d way = convert<double>(xyz(directions_[slot]));
+      part += dot(way, way * static_cast<double>(masses_[slot]) + convert<double>(xyz(forces_[slot])));
     }
-    parts_[to_index(group)] = part;
+    parts_[at(group)] = part;
   });
   double of_bodies = 0;
   for (const Body& body : bodies_)
-    of_bodies += dot(wide(body.way.linear), wide(body.direction.linear + body.force.linear)) +
-                 dot(wide(body.way.angular), wide(body.direction.angular + body.force.angular));
+    of_bodies += dot(convert<double>(body.way.linear), convert<double>(body.direction.linear + body.force.linear)) +
+                 dot(convert<double>(body.way.angular), convert<double>(body.direction.angular + body.force.angular));
   return sum(of_bodies);
 }
 
 /// Goes a step along the direction. Returns the squared residual.
 double FluidViscosity::update(Substep& s, const FluidPool& pool, float step) {
   for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int, int first, int last) {
-    for (std::size_t slot = to_index(first); slot < to_index(last); ++slot) {
+    for (std::size_t slot = at(first); slot < at(last); ++slot) {
       if (!(inverse_masses_[slot] > 0)) continue;
       const Vec3f way = xyz(directions_[slot]);
       motions_[slot] = plus(motions_[slot], way * step);
@@ -220,10 +216,10 @@ double FluidViscosity::update(Substep& s, const FluidPool& pool, float step) {
 
 void FluidViscosity::scatter(Substep& s, const FluidPool& pool) {
   for_groups(s.context.executor, "solve: viscosity", pool.neighbours, [&](int, int first, int last) {
-    for (std::size_t slot = to_index(first); slot < to_index(last); ++slot) {
+    for (std::size_t slot = at(first); slot < at(last); ++slot) {
       const Vec3f change = xyz(motions_[slot]) - xyz(before_[slot]);
       impulses_[slot] = plus(impulses_[slot], change);
-      Record& d = s.work.displacements[to_index(pool.of_slot[slot])];
+      Record& d = s.work.displacements[at(pool.of_slot[slot])];
       d = plus(d, change);
     }
   });
@@ -240,7 +236,7 @@ void FluidViscosity::scatter_bodies(Substep& s) {
     if (turned == Vec3f{}) continue;
     Record& corrections = s.work.frames.corrections[at(of.frame)];
     corrections = plus(corrections, turned);
-    turn(turned, s.state.frames.orientations[at(of.frame)]);
+    rotate_by(turned, s.state.frames.orientations[at(of.frame)]);
   }
 }
 
@@ -259,7 +255,7 @@ void FluidViscosity::solve(Substep& s, FluidPool& pool, bool is_first) {
   for (const float of : masses_) mass += static_cast<double>(of);
   const double least = least_residual * static_cast<double>(pool.law.reach) / 2;
   double squared = squared_residual(s, pool);
-  const double first = squared, wanted = std::max(squared * tolerance * tolerance, mass * least * least);
+  const double first = squared, wanted = std::max(squared * residual_share * residual_share, mass * least * least);
   int made = 0;
   for (float share = 0; squared > wanted && made < most_iterations; ++made) {
     turn_direction(s, pool, share);

@@ -6,14 +6,12 @@ namespace pliant {
 
 namespace {
 
-struct ThisUnit {};
-
-struct OneLane : OneSlot {
+struct OneViscositySlot : OneSlot {
   static float load_indexed(const float* base, const std::int32_t* slot) { return base[*slot]; }
 };
 
 }  // namespace
 
-const ViscosityKernels& viscosity_kernels_sequential() { return viscosity_formulas::Loops<OneLane, ThisUnit>::table; }
+const ViscosityKernels& viscosity_kernels_sequential() { return viscosity_formulas::Loops<OneViscositySlot, void>::table; }
 
 }  // namespace pliant

@@ -6,8 +6,6 @@
 
 namespace pliant {
 
-using namespace bodies;
-
 namespace {
 
 /// How far the point of a collider at a place moves in the substep.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/at.h"
 #include "solver/bodies/body_math.h"
 #include "solver/fluids/fluid_solver.h"
 #include "solver/fluids/for_groups.h"
@@ -11,19 +12,15 @@
 
 namespace pliant {
 
-using bodies::plus, bodies::xyz;
-
 namespace {
 
 /// Substeps after which it acts.
-constexpr int longest_pause = 4;
-constexpr int lanes = NeighbourLists::lanes;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr int substeps_of_vorticity = 4;
 
 /// Calls body(neighbour, vector from it, gradient_factor) for the neighbours of a slot, in ascending order.
 template <class Body>
 void for_neighbours(const FluidPool& pool, const Records& places, int slot, const Body& body) {
+  constexpr int lanes = NeighbourLists::lanes;
   const NeighbourGroup& group = pool.neighbours.group(slot / lanes);
   const Vec3f own = xyz(places[at(slot)]);
   for (int k = 0; k < group.rows; ++k) {
@@ -116,7 +113,8 @@ void FluidVorticity::find_gains(Substep& s, const FluidPool& pool) {
 void FluidVorticity::respond(Substep& s, const FluidPool& pool, FunctionRef<Vec3f(int)> gravity) {
   if (!has_any_) return;
   seconds_ += s.h;
-  if (++substeps_ < longest_pause && !s.is_last() && !ends_quarter(s)) return;  // a frame may stop where a quarter ends
+  if (++substeps_ < substeps_of_vorticity && !s.is_last() && !ends_quarter(s))
+    return;  // a frame may stop where a quarter ends
   load(s, pool, gravity);
   for_groups(s.context.executor, "respond: vorticity", pool.neighbours, [&](int, int first, int last) {
     for (int slot = first; slot < last; ++slot) measure(pool, slot);

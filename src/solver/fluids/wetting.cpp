@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/at.h"
 #include "solver/bodies/body_math.h"
 #include "solver/bodies/body_solver.h"
 #include "solver/fluids/fluid_bodies.h"
@@ -9,11 +10,7 @@
 
 namespace pliant {
 
-using bodies::plus, bodies::xyz;
-
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// Calls body(group, first slot, last slot) for the groups of a task.
 template <class Body>
@@ -121,11 +118,11 @@ void FluidWetting::pull_bodies(Substep& s, int colliders, const Records& places)
     const BodyMotion& motion = s.bodies->present_motions()[body];
     Record& d = s.work.displacements[at(of.particle)];
     d = plus(d, moved_[body] * motion.inverse_mass);
-    const Vec3f turn = bodies::times(motion.inverse_inertia, turned_[body]);
+    const Vec3f turn = times(motion.inverse_inertia, turned_[body]);
     if (turn == Vec3f{}) continue;
     Record& corrections = s.work.frames.corrections[at(of.frame)];
     corrections = plus(corrections, turn);
-    bodies::turn(turn, s.state.frames.orientations[at(of.frame)]);
+    rotate_by(turn, s.state.frames.orientations[at(of.frame)]);
   }
 }
 

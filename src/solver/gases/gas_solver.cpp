@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/at.h"
+#include "math/record.h"
 #include "solver/forces.h"
 #include "solver/gases/balloon.h"
 #include "solver/gases/gas_formulas.h"
@@ -14,14 +16,9 @@ namespace pliant {
 namespace {
 
 /// Substeps after which all but buoyancy acts.
-constexpr int longest_pause = 4;
+constexpr int substeps_of_gas = 4;
 /// The largest share of a temperature that diffusion may exchange in a pass, at twice the density of rest.
 constexpr float largest_exchange = 0.5f;
-constexpr int lanes = NeighbourLists::lanes;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 bool has_gas(const Model& model, const FluidPool& pool) {
   return std::any_of(pool.objects.begin(), pool.objects.end(), [&](int o) { return model.objects[at(o)].gas.has_value(); });
@@ -32,8 +29,8 @@ template <class Body>
 void for_slots(Substep& s, const char* name, const FluidPool& pool, const Body& body) {
   const std::vector<std::int32_t>& order = pool.neighbours.order().points();
   s.context.executor.parallel_for(name, pool.neighbours.tasks(), [&](int task) {
-    const int first = task * NeighbourLists::groups_in_a_task * lanes;
-    const int last = std::min(first + NeighbourLists::groups_in_a_task * lanes, pool.neighbours.slots());
+    constexpr int slots = NeighbourLists::groups_in_a_task * NeighbourLists::lanes;
+    const int first = task * slots, last = std::min(first + slots, pool.neighbours.slots());
     for (int slot = first; slot < last; ++slot) {
       const auto which = std::upper_bound(pool.ends.begin(), pool.ends.end(), order[at(slot)]) - pool.ends.begin();
       body(pool.objects[at(which)], pool.of_slot[at(slot)], slot);
@@ -45,6 +42,7 @@ void for_slots(Substep& s, const char* name, const FluidPool& pool, const Body& 
 template <class Body>
 void for_neighbours(const GasPass& pass, int slot, const Body& body) {
   const NeighbourLists& lists = pass.pool->neighbours;
+  constexpr int lanes = NeighbourLists::lanes;
   const NeighbourGroup& group = lists.group(slot / lanes);
   for (int k = 0; k < group.rows; ++k) {
     const std::int32_t other = group.slots[k * lanes + slot % lanes];
@@ -132,7 +130,7 @@ void GasSolver::load(Substep& s, GasPass& pass, FunctionRef<Vec3f(int)> gravity)
   pass.changes.resize(pass.points.size());
   for_slots(s, "respond: gases", *pass.pool, [&](int o, std::int32_t i, int slot) {
     const CompiledObject& object = s.model.objects[at(o)];
-    pass.points[at(slot)] = {vector_of(s.state.positions[at(i)]), vector_of(s.state.velocities[at(i)]) + gravity(o),
+    pass.points[at(slot)] = {xyz(s.state.positions[at(i)]), xyz(s.state.velocities[at(i)]) + gravity(o),
                              temperatures[at(i)], object.gas ? &*object.gas : nullptr};
   });
 }
@@ -170,7 +168,7 @@ void GasSolver::store(Substep& s, const GasPass& pass, FunctionRef<Vec3f(int)> g
 
 void GasSolver::respond(Substep& s, FunctionRef<Vec3f(int)> gravity) {
   seconds_ += s.h;
-  if (++substeps_ < longest_pause && !s.is_last() && !ends_quarter(s)) return;  // a frame may stop where a quarter ends
+  if (++substeps_ < substeps_of_gas && !s.is_last() && !ends_quarter(s)) return;  // a frame may stop where a quarter ends
   std::size_t used = 0;
   if (s.fluids != nullptr)
     for (const auto& pool : s.fluids->pools()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/at.h"
 #include "solver/forces.h"
 #include "solver/gases/gas_formulas.h"
 #include "solver/substep.h"
@@ -10,8 +11,6 @@
 namespace pliant {
 
 namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
 std::uint64_t mixed(std::uint64_t x) {

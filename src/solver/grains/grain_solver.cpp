@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/at.h"
+#include "math/record.h"
 #include "math/vector.h"
 #include "solver/grains/grain_formulas.h"
 #include "solver/substep.h"
@@ -13,15 +15,6 @@ namespace {
 
 /// Neighbours are found within this distance beyond contact, and again once a grain has moved by half of it; over the radius.
 constexpr float skin = 0.5f;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
-
-Record predicted(const Substep& s, std::int32_t particle) {
-  const Record &x = s.state.positions[at(particle)], &d = s.work.displacements[at(particle)];
-  return {x.x + d.x, x.y + d.y, x.z + d.z, 0};
-}
 
 /// Calls body(slot) for all slots of a task.
 template <class Body>
@@ -95,7 +88,7 @@ void GrainSolver::begin_frame(const Substep& s) {
 
 void GrainSolver::find_neighbours(Substep& s, const std::vector<GrainContact>& known) {
   Records by_point(points_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) by_point[i] = predicted(s, points_[i]);
+  for (std::size_t i = 0; i < points_.size(); ++i) by_point[i] = predicted_position(s, points_[i]);
   const float beyond = has_cohesion_ ? skin + 2 * longest_bond : skin;
   lists_.find(s.context.executor, s.kernels.neighbours, by_point, (2 + beyond) * largest_radius_);
   const std::vector<std::int32_t>& order = lists_.order().points();
@@ -145,7 +138,7 @@ bool GrainSolver::are_neighbours_known(Substep& s) {
   s.context.executor.parallel_for("neighbours: grains", lists_.tasks(), [&](int task) {
     float largest = 0;
     for_slots(lists_, task, [&](int slot) {
-      const Vec3f move = vector_of(predicted(s, of_slot_[at(slot)])) - vector_of(found_at_[at(slot)]);
+      const Vec3f move = xyz(predicted_position(s, of_slot_[at(slot)])) - xyz(found_at_[at(slot)]);
       largest = std::max(largest, dot(move, move));
     });
     task_moves_[at(task)] = largest;
@@ -159,9 +152,9 @@ bool GrainSolver::are_neighbours_known(Substep& s) {
 void GrainSolver::slide(const State& state, int slot) {
   const auto move = [&](std::int32_t of) {
     const Record &x = state.positions[at(of_slot_[at(of)])], &r = state.remainders[at(of_slot_[at(of)])];
-    return (vector_of(x) - vector_of(starts_[at(of)])) + (vector_of(r) - vector_of(residues_[at(of)]));
+    return (xyz(x) - xyz(starts_[at(of)])) + (xyz(r) - xyz(residues_[at(of)]));
   };
-  const auto place = [&](std::int32_t of) { return vector_of(state.positions[at(of_slot_[at(of)])]); };
+  const auto place = [&](std::int32_t of) { return xyz(state.positions[at(of_slot_[at(of)])]); };
   const Vec3f own_move = move(slot), own = place(slot);
   for (std::int32_t k = first_[at(slot)]; k < first_[at(slot) + 1]; ++k) {
     GrainNeighbour& n = neighbours_[at(k)];
@@ -199,7 +192,7 @@ void GrainSolver::collide(Substep& s) {
 void GrainSolver::project(Substep& s, bool is_first) {
   for_all_slots(s, "solve: places of grains", lists_, [&](int slot) {
     const Record &d = s.work.displacements[at(of_slot_[at(slot)])], &r = residues_[at(slot)];
-    places_[at(slot)] = predicted(s, of_slot_[at(slot)]);
+    places_[at(slot)] = predicted_position(s, of_slot_[at(slot)]);
     moves_[at(slot)] = {d.x - r.x, d.y - r.y, d.z - r.z, 0};
   });
   for_all_slots(s, "solve: grains", lists_, [&](int slot) { project_grain(s, slot, is_first); });
@@ -207,7 +200,7 @@ void GrainSolver::project(Substep& s, bool is_first) {
 
 void GrainSolver::project_grain(Substep& s, int slot, bool is_first) {
   const GrainTraits& own = of_grain_[at(slot)];
-  const Vec3f place = vector_of(places_[at(slot)]), move = vector_of(moves_[at(slot)]);
+  const Vec3f place = xyz(places_[at(slot)]), move = xyz(moves_[at(slot)]);
   const float gravity = scales_masses_ ? length(s.model.gravity) : 0;
   Vec3f sum{};
   for (std::int32_t k = first_[at(slot)]; k < first_[at(slot) + 1]; ++k) {
@@ -217,7 +210,7 @@ void GrainSolver::project_grain(Substep& s, int slot, bool is_first) {
       n.push = n.pull = 0;
       n.friction = {};
     }
-    const Vec3f between = place - vector_of(places_[at(n.slot)]);
+    const Vec3f between = place - xyz(places_[at(n.slot)]);
     const float pull = has_cohesion_ ? grain_formulas::most_pull(own, other, s.h) : 0;
     const float reach = own.radius + other.radius, farthest = reach + pull / grain_formulas::stiffness;
     if (!(dot(between, between) < farthest * farthest) || !can_touch(own, other)) continue;
@@ -227,7 +220,7 @@ void GrainSolver::project_grain(Substep& s, int slot, bool is_first) {
     const Vec3f normal = grain_formulas::normal_of(between, of_slot_[at(slot)] < of_slot_[at(n.slot)]);
     const float gap = dot(between, normal) - reach;
     const float friction = grain_formulas::common_friction(own.friction, other.friction);
-    const Vec3f by = grain_formulas::project(gap, normal, move - vector_of(moves_[at(n.slot)]), friction, n);
+    const Vec3f by = grain_formulas::project(gap, normal, move - xyz(moves_[at(n.slot)]), friction, n);
     const float share = scales_masses_ ? grain_formulas::scaled_share(own, other, dot(between, s.model.gravity), gravity)
                                        : own.inverse_mass / inverse_mass;
     sum = sum + share * by;

@@ -23,8 +23,6 @@ namespace pliant {
 
 namespace {
 
-using namespace bodies;
-
 /// Energy may increase up to that of the lightest body at this speed, so that stretched cloth recovers: a rise of 3 mm [m^2/s^2].
 constexpr double slow_squared = 0.25 * 0.25;
 

@@ -13,15 +13,15 @@ namespace pliant {
 
 namespace {
 
-constexpr int rounds = 2;  ///< of search, passes and contacts
+constexpr int first_rounds = 2;  ///< of search, passes and contacts
 /// An object has further rounds, up to these, while a shortened constraint exceeds the limit by half. A point that bears
 /// much of a sheet, such as the corner of a box, needs them: its contact undoes much of each round.
-constexpr int most_rounds = 8;
+constexpr int most_limit_rounds = 8;
 constexpr float tolerated = 1.5f;
 /// If more constraints of an object are too long than these, and than this share, the cloth is pulled as a whole.
 /// Shortening one constraint after another would take long and achieve nothing.
-constexpr double largest_share = 0.05, most_at_once = 500;
-constexpr int passes = 6;  ///< over the list of a round, alternately forward and backward
+constexpr double most_share_at_once = 0.05, most_at_once = 500;
+constexpr int passes_a_round = 6;  ///< over the list of a round, alternately forward and backward
 
 Vec3f across(const LimitedLength& pair, const Record* positions, const Record* displacements) {
   const Record &p = positions[pair.from], &q = positions[pair.to];
@@ -50,7 +50,7 @@ bool find_all(Substep& s, LimitScratch& scratch) {
       constraints += static_cast<double>(s.model.objects[tasks[last].object].lengths[tasks[last].item].constraints);
       too_long += static_cast<double>(scratch.found[last].size());
     }
-    const bool is_limited = too_long > 0 && too_long <= std::max(most_at_once, largest_share * constraints);
+    const bool is_limited = too_long > 0 && too_long <= std::max(most_at_once, most_share_at_once * constraints);
     scratch.is_moved[tasks[first].object] = is_limited ? 1 : 0;
     any = any || is_limited;
   }
@@ -96,7 +96,7 @@ void shorten_all(Substep& s, const std::vector<LimitedLength>& limited) {
   const Stopwatch watch(s.context.executor.timings(), "limit");
   const Record* positions = s.state.positions.data();
   Record* displacements = s.work.displacements.data();
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < passes_a_round; ++pass) {
     if (pass % 2 == 0)
       for (const LimitedLength& pair : limited) shorten(pair, positions, displacements);
     else
@@ -107,8 +107,8 @@ void shorten_all(Substep& s, const std::vector<LimitedLength>& limited) {
 /// Decides which objects a round searches: all in the first rounds, then those whose shortened pairs are still longer than
 /// tolerated. Others are not searched again, which would cost more than the passes. False if there are none.
 bool choose_searched(const Substep& s, int round, LimitScratch& scratch) {
-  scratch.is_searched.assign(s.model.objects.size(), round < rounds ? 1 : 0);
-  if (round < rounds) return true;
+  scratch.is_searched.assign(s.model.objects.size(), round < first_rounds ? 1 : 0);
+  if (round < first_rounds) return true;
   bool any = false;
   for (const LimitedLength& pair : scratch.limited) {
     if (!(length(across(pair, s.state.positions.data(), s.work.displacements.data())) > pair.tolerated)) continue;
@@ -123,7 +123,7 @@ bool choose_searched(const Substep& s, int round, LimitScratch& scratch) {
 void limit(Substep& s) {
   LimitScratch& scratch = s.own->limit;
   if (s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
-  for (int round = 0; round < most_rounds && choose_searched(s, round, scratch) && find_all(s, scratch); ++round) {
+  for (int round = 0; round < most_limit_rounds && choose_searched(s, round, scratch) && find_all(s, scratch); ++round) {
     list_all(s, scratch);
     note_momentum(s, Since::note, &scratch.is_moved);
     shorten_all(s, scratch.limited);

@@ -17,9 +17,9 @@ void set_flag(char& flag) { __atomic_store_n(&flag, 1, __ATOMIC_RELAXED); }
 
 /// Upper limit of passes that end impacts. Each propagates velocity changes from one contact of a vertex to its other
 /// ones.
-constexpr int most_rounds_of_impacts = 8;
+constexpr int most_impact_passes = 8;
 /// A remaining approach per substep below this share of the thickness is left to the next substep.
-constexpr float share_left = 0.1f;
+constexpr float approach_over_thickness = 0.1f;
 
 /// Removes the remaining approach velocity of impacts in this substep. If it were left to the next one, contact normals
 /// of crumpled surfaces would deflect it sideways. Each set of objects that can meet has as many rounds as it needs, so
@@ -34,13 +34,13 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   };
   std::vector<char>&goes_on = s.own->impacts.goes_on, &again = s.own->impacts.again;
   goes_on.assign(pairs.sets(), 1);
-  for (int round = 0; round < most_rounds_of_impacts; ++round) {
+  for (int round = 0; round < most_impact_passes; ++round) {
     again.assign(goes_on.size(), 0);
     for_impacts([&](const Contact& contact) {
       const std::size_t set = pairs.set_of(contact);
       if (goes_on[set] == 0) return;
       const float approach = pairs.end_impact(contact, positions, velocities, gravity);
-      if (approach * s.h > share_left * contact.thickness) set_flag(again[set]);
+      if (approach * s.h > approach_over_thickness * contact.thickness) set_flag(again[set]);
     });
     for_impacts([&](const Contact& contact) {
       if (goes_on[pairs.set_of(contact)] != 0) pairs.respond(contact, positions, velocities, slow, gravity);

@@ -18,8 +18,6 @@ namespace pliant {
 
 namespace {
 
-constexpr int rounds = 2;  ///< of chains and contacts
-
 /// Marks the objects solved by chains whose surface an active contact touches. False if there are none.
 bool find_pressed(const Substep& s, std::vector<char>& is_pressed) {
   is_pressed.assign(s.model.objects.size(), 0);
@@ -57,6 +55,7 @@ void solve_again(Substep& s) {
   if ((!s.has_pairs() && s.bodies == nullptr) || s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
   std::vector<char>& is_pressed = s.own->limit.is_moved;
   if (!find_pressed(s, is_pressed)) return;
+  constexpr int rounds = 2;  // of chains and contacts
   for (int round = 0; round < rounds; ++round) {
     note_momentum(s, Since::note, &is_pressed);
     if (s.bodies != nullptr) s.bodies->find_loads(s);

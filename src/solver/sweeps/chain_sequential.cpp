@@ -79,7 +79,7 @@ void solve_chain(const Pool& pool, const Segment* links, int steps, const float*
   }
 }
 
-void hold_tethers(const Tethers& tethers, const Record* anchors, int first, int last, const SweepArguments& a) {
+void hold_tethered(const Tethers& tethers, const Record* anchors, int first, int last, const SweepArguments& a) {
   for (int i = first; i < last; ++i) {
     const int place = i % batch_width;
     hold_particle(tethers, i / batch_width, 4 * (place % 4) + place / 4, i, anchors, a);
@@ -89,7 +89,7 @@ void hold_tethers(const Tethers& tethers, const Record* anchors, int first, int 
 }  // namespace
 
 const ChainKernels& chain_kernels_sequential() {
-  static constexpr ChainKernels table{&solve_chain, &hold_tethers};
+  static constexpr ChainKernels table{&solve_chain, &hold_tethered};
   return table;
 }
 

@@ -12,6 +12,7 @@
 // gradients apply the true coupling (couple_pair), which corrects this approximation.
 #include <algorithm>
 
+#include "math/record.h"
 #include "solver/substep.h"
 #include "solver/sweeps/multigrid.h"
 
@@ -24,8 +25,6 @@ constexpr float contact_stiffness = 10;
 /// Stiffness of a contact between surfaces, likewise. Stiffer ones would dominate the few conjugate gradient steps:
 /// folded cloth would then stretch more and come to rest later.
 constexpr float pair_stiffness = 0.2f;
-
-Vec3f vector_of(const Record& r) { return {r.x, r.y, r.z}; }
 
 /// Makes the springs of a contact at the relative displacement `moved`; both stiffnesses are 0 if the contact is
 /// inactive. The tangential force is at most mu m depth / h^2, with the effective mass m = 1 / inverse_mass.
@@ -99,8 +98,7 @@ void add_point_contacts(Substep& s) {
   for_contacts(s, [&](const Contact& contact, float stiffness, int o) {
     const SweepArguments a = arguments(s, o, false);
     const int i = contact.point[0];
-    const ContactSpring spring =
-        spring_of(contact, vector_of(a.displacements[i]), a.positions[i].w, a.inverse_h2, stiffness);
+    const ContactSpring spring = spring_of(contact, xyz(a.displacements[i]), a.positions[i].w, a.inverse_h2, stiffness);
     if (spring.along > 0) add_to_row(objects[o], i, 1, block_of(spring, contact.normal), force_of(spring, contact.normal));
   });
 }
@@ -131,7 +129,7 @@ bool place(const Model& model, const Contact& contact, const Record* positions, 
 
 /// The number of contacts with several points. contact_at() numbers edges and triangles with primitives first, then
 /// surfaces.
-std::size_t count_contacts(const Substep& s) {
+std::size_t count_surface_contacts(const Substep& s) {
   return s.own->shape_contacts.size() + (s.has_pairs() ? s.pairs->contacts().size() : 0);
 }
 Contact& contact_at(Substep& s, std::size_t number) {
@@ -143,7 +141,7 @@ void add_pair_contacts(Substep& s) {
   MultigridScratch& scratch = multigrid_of(s);
   scratch.springs.clear();
   const PairParticles all = all_particles(s);
-  for (std::size_t i = 0; i < count_contacts(s); ++i) {
+  for (std::size_t i = 0; i < count_surface_contacts(s); ++i) {
     const Contact& contact = contact_at(s, i);
     PairSpring spring{};
     float stiffness = 0;
@@ -174,7 +172,7 @@ double couple_pair(const PairSpring& s, std::vector<MultigridObject>& objects) {
   Vec3f x[4], between{};
   for (int i = 0; i < 4; ++i) {
     if (s.object[i] < 0) continue;
-    x[i] = vector_of(objects[s.object[i]].direction[s.particle[i]]);
+    x[i] = xyz(objects[s.object[i]].direction[s.particle[i]]);
     between += x[i] * s.weight[i];
   }
   double curvature = 0;
@@ -200,7 +198,7 @@ void keep_multigrid_pushes(Substep& s) {
     if (!work.is_made) return;
     const SweepArguments a = arguments(s, o, false);
     const int i = contact.point[0];
-    const Vec3f now = vector_of(a.displacements[i]), by = vector_of(work.change[i]);
+    const Vec3f now = xyz(a.displacements[i]), by = xyz(work.change[i]);
     const float w = a.positions[i].w;
     const ContactSpring spring = spring_of(contact, now - by, w, a.inverse_h2, stiffness);
     if (spring.along > 0) keep_push(spring, by, w, a.inverse_h2, contact);

@@ -14,7 +14,7 @@ namespace pliant {
 namespace {
 
 /// Views of one object's data after one iteration.
-struct View {
+struct IterationView {
   const CompiledObject& object;
   SweepArguments arguments;
   const Record* orientations;                            ///< orientations of the object's frames
@@ -24,7 +24,7 @@ struct View {
 };
 
 /// Loads a constraint's slots in double precision; points are relative to its first point.
-void load_slots(const View& view, const Pool& pool, const std::int32_t* particle, StencilArrays<double>& arrays) {
+void load_slots(const IterationView& view, const Pool& pool, const std::int32_t* particle, StencilArrays<double>& arrays) {
   const Record* origin = nullptr;
   for (int slot = 0; slot < pool.stencil; ++slot) {
     if (particle[slot] >= view.object.particles) {
@@ -39,8 +39,8 @@ void load_slots(const View& view, const Pool& pool, const std::int32_t* particle
   }
 }
 
-/// Adds w grad C^T lambda of one row of C to View::explained; returns the row's residual.
-double look_at(const View& view, const ConstraintPlace& at, const std::int32_t* particle,
+/// Adds w grad C^T lambda of one row of C to IterationView::explained; returns the row's residual.
+double look_at(const IterationView& view, const ConstraintPlace& at, const std::int32_t* particle,
                const StencilArrays<double>& arrays, int component) {
   const bool has =
       view.multipliers != nullptr && !view.multipliers->empty() && !(*view.multipliers)[at.pool_number].empty();
@@ -56,7 +56,7 @@ double look_at(const View& view, const ConstraintPlace& at, const std::int32_t* 
   return at.pool.law == Law::pbd ? c : c + softness(at, double(view.arguments.inverse_h2)) * multiplier;
 }
 
-void add_constraints(const View& view, int type, ErrorSum& sum) {
+void add_constraints(const IterationView& view, int type, ErrorSum& sum) {
   const auto evaluate = constraint_type(type).evaluate_double;
   StencilArrays<double> arrays;
   for_constraints(view.object, type, [&](const ConstraintPlace& at, const std::int32_t* particle) {
@@ -72,7 +72,7 @@ void add_constraints(const View& view, int type, ErrorSum& sum) {
   });
 }
 
-void add_volume(const View& view, double multiplier, ErrorSum& sum) {
+void add_volume(const IterationView& view, double multiplier, ErrorSum& sum) {
   if (!view.object.has_volume) return;
   Records places(view.arguments.positions, view.arguments.positions + view.object.particles);
   for (int i = 0; i < view.object.particles; ++i) {
@@ -90,7 +90,7 @@ void add_volume(const View& view, double multiplier, ErrorSum& sum) {
 }
 
 /// Adds the displacements since the prediction minus those that multipliers explain: the dual residual.
-void add_unexplained(const View& view, const Record* predicted, ErrorSum& sum) {
+void add_unexplained(const IterationView& view, const Record* predicted, ErrorSum& sum) {
   for (int i = 0; i < view.object.particles; ++i) {
     if (!(view.arguments.positions[i].w > 0) || view.left_out[i] != 0) continue;
     const Record &d = view.arguments.displacements[i], &p = predicted[i];
@@ -120,7 +120,7 @@ void record_iteration(Substep& s, int iteration) {
   const std::size_t objects = model.objects.size();
   std::vector<std::vector<Vec3d>> explained;
   std::vector<std::vector<char>> left_out;
-  std::vector<View> views;
+  std::vector<IterationView> views;
   for (const CompiledObject& object : model.objects) {
     explained.emplace_back(object.particles);
     left_out.emplace_back(object.particles, 0);
@@ -135,7 +135,7 @@ void record_iteration(Substep& s, int iteration) {
   found.iteration = iteration;
   for (int type = 0; type < constraint_type_count(); ++type) {
     ErrorSum sum;
-    for (const View& view : views) add_constraints(view, type, sum);
+    for (const IterationView& view : views) add_constraints(view, type, sum);
     if (sum.count > 0) found.primal.push_back(sum.residual(constraint_type(type).name));
   }
   ErrorSum volumes, dual;
