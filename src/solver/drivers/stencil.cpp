@@ -18,7 +18,7 @@ bool begin_early(const std::vector<char>& of, const CompiledObject& object, cons
          constraint_type(object.pools[object.segments[task.item].pool].type).is_tie;
 }
 
-void project(Substep& s, const Task& task, bool first) {
+void project_task(Substep& s, const Task& task, bool first) {
   const CompiledObject& object = s.model.objects[task.object];
   project_segment(object, object.segments[task.item], arguments(s, task.object, first), frame_arguments(s, task.object));
 }
@@ -30,7 +30,7 @@ void project_stencils(Substep& s, const Phase& phase, const Pass& pass) {
     const CompiledObject& object = s.model.objects[task.object];
     if (pass.number >= sweep_method(object.sweep).passes) return;
     const bool has_begun = pass.tied != nullptr && begin_early(*pass.tied, object, task);
-    project(s, task, pass.first && !has_begun);
+    project_task(s, task, pass.first && !has_begun);
   });
 }
 
@@ -38,7 +38,7 @@ void project_ties(Substep& s, const std::vector<char>& of) {
   for (const Phase& phase : s.phases()) {
     if (phase.driver != Driver::stencil) continue;
     for_tasks(s, phase, "solve: stencils", fewest_batches_to_share, [&](const Task& task) {
-      if (begin_early(of, s.model.objects[task.object], task)) project(s, task, true);
+      if (begin_early(of, s.model.objects[task.object], task)) project_task(s, task, true);
     });
   }
 }
