@@ -15,7 +15,6 @@ namespace pliant {
 namespace {
 
 using testing_support::run;
-using Mode = Cluster::Mode;
 using Vec3d = Vec3<double>;
 
 constexpr double gravity = 9.81;
@@ -95,7 +94,7 @@ double most_energy(const Scene& scene, int frames) {
 }
 
 TEST(ClusterEnergy, NeverGrows) {
-  for (const Mode mode : {Mode::linear, Mode::quadratic})
+  for (const Cluster::Mode mode : {Cluster::Mode::linear, Cluster::Mode::quadratic})
     for (const float share : {0.5f, 0.8f, 1.f})
       for (const float compliance : {2e-4f, 1e-3f, 3e-3f, 1e-2f}) {
         const ClusterOptions options{.mode = mode, .share = share, .stiffness = Stiffness::compliance(compliance)};
@@ -111,7 +110,7 @@ TEST(ClusterEnergy, DampingOnlyTakes) {
   for (const float damping : {8.f, 40.f})
     for (const float share : {0.8f, 1.f}) {
       const ClusterOptions options{
-          .mode = Mode::linear, .share = share, .stiffness = Stiffness::compliance(0.03f, damping)};
+          .mode = Cluster::Mode::linear, .share = share, .stiffness = Stiffness::compliance(0.03f, damping)};
       EXPECT_LT(most_energy(spinning(options), 300), 1.0001) << damping << ", " << share;
     }
 }
@@ -131,7 +130,7 @@ Object cloud(int count) {
 }
 
 TEST(ClusterEnergy, AnyNumberOfParticlesRestsInTheGivenShape) {
-  for (const Mode mode : {Mode::rigid, Mode::linear, Mode::quadratic})
+  for (const Cluster::Mode mode : {Cluster::Mode::rigid, Cluster::Mode::linear, Cluster::Mode::quadratic})
     for (int count = 2; count <= 12; ++count) {
       Object object = cloud(count);
       make_cluster(object, {.mode = mode});
@@ -149,7 +148,7 @@ TEST(ClusterEnergy, AnyNumberOfParticlesRestsInTheGivenShape) {
 }
 
 TEST(ClusterEnergy, AMirroredStartMakesNoAngularMomentum) {
-  for (const Mode mode : {Mode::rigid, Mode::linear, Mode::quadratic}) {
+  for (const Cluster::Mode mode : {Cluster::Mode::rigid, Cluster::Mode::linear, Cluster::Mode::quadratic}) {
     Object cube = block(2, 0.1f, 0.1f);
     make_cluster(cube, {.mode = mode, .stiffness = Stiffness::compliance(1e-3f, 30)});
     for (Vec3f& p : cube.positions) p.x = -p.x;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "fluids/fluid_support.h"
 #include "pliant/error.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
@@ -14,10 +16,11 @@
 namespace pliant {
 namespace {
 
-constexpr float density = 1000;
-constexpr double pi = 3.14159265358979;
+using std::numbers::pi;
+using testing_support::in_double;
+using testing_support::weightless;
 
-Vec3d in_double(const Vec3f& a) { return {a.x, a.y, a.z}; }
+constexpr float density = 1000;
 
 struct Liquid {
   float spacing = 0.005f, tension = 0.0728f;
@@ -28,15 +31,6 @@ struct Liquid {
     return make_liquid(places, {.fluid = {.spacing = spacing, .density = density, .surface_tension = tension}});
   }
 };
-
-Scene scene_of(const Object& object) {
-  Scene scene;
-  scene.gravity = {};
-  scene.settings.threads = 1;
-  scene.settings.substeps = 1;
-  scene.add(object);
-  return scene;
-}
 
 std::vector<Vec3f> ball(float radius, float spacing, const Vec3f& centre = {}) {
   std::vector<Vec3f> inside;
@@ -98,7 +92,7 @@ TEST(Tension, MakesASphereOfACube) {
   const float side = 10 * liquid.spacing, h = 0.05f * liquid.time();
   Object cube = liquid.of(fill_box({}, {side, side, side}, liquid.spacing));
   cube.velocities.assign(cube.positions.size(), {0.01f, 0, 0});
-  World world(scene_of(cube));
+  World world(weightless(cube, 1));
   const int steps = static_cast<int>(4 * period(liquid, 1000) / static_cast<double>(h));
   double at_most = 0, later = 0;
   for (int i = 0; i < steps; ++i) {
@@ -160,7 +154,7 @@ double frequency(const std::vector<double>& t, const std::vector<double>& q) {
 /// The frequency of a drop's oscillation over Rayleigh's. `step` is over Liquid::time().
 double oscillation(const Liquid& liquid, int radius, float step) {
   const float h = step * liquid.time();
-  World calm(scene_of(liquid.of(ball(static_cast<float>(radius) * liquid.spacing, liquid.spacing))));
+  World calm(weightless(liquid.of(ball(static_cast<float>(radius) * liquid.spacing, liquid.spacing)), 1));
   const double whole = period(liquid, static_cast<std::size_t>(calm.object(0).positions().size()));
   const int steps = static_cast<int>(whole / static_cast<double>(h));
   for (int i = 0; i < 3 * steps; ++i) calm.step(h);
@@ -168,7 +162,7 @@ double oscillation(const Liquid& liquid, int radius, float step) {
   const double rate = 0.15 * 2 * pi / whole;
   for (const Vec3f& p : drop.positions)
     drop.velocities.push_back(Vec3f{p.x, -p.y / 2, -p.z / 2} * static_cast<float>(rate));
-  World world(scene_of(drop));
+  World world(weightless(drop, 1));
   std::vector<double> t, q;
   for (int i = 0; i < 2 * steps; ++i) {
     world.step(h);
@@ -196,7 +190,7 @@ double puddle(float height_in_spacings, float side_in_spacings) {
   const float g = 9.81f, s = liquid.spacing, height = height_in_spacings * s;
   liquid.tension = density * g * height * height / 4;
   const float half = side_in_spacings * s / 2, h = 0.05f * liquid.time();
-  Scene scene = scene_of(liquid.of(fill_box({-half, 0, -half}, {half, height, half}, s)));
+  Scene scene = weightless(liquid.of(fill_box({-half, 0, -half}, {half, height, half}, s)), 1);
   scene.gravity = {0, -g, 0};
   scene.add(Collider{});
   World world(scene);
@@ -222,7 +216,7 @@ TEST(Tension, HoldsPuddlesAsHighAsItSays) { EXPECT_NEAR(puddle(8, 24), 1, 0.08);
 // With forces at the places where a substep starts, this drop took up energy and burst after a second.
 TEST(Tension, LetsADropOnAFloorComeToRest) {
   const Liquid water{0.001f};
-  Scene scene = scene_of(water.of(fill_box({-0.004f, 0, -0.004f}, {0.004f, 0.004f, 0.004f}, water.spacing)));
+  Scene scene = weightless(water.of(fill_box({-0.004f, 0, -0.004f}, {0.004f, 0.004f, 0.004f}, water.spacing)), 1);
   scene.gravity = {0, -9.81f, 0};
   scene.settings.substeps = 90;
   scene.add(Collider{});
@@ -237,7 +231,7 @@ TEST(Tension, MergesDropsThatTouch) {
   const float r = 5 * liquid.spacing, h = 0.05f * liquid.time();
   std::vector<Vec3f> places = ball(r, liquid.spacing, {-r, 0, 0});
   for (const Vec3f& p : ball(r, liquid.spacing, {r, 0, 0})) places.push_back(p);
-  World world(scene_of(liquid.of(places)));
+  World world(weightless(liquid.of(places), 1));
   const int steps = static_cast<int>(4 * period(liquid, places.size()) / static_cast<double>(h));
   for (int i = 0; i < steps; ++i) world.step(h);
   const auto [least, most] = roundness(world);
@@ -251,7 +245,7 @@ TEST(Tension, MergesDropsThatTouch) {
 
 Scene two_liquids() {
   const Liquid water, other{0.005f, 0.03f};
-  Scene scene = scene_of(water.of(ball(0.03f, 0.005f)));
+  Scene scene = weightless(water.of(ball(0.03f, 0.005f)), 1);
   scene.add(other.of(ball(0.02f, 0.005f, {0.045f, 0, 0})));
   scene.settings.substeps = 6;
   return scene;
@@ -269,7 +263,7 @@ TEST(Tension, GoesOnFromARestoredStateWithTheSameBits) {
 
 TEST(Tension, IsBoundedAndSaysSoWhereSubstepsAreTooLong) {
   const Liquid liquid;
-  World world(scene_of(liquid.of(ball(0.03f, 0.005f))));
+  World world(weightless(liquid.of(ball(0.03f, 0.005f)), 1));
   const float h = 0.5f * liquid.time();
   for (int i = 0; i < 50; ++i) {
     const Report report = world.step(h);
@@ -281,7 +275,7 @@ TEST(Tension, IsBoundedAndSaysSoWhereSubstepsAreTooLong) {
 }
 
 TEST(Tension, ChoosesSubstepsThatLetItAct) {
-  Scene scene = scene_of(Liquid{0.002f}.of(ball(0.01f, 0.002f)));
+  Scene scene = weightless(Liquid{0.002f}.of(ball(0.01f, 0.002f)), 1);
   scene.settings.substeps = 0;
   World world(scene);
   EXPECT_EQ(world.step(1 / 60.f).tension.share, 1);

@@ -3,20 +3,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
+#include "fluids/fluid_support.h"
 #include "pliant/body.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
 #include "support/refusal.h"
+#include "support/run.h"
 #include "support/same_bits.h"
 
 namespace pliant {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, g = 9.81;
-constexpr float spacing = 0.01f, frame_time = 1.f / 60;
+using std::numbers::pi;
+using testing_support::frame_time;
+using testing_support::in_double;
+using testing_support::weightless;
+
+constexpr double g = 9.81;
+constexpr float spacing = 0.01f;
 
 enum class Wall { holds, slips };
 
@@ -32,19 +40,10 @@ Object block(const Vec3f& low, const Vec3f& high, float viscosity, const std::st
   return make_liquid(fill_box(low, high, spacing), {.name = name, .fluid = {.spacing = spacing, .viscosity = viscosity}});
 }
 
-Scene scene_of(const Object& object, int substeps = 10) {
-  Scene scene;
-  scene.gravity = {};
-  scene.settings.threads = 1;
-  scene.settings.substeps = substeps;
-  scene.add(object);
-  return scene;
-}
-
 /// Liquid that falls between two plates, with planes of symmetry in front and behind.
 Scene channel(float width, float viscosity, int substeps, Wall plates = Wall::holds) {
   const float depth = 16 * spacing;
-  Scene scene = scene_of(block({}, {width, 3 * width, depth}, viscosity), substeps);
+  Scene scene = weightless(block({}, {width, 3 * width, depth}, viscosity), substeps);
   scene.gravity = {0, static_cast<float>(-g), 0};
   scene.add(wall({}, {0, 0, 1}, -90, plates));
   scene.add(wall({width, 0, 0}, {0, 0, 1}, 90, plates));
@@ -96,7 +95,7 @@ TEST(Viscosity, DampsAShearWaveByItsRate) {
   for (const float viscosity : {1.f, 10.f, 100.f}) {
     Object liquid = block({}, {side, 1.5f * side, 12 * spacing}, viscosity);
     for (const Vec3f& p : liquid.positions) liquid.velocities.push_back({0, 0.05f * std::cos(k * p.x), 0});
-    World world(scene_of(liquid));
+    World world(weightless(liquid, 10));
     const auto amplitude = [&] {
       double sum = 0;
       const std::vector<Vec3f> velocities = world.object(0).velocities();
@@ -117,8 +116,6 @@ struct Momentum {
   double size = 0, angular_size = 0;
 };
 
-Vec3d in_double(const Vec3f& a) { return {a.x, a.y, a.z}; }
-
 Momentum momentum_of(const World& world) {
   Momentum sum;
   const std::vector<Vec3f> places = world.object(0).positions(), velocities = world.object(0).velocities();
@@ -138,7 +135,7 @@ TEST(Viscosity, KeepsMomentumWhetherSolvedToTheEndOrNot) {
   for (const float viscosity : {1.f, 1e6f}) {
     Object liquid = block({-0.05f, -0.05f, -0.05f}, {0.05f, 0.05f, 0.05f}, viscosity);
     for (const Vec3f& p : liquid.positions) liquid.velocities.push_back({0.1f * std::sin(90 * p.y), 0.1f, std::abs(p.x)});
-    World world(scene_of(liquid));
+    World world(weightless(liquid, 10));
     const Momentum before = momentum_of(world);
     for (int i = 0; i < 10; ++i) world.step(frame_time);
     const Momentum after = momentum_of(world);
@@ -151,7 +148,7 @@ TEST(Viscosity, KeepsMomentumWhetherSolvedToTheEndOrNot) {
 TEST(Viscosity, DoesNotResistRigidRotation) {
   Object liquid = block({-0.05f, -0.05f, -0.05f}, {0.05f, 0.05f, 0.05f}, 100);
   for (const Vec3f& p : liquid.positions) liquid.velocities.push_back(cross(Vec3f{0, 0, 1}, p));
-  World world(scene_of(liquid));
+  World world(weightless(liquid, 10));
   const double before = momentum_of(world).angular.z;
   for (int i = 0; i < 60; ++i) world.step(frame_time);
   EXPECT_NEAR(momentum_of(world).angular.z, before, 0.02 * before);
@@ -163,7 +160,7 @@ TEST(Viscosity, GivesItsMomentumToBodies) {
     std::vector<Vec3f> places;
     for (const Vec3f& p : fill_box({-0.08f, -0.08f, -0.08f}, {0.08f, 0.08f, 0.08f}, spacing))
       if (length_squared(p) > 0.035f * 0.035f) places.push_back(p);
-    Scene scene = scene_of(make_liquid(places, {.fluid = {.spacing = spacing, .viscosity = viscosity}}), 20);
+    Scene scene = weightless(make_liquid(places, {.fluid = {.spacing = spacing, .viscosity = viscosity}}), 20);
     Solid ball;
     ball.shape = Sphere{0.03f};
     ball.density = 500;
@@ -195,7 +192,7 @@ TEST(Viscosity, IsStableHoweverLarge) {
 
 /// Honey that falls on a plate and a ball, beside thinner liquid.
 Scene mixed() {
-  Scene scene = scene_of(block({}, {0.06f, 0.1f, 0.06f}, 10, "honey"));
+  Scene scene = weightless(block({}, {0.06f, 0.1f, 0.06f}, 10, "honey"), 10);
   scene.gravity = {0, static_cast<float>(-g), 0};
   scene.add(block({0.06f, 0, 0}, {0.09f, 0.06f, 0.06f}, 0.1f, "oil"));
   scene.add(wall({0, -0.01f, 0}, {0, 0, 1}, 0, Wall::holds));
@@ -226,7 +223,7 @@ TEST(Viscosity, OfSeveralIterationsIsThatOfOne) {
 }
 
 TEST(Viscosity, DoesNotMoveFixedParticles) {
-  Scene scene = scene_of(block({}, {0.05f, 0.05f, 0.05f}, 10));
+  Scene scene = weightless(block({}, {0.05f, 0.05f, 0.05f}, 10), 10);
   scene.gravity = {0, static_cast<float>(-g), 0};
   scene.objects[0].pins = {{0, {}}};
   const Vec3f first = scene.objects[0].positions[0];
@@ -239,7 +236,7 @@ TEST(Viscosity, OutOfRangeIsNamed) {
   EXPECT_NE(testing_support::refusal([] { make_liquid({{}}, {.fluid = {.viscosity = -1}}); }).find("viscosity"),
             std::string::npos);
   EXPECT_NE(testing_support::refusal([] {
-              Scene scene = scene_of(block({}, {0.05f, 0.05f, 0.05f}, 10));
+              Scene scene = weightless(block({}, {0.05f, 0.05f, 0.05f}, 10), 10);
               scene.objects[0].fluid->viscosity = 1e7f;
               const World world(scene);
             }).find("viscosity"),

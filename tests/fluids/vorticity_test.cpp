@@ -9,20 +9,23 @@
 #include "pliant/liquid.h"
 #include "pliant/world.h"
 #include "support/refusal.h"
+#include "support/run.h"
 #include "support/same_bits.h"
 
 namespace pliant {
 namespace {
 
-constexpr float spacing = 0.04f, side = 0.8f, frame_time = 1.f / 60;
+using testing_support::frame_time;
+
+constexpr float tank_spacing = 0.04f, tank_side = 0.8f;
 
 /// A slab of liquid with an eddy about the vertical axis through its middle.
 Object eddy(float height, float vorticity, const Vec3f& velocity = {}) {
-  Object liquid =
-      make_liquid(fill_box({}, {side, height, side}, spacing), {.fluid = {.spacing = spacing, .vorticity = vorticity}});
+  Object liquid = make_liquid(fill_box({}, {tank_side, height, tank_side}, tank_spacing),
+                              {.fluid = {.spacing = tank_spacing, .vorticity = vorticity}});
   liquid.velocities.assign(liquid.positions.size(), {});
   for (std::size_t i = 0; i < liquid.positions.size(); ++i) {
-    const Vec3f d = liquid.positions[i] - Vec3f{side / 2, 0, side / 2};
+    const Vec3f d = liquid.positions[i] - Vec3f{tank_side / 2, 0, tank_side / 2};
     const float decay = std::exp(-(d.x * d.x + d.z * d.z) / 0.03f);
     liquid.velocities[i] = Vec3f{d.z, 0, -d.x} * (5 * decay) + velocity;
   }
@@ -43,9 +46,9 @@ Scene tank(float vorticity) {
   };
   add_wall({}, {0, 0, 0, 1});
   add_wall({}, {0, 0, -r, r});
-  add_wall({side, 0, 0}, {0, 0, r, r});
+  add_wall({tank_side, 0, 0}, {0, 0, r, r});
   add_wall({}, {r, 0, 0, r});
-  add_wall({0, 0, side}, {-r, 0, 0, r});
+  add_wall({0, 0, tank_side}, {-r, 0, 0, r});
   return scene;
 }
 
@@ -105,8 +108,8 @@ TEST(Vorticity, KeepsMomentum) {
 // The particles of a block far away mix with those of the eddy, and get nothing of the momentum that these give back.
 TEST(Vorticity, DoesNotMoveLiquidAtRest) {
   Scene scene = flight(0.5f);
-  scene.add(make_liquid(fill_box({9, 0, 0}, {9.4f, 0.4f, 0.4f}, spacing),
-                        {.name = "still", .fluid = {.spacing = spacing, .vorticity = 0.5f}}));
+  scene.add(make_liquid(fill_box({9, 0, 0}, {9.4f, 0.4f, 0.4f}, tank_spacing),
+                        {.name = "still", .fluid = {.spacing = tank_spacing, .vorticity = 0.5f}}));
   World world(scene);
   for (int i = 0; i < 30; ++i) ASSERT_TRUE(world.step(frame_time).ok());
   for (const Vec3f& v : world.object(1).velocities()) EXPECT_LT(length_squared(v), 1e-6f);

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "fluids/fluid_support.h"
 #include "pliant/body.h"
 #include "pliant/error.h"
 #include "pliant/liquid.h"
@@ -15,32 +17,27 @@
 namespace pliant {
 namespace {
 
-constexpr float density = 1000, spacing = 0.005f, tension = 0.0728f;
-constexpr double pi = 3.14159265358979;
+using std::numbers::pi;
+using testing_support::in_double;
+using testing_support::weightless;
+
+constexpr float water_density = 1000, drop_spacing = 0.005f, tension = 0.0728f;
 
 /// The time of capillary waves of the spacing [s].
-float capillary_time() { return std::sqrt(density * spacing * spacing * spacing / tension); }
+float capillary_time() { return std::sqrt(water_density * drop_spacing * drop_spacing * drop_spacing / tension); }
 
 Object liquid_of(const std::vector<Vec3f>& places, float angle) {
   return make_liquid(
-      places, {.fluid = {.spacing = spacing, .density = density, .surface_tension = tension, .contact_angle = angle}});
+      places,
+      {.fluid = {.spacing = drop_spacing, .density = water_density, .surface_tension = tension, .contact_angle = angle}});
 }
 
 /// Places in a half ball on the ground.
 std::vector<Vec3f> half_ball(float radius) {
   std::vector<Vec3f> inside;
-  for (const Vec3f& p : fill_box({-radius, 0, -radius}, {radius, radius, radius}, spacing))
+  for (const Vec3f& p : fill_box({-radius, 0, -radius}, {radius, radius, radius}, drop_spacing))
     if (length_squared(p) < radius * radius) inside.push_back(p);
   return inside;
-}
-
-Scene scene_of(const Object& object) {
-  Scene scene;
-  scene.gravity = {};
-  scene.settings.threads = 1;
-  scene.settings.substeps = 1;
-  scene.add(object);
-  return scene;
 }
 
 /// The height of the centre of mass of a spherical cap, over the cube root of its volume.
@@ -64,13 +61,13 @@ double angle_of(const World& world) {
   const std::vector<Vec3f> x = world.object(0).positions();
   double height = 0;
   for (const Vec3f& p : x) height += static_cast<double>(p.y) / static_cast<double>(x.size());
-  const double side = static_cast<double>(spacing) * std::cbrt(static_cast<double>(x.size()));
+  const double side = static_cast<double>(drop_spacing) * std::cbrt(static_cast<double>(x.size()));
   return angle_of_cap(height / side);
 }
 
 /// The contact angle at which a drop on a plate comes to rest, without gravity [degrees]. It starts as half a ball of a radius in spacings.
 double angle_at_rest(float wanted, float radius) {
-  Scene scene = scene_of(liquid_of(half_ball(radius * spacing), wanted));
+  Scene scene = weightless(liquid_of(half_ball(radius * drop_spacing), wanted), 1);
   scene.add(Collider{});
   World world(scene);
   const float h = 0.05f * capillary_time();
@@ -89,30 +86,22 @@ TEST(Wetting, HoldsTheContactAngle) {
       EXPECT_NEAR(angle_at_rest(angle, radius), static_cast<double>(angle), 4) << radius;
 }
 
-struct Momentum {
-  Vec3d linear{}, angular{};
-};
-
 /// Of a liquid and a body behind it.
-Momentum momentum_of(const Scene& scene, const World& world) {
-  Momentum sum;
+Vec3d linear_momentum(const Scene& scene, const World& world) {
+  Vec3d sum{};
   for (int o = 0; o < 2; ++o) {
-    const std::vector<Vec3f> x = world.object(ObjectId{o}).positions(), v = world.object(ObjectId{o}).velocities();
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      const double mass = static_cast<double>(scene.objects[static_cast<std::size_t>(o)].masses[i]);
-      const Vec3d p = Vec3d{v[i].x, v[i].y, v[i].z} * mass;
-      sum.linear += p;
-      sum.angular += cross(Vec3d{x[i].x, x[i].y, x[i].z}, p);
-    }
+    const std::vector<Vec3f> v = world.object(ObjectId{o}).velocities();
+    for (std::size_t i = 0; i < v.size(); ++i)
+      sum += in_double(v[i]) * static_cast<double>(scene.objects[static_cast<std::size_t>(o)].masses[i]);
   }
   return sum;
 }
 
 /// A drop beside a free plate.
 Scene drop_and_plate(float angle) {
-  std::vector<Vec3f> places = half_ball(5.3f * spacing);
-  for (Vec3f& p : places) p.y += 0.2f * spacing;
-  Scene scene = scene_of(liquid_of(places, angle));
+  std::vector<Vec3f> places = half_ball(5.3f * drop_spacing);
+  for (Vec3f& p : places) p.y += 0.2f * drop_spacing;
+  Scene scene = weightless(liquid_of(places, angle), 1);
   Solid plate;
   plate.shape = Box{{0.06f, 0.005f, 0.06f}};
   plate.density = 500;
@@ -130,15 +119,15 @@ TEST(Wetting, KeepsTheMomentumOfADropAndABody) {
   }
   const double mass = static_cast<double>(scene.objects[1].masses[0]);
   EXPECT_GT(fastest, 1e-4) << "the plate is not pulled";
-  EXPECT_LT(std::sqrt(length_squared(momentum_of(scene, world).linear)), 1e-4 * mass * fastest);
+  EXPECT_LT(std::sqrt(length_squared(linear_momentum(scene, world))), 1e-4 * mass * fastest);
 }
 
 // At 180 degrees there is no work of adhesion (Young and Dupre).
 TEST(Wetting, HoldsADropUnderACeiling) {
   const auto lowest = [](float angle) {
-    std::vector<Vec3f> places = half_ball(5.3f * spacing);
+    std::vector<Vec3f> places = half_ball(5.3f * drop_spacing);
     for (Vec3f& p : places) p.y = -p.y;
-    Scene scene = scene_of(liquid_of(places, angle));
+    Scene scene = weightless(liquid_of(places, angle), 1);
     scene.gravity = {0, -0.1f, 0};
     Collider ceiling;
     ceiling.rotation = {1, 0, 0, 0};
@@ -149,14 +138,14 @@ TEST(Wetting, HoldsADropUnderACeiling) {
     for (const Vec3f& p : world.object(0).positions()) low = std::min(low, p.y);
     return low;
   };
-  EXPECT_GT(lowest(60), -8 * spacing);
-  EXPECT_LT(lowest(180), -20 * spacing);
+  EXPECT_GT(lowest(60), -8 * drop_spacing);
+  EXPECT_LT(lowest(180), -20 * drop_spacing);
 }
 
 /// Drops of two angles that mix, on a ground and a body.
 Scene two_angles() {
   Scene scene = drop_and_plate(60);
-  Object other = liquid_of(half_ball(6 * spacing), 120);
+  Object other = liquid_of(half_ball(6 * drop_spacing), 120);
   other.name = "other";
   for (Vec3f& p : other.positions) p.x += 0.055f;
   scene.add(other);
@@ -178,7 +167,7 @@ TEST(Wetting, GoesOnFromARestoredStateWithTheSameBits) {
 }
 
 TEST(Wetting, IsSaidToHaveNoEffectWithoutTension) {
-  Scene scene = scene_of(make_liquid({{}}, {.fluid = {.contact_angle = 60}}));
+  Scene scene = weightless(make_liquid({{}}, {.fluid = {.contact_angle = 60}}), 1);
   const std::vector<Finding> findings = inspect(scene);
   EXPECT_TRUE(std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
     return finding.message.find("no effect without surface tension") != std::string::npos;
@@ -194,7 +183,7 @@ TEST(Wetting, OutOfRangeIsNamed) {
       EXPECT_NE(std::string(error.what()).find("contact_angle"), std::string::npos);
     }
   }
-  Scene scene = scene_of(make_liquid({{}}, {.name = "dew"}));
+  Scene scene = weightless(make_liquid({{}}, {.name = "dew"}), 1);
   scene.objects[0].fluid->contact_angle = 200;
   try {
     const World world(scene);

@@ -7,11 +7,13 @@
 #include "pliant/error.h"
 #include "pliant/gas.h"
 #include "pliant/world.h"
+#include "support/run.h"
 
 namespace pliant {
 namespace {
 
-constexpr float frame_time = 1.f / 60;
+using testing_support::frame_time;
+using testing_support::run;
 
 TriangleMesh ball(float radius) {
   TriangleMesh mesh;
@@ -126,10 +128,6 @@ World blown_up(const Volume& volume) {
   scene.add(object);
   scene.settings.threads = 1;
   return World(scene);
-}
-
-void run(World& world, int frames) {
-  for (int i = 0; i < frames; ++i) ASSERT_TRUE(world.step(frame_time).ok());
 }
 
 /// Expects a ball that grows by `rate` m^3/s to do so at an even speed.

@@ -9,12 +9,14 @@
 #include "pliant/liquid.h"
 #include "pliant/save.h"
 #include "pliant/world.h"
+#include "support/run.h"
 
 namespace pliant {
 namespace {
 
+using testing_support::run;
+
 constexpr float spacing = 0.05f;
-constexpr float frame_time = 1.f / 60;
 
 /// What a gas of the tests has beyond that of the air.
 struct Of {
@@ -42,13 +44,6 @@ Vec3d mean(const std::vector<Vec3f>& values) {
   Vec3d sum{};
   for (const Vec3f& v : values) sum = sum + Vec3d{v.x, v.y, v.z};
   return sum * (1.0 / static_cast<double>(values.size()));
-}
-
-void run(World& world, int frames) {
-  for (int i = 0; i < frames; ++i) {
-    const Report report = world.step(frame_time);
-    ASSERT_TRUE(report.ok()) << report.explain();
-  }
 }
 
 double mean_temperature(const World& world) {

@@ -6,11 +6,12 @@
 #include "pliant/gas.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
+#include "support/run.h"
 
 namespace pliant {
 namespace {
 
-constexpr float frame_time = 1.f / 60;
+using testing_support::frame_time;
 
 Scene stream(const Vec3f& velocity, const Tracers& tracers, int capacity) {
   Scene scene;

@@ -1,4 +1,4 @@
-// Runs a World of which no step may have anything to report.
+// The length of a frame, and a run of a World in which no step may have anything to report.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,9 +8,11 @@
 
 namespace pliant::testing_support {
 
-inline void run(World& world, int frames, float frame_time = 1.f / 60) {
+constexpr float frame_time = 1.f / 60;  // [s]
+
+inline void run(World& world, int frames, float step = frame_time) {
   for (int i = 0; i < frames; ++i) {
-    const Report report = world.step(frame_time);
+    const Report report = world.step(step);
     ASSERT_TRUE(report.ok()) << report.explain();
   }
 }
