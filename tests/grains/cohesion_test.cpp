@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "grains/grain_support.h"
 #include "pliant/grains.h"
 #include "pliant/liquid.h"
 #include "pliant/world.h"
@@ -19,7 +20,10 @@
 namespace pliant {
 namespace {
 
-constexpr float radius = 0.01f, diameter = 2 * radius, gravity = 9.81f;
+using testing_support::diameter;
+using testing_support::gravity;
+using testing_support::radius;
+
 constexpr double pi = 3.14159265358979;
 
 /// The tensile stress at which a contact bears a force: Rumpf's, with 0.6 of the volume filled and six contacts a grain.

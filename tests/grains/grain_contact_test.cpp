@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "grains/grain_support.h"
 #include "pliant/body.h"
 #include "pliant/grains.h"
 #include "pliant/liquid.h"
@@ -16,8 +17,9 @@
 namespace pliant {
 namespace {
 
-constexpr float radius = 0.01f, diameter = 2 * radius, gravity = 9.81f;
-
+using testing_support::diameter;
+using testing_support::gravity;
+using testing_support::radius;
 using testing_support::run;
 
 Solid box(const Vec3f& half_extents, const Vec3f& at, float density = 1000) {

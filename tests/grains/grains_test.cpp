@@ -1,5 +1,6 @@
 // Grains: contacts, momentum, Coulomb friction, and the angle of a heap.
 #include "pliant/grains.h"
+#include "grains/grain_support.h"
 
 #include <gtest/gtest.h>
 
@@ -18,9 +19,11 @@
 namespace pliant {
 namespace {
 
-constexpr float radius = 0.01f, diameter = 2 * radius;
+using testing_support::diameter;
+using testing_support::radius;
 
-Report run(World& world, int frames) {
+/// Steps a World, and returns the last report.
+Report advance(World& world, int frames) {
   Report report;
   for (int i = 0; i < frames; ++i) report = world.step(1.f / 60);
   return report;
@@ -71,7 +74,7 @@ TEST(Grains, KeepTheirMomentumWhenTheyCollide) {
   scene.add(make_grains({{0, 0, 0}}, {.grains = {.radius = radius}, .velocity = {1, 0, 0}}));
   scene.add(make_grains({{0.1f, 0.005f, 0}}, {.name = "other", .grains = {.radius = 2 * radius}, .velocity = {0, 0, 0}}));
   World world(scene);
-  run(world, 30);
+  advance(world, 30);
   const Vec3f a = world.object(0).velocities()[0], b = world.object(1).velocities()[0];
   EXPECT_NEAR(a.x + 8 * b.x, 1, 1e-5);  // masses are as the cubes of the radii
   EXPECT_NEAR(a.y + 8 * b.y, 0, 1e-5);
@@ -91,7 +94,7 @@ double slip_on_sphere(float friction, double degrees) {
   scene.add(make_grains({start}, {.grains = {.radius = radius, .friction = friction}}));
   scene.settings.substeps = 20;
   World world(scene);
-  run(world, 60);
+  advance(world, 60);
   return std::sqrt(static_cast<double>(length_squared(world.object(1).positions()[0] - start)));
 }
 
@@ -155,7 +158,7 @@ TEST(Grains, TouchWhereBruteForceFindsThemTouching) {
   constexpr float h = 1.f / 1500;
   constexpr double rounding = 1e-7;
   for (int i = 0; i < 10; ++i) {
-    run(world, 3);
+    advance(world, 3);
     const State& state = world.state();
     one.restore(state);
     one.step(h);
@@ -168,7 +171,7 @@ TEST(Grains, TouchWhereBruteForceFindsThemTouching) {
 
 TEST(Grains, DoNotOverlapMuchWhereTheyLie) {
   World world(block({0.3f, 0.2f, 0.1f}, 0.5f));
-  ASSERT_TRUE(run(world, 90).ok());
+  ASSERT_TRUE(advance(world, 90).ok());
   EXPECT_TRUE(pairs_within(world.state(), 0.94f).empty());  // twice the overlap that the substeps are chosen for
 }
 
@@ -210,7 +213,7 @@ double angle_of_repose(float friction, int substeps, int iterations) {
   scene.settings.iterations = iterations;
   scene.settings.threads = 2;
   World world(scene);
-  run(world, 165);
+  advance(world, 165);
   return slope_of(world.object(0).positions());
 }
 
@@ -230,19 +233,19 @@ TEST(Grains, HaveTheSameBitsOnAnyThreadsAndLevels) {
 TEST(Grains, GoOnFromARestoredStateWithTheSameBits) {
   const Scene scene = block({0.3f, 0.2f, 0.1f}, 0.5f);
   World world(scene);
-  run(world, 15);
+  advance(world, 15);
   const State kept = world.state();
   ASSERT_FALSE(kept.grain_contacts.empty());
-  run(world, 7);
+  advance(world, 7);
   const std::string expected = hash(world.state());
   World other(scene);
   other.restore(kept);
-  run(other, 7);
+  advance(other, 7);
   EXPECT_EQ(hash(other.state()), expected);
   State without = kept;
   without.grain_contacts.clear();
   other.restore(without);
-  run(other, 7);
+  advance(other, 7);
   EXPECT_NE(hash(other.state()), expected) << "contacts have no effect";
 }
 
@@ -253,7 +256,7 @@ TEST(Grains, ForgetThoseThatAreRemoved) {
   for (Vec3f& p : above.positions) p.y += 0.1f;
   scene.add(above);
   World world(scene);
-  run(world, 30);
+  advance(world, 30);
   const int first = static_cast<int>(scene.objects[0].positions.size());
   const auto is_above = [&](const GrainContact& contact) { return contact.b >= first; };
   const auto count = [&] {
@@ -265,7 +268,7 @@ TEST(Grains, ForgetThoseThatAreRemoved) {
   EXPECT_EQ(count(), 0);
   EXPECT_GT(world.state().grain_contacts.size(), 0U);
   EXPECT_LT(world.state().grain_contacts.size(), all);
-  EXPECT_TRUE(run(world, 5).ok());
+  EXPECT_TRUE(advance(world, 5).ok());
 }
 
 TEST(Grains, OfAnotherGroupDoNotMeetThem) {
@@ -277,7 +280,7 @@ TEST(Grains, OfAnotherGroupDoNotMeetThem) {
     other.mask = mask;
     scene.add(other);
     World world(scene);
-    run(world, 30);
+    advance(world, 30);
     return world.object(1).positions()[0].x - world.object(0).positions()[0].x;
   };
   EXPECT_GT(gap(~0u), 1.9f * radius);
@@ -321,7 +324,7 @@ double lowest_overlap(int grains, float mass_scaling, int substeps) {
   scene.settings.substeps = substeps;
   scene.settings.threads = 1;
   World world(scene);
-  run(world, 600);
+  advance(world, 600);
   const std::vector<Vec3f> at = world.object(0).positions();
   return static_cast<double>(diameter - (at[1].y - at[0].y));
 }

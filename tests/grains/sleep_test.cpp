@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "grains/grain_support.h"
 #include "pliant/body.h"
 #include "pliant/cluster.h"
 #include "pliant/edit.h"
@@ -17,7 +18,9 @@
 namespace pliant {
 namespace {
 
-constexpr float radius = 0.01f, diameter = 2 * radius;
+using testing_support::diameter;
+using testing_support::radius;
+using testing_support::run;
 
 Collider ground() {
   Collider plane;
@@ -58,8 +61,6 @@ Object ball(const Vec3f& position, const Vec3f& velocity) {
   object.name = "ball";
   return object;
 }
-
-using testing_support::run;
 
 std::size_t sleepers(const World& world, int object = 0) {
   const std::vector<float> times = world.object(object).channel("rest_time");
