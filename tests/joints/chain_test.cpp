@@ -10,8 +10,6 @@ namespace {
 
 using namespace testing_support;
 
-constexpr float half_link = 0.25f;
-
 /// Ball-jointed links of 1 kg along x from the origin.
 void add_chain(Mechanism& m, int links, float end_mass) {
   for (int i = 0; i < links; ++i) {

@@ -10,10 +10,10 @@ namespace {
 
 using namespace testing_support;
 
-constexpr int substeps = 8;
+constexpr int wheel_substeps = 8;
 
 /// The angular velocity at which a body turns by `angle` in a substep [rad/s].
-float spin_of(float angle) { return angle * 60 * substeps; }
+float spin_of(float angle) { return angle * 60 * wheel_substeps; }
 
 struct Wheel {
   float radius = 0.3f, half_width = 0.02f;
@@ -32,7 +32,7 @@ TEST(FastWheels, KeepTheirSpeedOnAHinge) {
   for (const Wheel& wheel : {Wheel{0.3f, 0.02f}, Wheel{0.3f, 0.1f}, Wheel{0.1f, 0.3f}})
     for (const float angle : {0.3f, 0.6f, 1.f, 1.2f, 1.5f, 2.f, 3.f, 5.f}) {
       Mechanism m;
-      m.substeps = substeps;
+      m.substeps = wheel_substeps;
       const int b = add_wheel(m.object, wheel, {0, 0, 0}, {spin_of(angle), 0, 0});
       add_joint(m.object, HingeJoint{.a = -1, .b = b, .anchor = {0, 0, 0}, .axis = {1, 0, 0}});
       m.run(4);
@@ -45,7 +45,7 @@ TEST(FastWheels, KeepTheirSpeedOnAHinge) {
 TEST(FastWheels, KeepTheirEnergyInALightFreeFrame) {
   for (const float angle : {1.2f, 2.f, 3.f}) {
     Mechanism m;
-    m.substeps = substeps;
+    m.substeps = wheel_substeps;
     const int wheel = add_wheel(m.object, {}, {0, 0, 0}, {spin_of(angle), 0, 0});
     const int frame = m.box({0.5f, 0.4f, 0}, 1, {0.1f, 0.1f, 0.1f});
     add_joint(m.object, HingeJoint{.a = frame, .b = wheel, .anchor = {0, 0, 0}, .axis = {1, 0, 0}});

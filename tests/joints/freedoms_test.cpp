@@ -114,9 +114,9 @@ TEST(JointFreedoms, LockedDirectionsCarryAnOffsetWeight) {
 
 // ---------------------------------------------------------------- limits
 
-constexpr JointRange range{-0.25f, 0.5f};
+constexpr JointRange joint_range{-0.25f, 0.5f};
 
-/// The displacement or angle of a cube along an axis after it has moved towards both ends of `range`.
+/// The displacement or angle of a cube along an axis after it has moved towards both ends of `joint_range`.
 template <class Joint>
 void expect_stops(const std::function<void(Joint&)>& set, bool is_angle, int axis) {
   for (const float sign : {1.f, -1.f}) {
@@ -134,25 +134,25 @@ void expect_stops(const std::function<void(Joint&)>& set, bool is_angle, int axi
     };
     EXPECT_NEAR(along(), 0.2 * double(sign), 2e-3) << "free within its range";
     m.run(1);
-    EXPECT_NEAR(along(), double(sign > 0 ? range.high : range.low), 1e-3) << axis;
+    EXPECT_NEAR(along(), double(sign > 0 ? joint_range.high : joint_range.low), 1e-3) << axis;
   }
 }
 
 TEST(JointFreedoms, AUniversalJointStopsAtTheLimitsOfBothAngles) {
-  expect_stops<UniversalJoint>([](auto& j) { j.limit_a = range; }, true, 0);
-  expect_stops<UniversalJoint>([](auto& j) { j.limit_b = range; }, true, 1);
+  expect_stops<UniversalJoint>([](auto& j) { j.limit_a = joint_range; }, true, 0);
+  expect_stops<UniversalJoint>([](auto& j) { j.limit_b = joint_range; }, true, 1);
 }
 
 TEST(JointFreedoms, APlanarJointStopsAtItsThreeLimits) {
   const auto set = [](PlanarJoint& j) { j.normal = {0, 1, 0}, j.axis_x = Vec3f{0, 0, 1}; };  // y is then x
-  expect_stops<PlanarJoint>([&](auto& j) { set(j), j.x_limit = range; }, false, 2);
-  expect_stops<PlanarJoint>([&](auto& j) { set(j), j.y_limit = range; }, false, 0);
-  expect_stops<PlanarJoint>([&](auto& j) { set(j), j.turn_limit = range; }, true, 1);
+  expect_stops<PlanarJoint>([&](auto& j) { set(j), j.x_limit = joint_range; }, false, 2);
+  expect_stops<PlanarJoint>([&](auto& j) { set(j), j.y_limit = joint_range; }, false, 0);
+  expect_stops<PlanarJoint>([&](auto& j) { set(j), j.turn_limit = joint_range; }, true, 1);
 }
 
 TEST(JointFreedoms, ACylindricalJointStopsAtBothLimits) {
-  expect_stops<CylindricalJoint>([](auto& j) { j.axis = {0, 1, 0}, j.slide_limit = range; }, false, 1);
-  expect_stops<CylindricalJoint>([](auto& j) { j.axis = {0, 1, 0}, j.turn_limit = range; }, true, 1);
+  expect_stops<CylindricalJoint>([](auto& j) { j.axis = {0, 1, 0}, j.slide_limit = joint_range; }, false, 1);
+  expect_stops<CylindricalJoint>([](auto& j) { j.axis = {0, 1, 0}, j.turn_limit = joint_range; }, true, 1);
 }
 
 // ---------------------------------------------------------------- motors
@@ -304,12 +304,12 @@ TEST(JointFreedoms, ARangeOfDistancesIsFreeBetweenItsEnds) {
     Cube m({sign, 0, 0});
     m.scene.gravity = {};
     DistanceJoint joint{.b = m.body, .anchor_a = {0, 2, 3}, .anchor_b = Cube::start};
-    joint.least = 1 + range.low, joint.most = 1 + range.high;
+    joint.least = 1 + joint_range.low, joint.most = 1 + joint_range.high;
     add_joint(m.object, joint);
     m.run(0.2);
     EXPECT_NEAR(m.moved().x, 0.2 * double(sign), 1e-3);
     m.run(1);
-    EXPECT_NEAR(m.moved().x, double(sign > 0 ? range.high : range.low), 1e-3);
+    EXPECT_NEAR(m.moved().x, double(sign > 0 ? joint_range.high : joint_range.low), 1e-3);
   }
 }
 
@@ -371,9 +371,9 @@ TEST(JointFreedoms, WrongRangesAndAxesAreNamed) {
 TEST(JointFreedoms, APlaneNeedsItsXForLimits) {
   Cube m;
   const auto refusal = [&](const PlanarJoint& joint) { return problem_of(m.object, joint); };
-  EXPECT_EQ(refusal({.b = m.body, .x_limit = range}), "has limits or motors in its plane, but no axis_x");
+  EXPECT_EQ(refusal({.b = m.body, .x_limit = joint_range}), "has limits or motors in its plane, but no axis_x");
   EXPECT_EQ(refusal({.b = m.body, .axis_x = Vec3f{1, 1, 0}}), "has an axis_x that is not in its plane");
-  EXPECT_EQ(refusal({.b = m.body, .turn_limit = range}), "");
+  EXPECT_EQ(refusal({.b = m.body, .turn_limit = joint_range}), "");
 }
 
 }  // namespace

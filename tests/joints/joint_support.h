@@ -12,11 +12,12 @@
 #include "pliant/body.h"
 #include "pliant/joint.h"
 #include "pliant/world.h"
+#include "support/run.h"
 
 namespace pliant::testing_support {
 
 constexpr double gravity = 9.81, pi = 3.14159265358979324;
-constexpr float frame_time = 1 / 60.f;
+constexpr float half_link = 0.25f;  ///< of chains [m]
 
 inline Vec3d wide(const Vec3f& v) { return {v.x, v.y, v.z}; }
 inline double length(const Vec3d& v) { return std::sqrt(length_squared(v)); }

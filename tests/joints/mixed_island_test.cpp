@@ -10,8 +10,6 @@ namespace {
 
 using namespace testing_support;
 
-constexpr float half_link = 0.25f;
-
 /// Links of 1 kg along x from the origin; of three joints one is a ball, one a hinge with a range, one a hinge with a motor that
 /// resists, and friction.
 struct MixedChain : Mechanism {

@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr int segments = 6;
+constexpr int segments_each = 6;
 
 /// How rods differ from one another besides length, radius, stiffness, direction and motion.
 struct Variety {
@@ -32,8 +32,8 @@ struct Variety {
 void spin(Object& object, int first, float rate) {
   const auto segment = [&](int i) { return object.bodies[static_cast<std::size_t>(first + i)]; };
   const auto place = [&](int i) { return object.positions[static_cast<std::size_t>(segment(i).particle)]; };
-  const Vec3f middle = (place(0) + place(segments - 1)) * 0.5f;
-  for (int i = 0; i < segments; ++i) {
+  const Vec3f middle = (place(0) + place(segments_each - 1)) * 0.5f;
+  for (int i = 0; i < segments_each; ++i) {
     object.velocities[static_cast<std::size_t>(segment(i).particle)] += cross(Vec3f{0, 0, rate}, place(i) - middle);
     object.frames[static_cast<std::size_t>(segment(i).frame)].angular_velocity = {0, 0, rate};
   }
@@ -60,7 +60,7 @@ struct Rods {
       Object one;
       one.name = options.name;
       for (Object* object : {&one, &together}) {
-        const int first = add_rod(*object, line(from, to, segments), options);
+        const int first = add_rod(*object, line(from, to, segments_each), options);
         object->self_collision = false;
         if (!variety.spins) continue;
         object->collides = false;  // as objects of their own they could meet
@@ -116,7 +116,7 @@ std::vector<int> sizes_of_bundles(const Object& object, const std::vector<int>& 
 
 void expect_as_alone(const Rods& rods, const Scene& scene, int frames = 40) {
   const Outcome alone(scene, rods.alone, frames), together(scene, {rods.together}, frames);
-  ASSERT_EQ(together.positions.size(), rods.alone.size() * segments);
+  ASSERT_EQ(together.positions.size(), rods.alone.size() * segments_each);
   EXPECT_FALSE(sizes_of_bundles(rods.together).empty());
   EXPECT_TRUE(alone == together);
 }

@@ -14,7 +14,7 @@ namespace {
 using namespace testing_support;
 
 /// A heavy ball that rolls into rows of stalks.
-Scene stalks() {
+Scene ball_in_stalks() {
   Scene scene;
   Object grass;
   grass.name = "stalks";
@@ -37,7 +37,7 @@ Scene stalks() {
 }
 
 TEST(RodInContact, IsNotTornByAHeavyBall) {
-  const Scene scene = stalks();
+  const Scene scene = ball_in_stalks();
   World world(scene);
   double fastest = 0, lowest = 0;
   for (int frame = 0; frame < 120; ++frame) {
@@ -51,8 +51,8 @@ TEST(RodInContact, IsNotTornByAHeavyBall) {
 }
 
 TEST(RodInContact, HasTheSameBitsOnAnyThreadsAndLevels) {
-  expect_same_bits_on_any_threads_and_levels(stalks(), {30, frame_time});
-  expect_same_bits_after_a_restore(stalks(), {15, frame_time});
+  expect_same_bits_on_any_threads_and_levels(ball_in_stalks(), {30, frame_time});
+  expect_same_bits_after_a_restore(ball_in_stalks(), {15, frame_time});
 }
 
 /// Hair on a head that turns to and fro. What clamps it moves with the head.

@@ -10,26 +10,28 @@ namespace {
 using namespace testing_support;
 
 constexpr double length_of_rod = 1;
-constexpr float radius = 0.01f;
-constexpr int segments = 20;
+constexpr float radius_of_rod = 0.01f;
+constexpr int segments_of_rod = 20;
 
 /// A rod clamped at x = 0 that is loaded across at its tip with a force, then let go: the angle of its last segment afterwards [rad].
 double angle_left(double strain_at_clamp, const Plasticity& plasticity, int substeps, const Vec3f& clamp = {}) {
   RodMaterial material = material_of(1e8, 4e7, 1000);
   material.damping = 0.002f;
   material.plasticity = plasticity;
-  Object rod = make_rod(line(clamp, clamp + Vec3f{length_of_rod, 0, 0}, segments), clamped_rod(material, radius));
+  Object rod =
+      make_rod(line(clamp, clamp + Vec3f{length_of_rod, 0, 0}, segments_of_rod), clamped_rod(material, radius_of_rod));
   rod.damping = 15;  // over critical: it must not swing beyond where it is to be
   Lone lone(rod, substeps, false);
-  const double moment = strain_at_clamp / static_cast<double>(radius) * 1e8 * second_moment(static_cast<double>(radius));
+  const double moment =
+      strain_at_clamp / static_cast<double>(radius_of_rod) * 1e8 * second_moment(static_cast<double>(radius_of_rod));
   std::vector<Vec3f> forces(rod.positions.size());
-  forces[segments - 1] = {0, -static_cast<float>(moment / length_of_rod), 0};
+  forces[segments_of_rod - 1] = {0, -static_cast<float>(moment / length_of_rod), 0};
   for (int frame = 0; frame < 300; ++frame) {
     lone.world.object(0).set_forces(forces);
     lone.run(1.0 / 60);
   }
   lone.run(8);
-  const Vec3d along = lone.position(segments - 1) - lone.position(segments - 2);
+  const Vec3d along = lone.position(segments_of_rod - 1) - lone.position(segments_of_rod - 2);
   return std::atan2(-along.y, along.x);
 }
 
@@ -50,13 +52,13 @@ double arc_left(double angle, double yield, int substeps) {
   material.damping = 0.002f;
   material.plasticity = Plasticity{.yield = static_cast<float>(yield)};
   std::vector<Vec3f> arc;
-  for (int i = 0; i <= segments; ++i) {
-    const double at = angle * (static_cast<double>(i) / segments - 0.5), r = length_of_rod / angle;
+  for (int i = 0; i <= segments_of_rod; ++i) {
+    const double at = angle * (static_cast<double>(i) / segments_of_rod - 0.5), r = length_of_rod / angle;
     arc.push_back({static_cast<float>(r * std::sin(at)), static_cast<float>(r * std::cos(at) - r), 0});
   }
   RodOptions options;
   options.material = material;
-  options.radius = radius;
+  options.radius = radius_of_rod;
   options.straight = true;  // so it is held by its ends in an arc, and would be straight
   Object rod = make_rod(arc, options);
   rod.damping = 10;
@@ -70,11 +72,11 @@ double arc_left(double angle, double yield, int substeps) {
     const Vec3d d = lone.position(i + 1) - lone.position(i);
     return std::atan2(d.y, d.x);
   };
-  return (direction(0) - direction(segments - 2)) * segments / (segments - 2.0);
+  return (direction(0) - direction(segments_of_rod - 2)) * segments_of_rod / (segments_of_rod - 2.0);
 }
 
 TEST(PlasticRod, AnArcKeepsTheCurvatureBeyondTheYieldStrain) {
-  const double angle = 1.5, strain = angle * static_cast<double>(radius) / length_of_rod;
+  const double angle = 1.5, strain = angle * static_cast<double>(radius_of_rod) / length_of_rod;
   EXPECT_NEAR(arc_left(angle, strain * 1.01, 20), 0, 1e-3);
   for (const double share : {0.2, 0.6})
     EXPECT_NEAR(arc_left(angle, strain * share, 20) / (angle * (1 - share)), 1, 0.03) << share;

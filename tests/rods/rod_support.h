@@ -10,11 +10,11 @@
 #include "math/vector.h"
 #include "pliant/rod.h"
 #include "pliant/world.h"
+#include "support/run.h"
 
 namespace pliant::testing_support {
 
 constexpr double pi = 3.14159265358979324, gravity = 9.81;
-constexpr float frame_time = 1 / 60.f;
 
 inline RodMaterial material_of(double youngs_modulus, double shear_modulus, double density) {
   RodMaterial material;

@@ -16,15 +16,13 @@ using namespace testing_support;
 
 // ------------------------------------------------------------------------------------------------ energy
 
-using Corners = std::array<Vec3d, 4>;
-const Corners at_rest{Vec3d{0, 0, 0}, Vec3d{1.1, 0.1, 0}, Vec3d{0.2, 0.9, -0.1}, Vec3d{0, 0.3, 1.2}};
 
 /// The elastic energy per volume of both constraints in a tetrahedron that is deformed by x + strain(x).
 template <class Strain>
 double energy_density(double lambda, double mu, const Strain& strain) {
   Vec3d rest[4], now[4], gradient[4];
   for (std::size_t i = 0; i < 4; ++i) {
-    rest[i] = at_rest[i];
+    rest[i] = tetrahedron_at_rest[i];
     now[i] = rest[i] + strain(rest[i]);
   }
   const double shear = TetrahedronShear::evaluate<double>(now, TetrahedronShear::measure<double>(rest), gradient);
@@ -54,7 +52,7 @@ TEST(Elasticity, EnergyOfALargeStrainIsThatOfTheStableNeoHookeanSolid) {
 
 TEST(Elasticity, NearRestAFloatSeesStrainsOfAMillionth) {
   Vec3f rest[4], now[4], gradient[4];
-  for (std::size_t i = 0; i < 4; ++i) rest[i] = convert<float>(at_rest[i]);
+  for (std::size_t i = 0; i < 4; ++i) rest[i] = convert<float>(tetrahedron_at_rest[i]);
   const auto params = TetrahedronShear::measure<float>(rest);
   for (const float e : {1e-4f, 1e-5f, 3e-6f}) {
     for (std::size_t i = 0; i < 4; ++i) now[i] = rest[i] + Vec3f{e * rest[i].y, 0, 0};

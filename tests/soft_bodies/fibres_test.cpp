@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr double side = 0.1, length_at_rest = 0.6, modulus = 1e5;
+constexpr double muscle_side = 0.1, length_at_rest = 0.6, muscle_modulus = 1e5;
 constexpr float mass_density = 100;
 
 /// A bar that hangs from its top, with fibres along it, and a load at its lower end.
@@ -32,10 +32,10 @@ struct Muscle {
 
 Muscle muscle_of(const Fibres& fibres, double load, int substeps = 160) {
   SoftBodyOptions options;
-  options.material = solid_of(static_cast<float>(modulus), 0.3f, mass_density);
+  options.material = solid_of(static_cast<float>(muscle_modulus), 0.3f, mass_density);
   options.fibres = fibres;
-  TetrahedralMesh mesh =
-      box_tetrahedra({static_cast<float>(side), static_cast<float>(length_at_rest), static_cast<float>(side)}, {2, 12, 2});
+  TetrahedralMesh mesh = box_tetrahedra(
+      {static_cast<float>(muscle_side), static_cast<float>(length_at_rest), static_cast<float>(muscle_side)}, {2, 12, 2});
   for (Vec3f& p : mesh.positions) p.y -= static_cast<float>(length_at_rest / 2);
   Object object = make_soft_body(mesh, options);
   object.collides = false;
@@ -57,8 +57,8 @@ Muscle muscle_of(const Fibres& fibres, double load, int substeps = 160) {
 
 /// The stretch of a bar in which the fibres pull against the solid, and a load and half its own weight bear on both, to first order.
 double stretch_of(double fibre_modulus, double rest, double load) {
-  const double stress = load / (side * side) + 10 * static_cast<double>(mass_density) * length_at_rest / 2;
-  return 1 + (stress - fibre_modulus * (1 - rest)) / (modulus + fibre_modulus);
+  const double stress = load / (muscle_side * muscle_side) + 10 * static_cast<double>(mass_density) * length_at_rest / 2;
+  return 1 + (stress - fibre_modulus * (1 - rest)) / (muscle_modulus + fibre_modulus);
 }
 
 TEST(Fibres, StiffenABarAlongThem) {

@@ -18,12 +18,11 @@ namespace {
 using namespace testing_support;
 
 constexpr double lambda = 3, mu = 2;
-const std::array<Vec3d, 4> at_rest{Vec3d{0, 0, 0}, Vec3d{1.1, 0.1, 0}, Vec3d{0.2, 0.9, -0.1}, Vec3d{0, 0.3, 1.2}};
 
 template <class T>
 double value_of(const std::array<Vec3d, 4>& places) {
   Vec3d rest[4], now[4], gradient[4];
-  std::copy(at_rest.begin(), at_rest.end(), rest);
+  std::copy(tetrahedron_at_rest.begin(), tetrahedron_at_rest.end(), rest);
   std::copy(places.begin(), places.end(), now);
   return T::evaluate(now, T::template measure<double>(rest), gradient);
 }
@@ -32,14 +31,14 @@ double value_of(const std::array<Vec3d, 4>& places) {
 template <class Move>
 double corotational(const Move& move) {
   std::array<Vec3d, 4> now{};
-  std::transform(at_rest.begin(), at_rest.end(), now.begin(), move);
+  std::transform(tetrahedron_at_rest.begin(), tetrahedron_at_rest.end(), now.begin(), move);
   return 0.5 * mu * std::pow(value_of<CorotationalStrain>(now), 2) +
          0.5 * lambda * std::pow(value_of<TetrahedronVolume>(now), 2);
 }
 template <class Move>
 double st_venant_kirchhoff(const Move& move) {
   std::array<Vec3d, 4> now{};
-  std::transform(at_rest.begin(), at_rest.end(), now.begin(), move);
+  std::transform(tetrahedron_at_rest.begin(), tetrahedron_at_rest.end(), now.begin(), move);
   return 0.5 * mu * std::pow(value_of<GreenStrain>(now), 2) + 0.5 * lambda * std::pow(value_of<GreenTrace>(now), 2);
 }
 

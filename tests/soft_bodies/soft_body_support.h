@@ -18,6 +18,9 @@
 
 namespace pliant::testing_support {
 
+inline const std::array<Vec3d, 4> tetrahedron_at_rest{Vec3d{0, 0, 0}, Vec3d{1.1, 0.1, 0}, Vec3d{0.2, 0.9, -0.1},
+                                                      Vec3d{0, 0.3, 1.2}};
+
 inline ElasticSolid solid_of(float youngs_modulus, float poisson_ratio, float density = 1000) {
   ElasticSolid solid;
   solid.density = density;

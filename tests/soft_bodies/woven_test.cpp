@@ -19,7 +19,7 @@ namespace {
 
 using testing_support::refusal;
 
-constexpr double g = 9.81;
+constexpr double gravity = 9.81;
 
 ClothOptions woven(float warp, float weft, float shear, const Vec3f& direction) {
   ClothOptions options;
@@ -109,7 +109,7 @@ double hangs_longer(const ClothOptions& options, int rows, int substeps) {
   std::vector<int> top;
   for (int i = 0; i < (rows - 1) / 10 + 1; ++i) top.push_back(i);
   scene.pin(cloth, top);
-  scene.gravity = {0, 0, static_cast<float>(g)};  // along the strip
+  scene.gravity = {0, 0, static_cast<float>(gravity)};  // along the strip
   scene.objects[0].damping = 4;
   scene.settings.threads = 1;
   scene.settings.substeps = substeps;
@@ -123,20 +123,20 @@ double hangs_longer(const ClothOptions& options, int rows, int substeps) {
 
 /// Its own weight stretches it by rho g L^2 / (2 Y).
 TEST(WovenCloth, HangsByItsModulus) {
-  const double of_warp = 0.12 * g / (2 * 60), of_weft = 0.12 * g / (2 * 25);
+  const double of_warp = 0.12 * gravity / (2 * 60), of_weft = 0.12 * gravity / (2 * 25);
   EXPECT_NEAR(hangs_longer(woven(60, 25, 8, {0, 0, 1}), 31, 120), of_warp, 0.02 * of_warp);
   EXPECT_NEAR(hangs_longer(woven(60, 25, 8, {1, 0, 0}), 31, 120), of_weft, 0.02 * of_weft);
 }
 
 TEST(WovenCloth, HangsAlikeOnAnyMesh) {
-  const double of_warp = 0.12 * g / (2 * 60);
+  const double of_warp = 0.12 * gravity / (2 * 60);
   for (const int rows : {21, 41, 61})
     EXPECT_NEAR(hangs_longer(woven(60, 25, 8, {0, 0, 1}), rows, 4 * rows), of_warp, 0.02 * of_warp) << rows;
 }
 
 /// Cut on the bias, at 45 degrees, 1 / Y = (1 / Y1 + 1 / Y2 + 1 / G) / 4: shear lets it stretch.
 TEST(WovenCloth, StretchesOnTheBiasByItsShear) {
-  const double modulus = 4 / (1. / 200 + 1. / 200 + 1. / 15), expected = 0.12 * g / (2 * modulus);
+  const double modulus = 4 / (1. / 200 + 1. / 200 + 1. / 15), expected = 0.12 * gravity / (2 * modulus);
   EXPECT_NEAR(hangs_longer(woven(200, 200, 15, {1, 0, 1}), 41, 160), expected, 0.06 * expected);
 }
 
