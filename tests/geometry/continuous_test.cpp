@@ -15,20 +15,17 @@
 
 #include "apps/validate/query_sets.h"
 #include "geometry/double_double.h"
+#include "geometry/geometry_support.h"
 #include "support/paths.h"
 
 namespace pliant {
 namespace {
 
+using testing_support::random_point;
+
 struct Motion4 {
   Vec3d from[4], to[4];
 };
-
-Vec3d random_point(std::mt19937_64& random, double range) {
-  std::uniform_real_distribution<double> uniform(-range, range);
-  const double x = uniform(random), y = uniform(random), z = uniform(random);
-  return {x, y, z};
-}
 
 /// Random corners with the difficulty that `kind` selects.
 Motion4 random_motion(std::mt19937_64& random, int kind) {

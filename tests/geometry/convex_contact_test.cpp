@@ -15,7 +15,7 @@ namespace {
 
 using Kind = ConvexShape::Kind;
 
-const Quatd quarter{0, 0, std::sqrt(0.5), std::sqrt(0.5)};  // about z: a thing along y lies along x
+const Quatd quarter_turn{0, 0, std::sqrt(0.5), std::sqrt(0.5)};  // about z: a thing along y lies along x
 
 class Contact : public testing::Test {
  protected:
@@ -53,7 +53,7 @@ TEST_F(Contact, ABallTouchesAtOnePoint) {
 TEST_F(Contact, ACapsuleTouchesAtOnePointStandingAndTwoLying) {
   const ConvexShape capsule{Kind::segment, 0.1f, 0, 0.4f, nullptr};
   expect_all_at(on_floor(capsule, 0.5), 1, -0.001);
-  const Touch lying = on_floor(capsule, 0.1, quarter);
+  const Touch lying = on_floor(capsule, 0.1, quarter_turn);
   expect_all_at(lying, 2, -0.001);
   EXPECT_NEAR(widest(lying), 0.8, 1e-5);
 }
@@ -63,7 +63,7 @@ TEST_F(Contact, ACylinderTouchesAtFourPointsStandingAndTwoLying) {
   const Touch standing = on_floor(cylinder, 0.5);
   expect_all_at(standing, 4, -0.001);
   EXPECT_NEAR(widest(standing), 0.6, 1e-5);
-  const Touch lying = on_floor(cylinder, 0.3, quarter);
+  const Touch lying = on_floor(cylinder, 0.3, quarter_turn);
   expect_all_at(lying, 2, -0.001);
   EXPECT_NEAR(widest(lying), 1, 1e-5);
 }
@@ -94,7 +94,7 @@ TEST_F(Contact, AHullsFrameDoesNotMatter) {
 
 TEST_F(Contact, WhatHangsOverTouchesOnlyAbove) {
   const ConvexShape cylinder{Kind::cylinder, 0, 0.3f, 0.5f, nullptr};
-  const Touch found = touch(floor_, cylinder, {{4.9, 1.3, 0}, quarter}, 0.01);
+  const Touch found = touch(floor_, cylinder, {{4.9, 1.3, 0}, quarter_turn}, 0.01);
   ASSERT_EQ(found.count, 2);
   EXPECT_NEAR(widest(found), 0.6, 1e-5) << "from 4.4 to the slab's end at 5";
 }

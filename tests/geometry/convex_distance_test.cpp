@@ -17,9 +17,9 @@ namespace {
 
 using Kind = ConvexShape::Kind;
 
-class Random {
+class RandomPoses {
  public:
-  explicit Random(int seed) : random_(static_cast<std::uint64_t>(seed)) {}
+  explicit RandomPoses(int seed) : random_(static_cast<std::uint64_t>(seed)) {}
   double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
   Vec3d vector(double range) {
     const double x = number(-range, range), y = number(-range, range), z = number(-range, range);
@@ -37,7 +37,7 @@ class Random {
 float real(double value) { return static_cast<float>(value); }
 
 /// Any solid; `boxes` keeps its polyhedron.
-ConvexShape draw(Random& random, Polyhedron& kept) {
+ConvexShape draw(RandomPoses& random, Polyhedron& kept) {
   const int kind = static_cast<int>(random.number(0, 5));
   ConvexShape shape;
   shape.kind = static_cast<Kind>(kind);
@@ -57,7 +57,7 @@ double gap_along(const ConvexShape& a, const ConvexShape& b, const Posed& pose, 
 }
 
 /// How far a place is from the surface of the solid, at most, measured along many directions.
-double outside(const ConvexShape& shape, const Vec3d& place, Random& random) {
+double outside(const ConvexShape& shape, const Vec3d& place, RandomPoses& random) {
   double most = -1e30;
   for (int i = 0; i < 60; ++i) {
     const Vec3d n = unit_or(random.vector(1), Vec3d{0, 1, 0});
@@ -67,7 +67,7 @@ double outside(const ConvexShape& shape, const Vec3d& place, Random& random) {
 }
 
 TEST(ConvexDistance, IsThatOfASlabBetweenBoth) {
-  Random random(1);
+  RandomPoses random(1);
   int apart = 0, overlapping = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     Polyhedron first, second;
@@ -91,7 +91,7 @@ TEST(ConvexDistance, IsThatOfASlabBetweenBoth) {
 
 // Pairs that are farther apart than asked for may be left early, with a lower bound.
 TEST(ConvexDistance, IsTheSameWithinReachAndABoundBeyond) {
-  Random random(5);
+  RandomPoses random(5);
   int within = 0, bounds = 0;
   for (int trial = 0; trial < 5000; ++trial) {
     Polyhedron first, second;
@@ -113,7 +113,7 @@ TEST(ConvexDistance, IsTheSameWithinReachAndABoundBeyond) {
 }
 
 TEST(ConvexDistance, OfBoxesIsThatOfSeparatingAxes) {
-  Random random(2);
+  RandomPoses random(2);
   int overlapping = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     Polyhedron first, second;

@@ -9,17 +9,14 @@
 #include <set>
 
 #include "geometry/exact.h"
+#include "geometry/geometry_support.h"
 #include "geometry/mass_properties.h"
 #include "math/vector.h"
 
 namespace pliant {
 namespace {
 
-Vec3f draw(std::mt19937_64& random, double range = 1) {
-  std::uniform_real_distribution<double> uniform(-range, range);
-  const double x = uniform(random), y = uniform(random), z = uniform(random);
-  return convert<float>(Vec3d{x, y, z});
-}
+using testing_support::random_point;
 
 /// Every edge is used once in each direction, no point is outside by more than roundings, Euler's formula holds.
 void expect_hull_of(const std::vector<Vec3f>& points, const ConvexHull& hull) {
@@ -64,8 +61,9 @@ TEST(ConvexHull, OfABoxWithPointsOnAndInItHasSixFacesOfFour) {
 TEST(ConvexHull, OfATurnedBoxHasSixFacesToo) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 300; ++trial) {
-    const Quatd q = normalise(Quatd{draw(random).x, draw(random).y, draw(random).z, draw(random).x});
-    const Vec3d half = abs(convert<double>(draw(random))) + Vec3d{0.1, 0.1, 0.1};
+    const Quatd q = normalise(Quatd{random_point<float>(random).x, random_point<float>(random).y,
+                                    random_point<float>(random).z, random_point<float>(random).x});
+    const Vec3d half = abs(convert<double>(random_point<float>(random))) + Vec3d{0.1, 0.1, 0.1};
     std::vector<Vec3f> points;
     for (int i = 0; i < 8; ++i)
       points.push_back(convert<float>(rotate(
@@ -82,7 +80,7 @@ TEST(ConvexHull, OfRandomPointsContainsThemAll) {
   for (int trial = 0; trial < 60; ++trial) {
     std::vector<Vec3f> points;
     const int count = 4 + trial * 5;
-    for (int i = 0; i < count; ++i) points.push_back(draw(random));
+    for (int i = 0; i < count; ++i) points.push_back(random_point<float>(random));
     const auto hull = convex_hull(points);
     ASSERT_TRUE(hull.has_value());
     expect_hull_of(points, *hull);
@@ -92,7 +90,7 @@ TEST(ConvexHull, OfRandomPointsContainsThemAll) {
 TEST(ConvexHull, OfPointsOnASphereHasThemAllAsCorners) {
   std::mt19937_64 random(11);
   std::vector<Vec3f> points;
-  for (int i = 0; i < 2000; ++i) points.push_back(unit_or(draw(random), Vec3f{0, 1, 0}));
+  for (int i = 0; i < 2000; ++i) points.push_back(unit_or(random_point<float>(random), Vec3f{0, 1, 0}));
   const auto hull = convex_hull(points);
   ASSERT_TRUE(hull.has_value());
   EXPECT_GT(hull->corners.size(), 1990U);  // a few may lie in the plane of neighbours up to rounding

@@ -14,44 +14,44 @@ namespace pliant {
 namespace {
 
 __extension__ using Integer = __int128;
-using Point = std::array<Integer, 3>;
+using IntegerPoint = std::array<Integer, 3>;
 
 int sign(Integer x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Integer dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
+IntegerPoint minus(const IntegerPoint& a, const IntegerPoint& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Integer dot(const IntegerPoint& a, const IntegerPoint& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+IntegerPoint cross(const IntegerPoint& a, const IntegerPoint& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Integer volume(const Point& a, const Point& b, const Point& c, const Point& d) {
+Integer volume(const IntegerPoint& a, const IntegerPoint& b, const IntegerPoint& c, const IntegerPoint& d) {
   return dot(cross(minus(b, a), minus(c, a)), minus(d, a));
 }
-Vec3f as_floats(const Point& p, float scale = 1) {
+Vec3f as_floats(const IntegerPoint& p, float scale = 1) {
   return {static_cast<float>(p[0]) * scale, static_cast<float>(p[1]) * scale, static_cast<float>(p[2]) * scale};
 }
 
-bool fits(const Point& p) {
+bool fits(const IntegerPoint& p) {
   for (const Integer x : p)
     if (x > (1 << 24) || x < -(1 << 24)) return false;
   return true;
 }
 
-Point random_point(std::mt19937_64& random, int range) {
+IntegerPoint random_integer_point(std::mt19937_64& random, int range) {
   std::uniform_int_distribution<int> uniform(-range, range);
   const int x = uniform(random), y = uniform(random), z = uniform(random);
   return {x, y, z};
 }
 
 /// True if 0 is in the convex hull: in that of one to four of the points that are affinely independent (Caratheodory).
-bool holds_origin(const std::vector<Point>& p) {
-  const Point o{0, 0, 0};
+bool holds_origin(const std::vector<IntegerPoint>& p) {
+  const IntegerPoint o{0, 0, 0};
   const auto n = p.size();
   for (std::size_t i = 0; i < n; ++i) {
     if (p[i] == o) return true;
     for (std::size_t j = i + 1; j < n; ++j) {
-      const Point ij = cross(p[i], p[j]);
+      const IntegerPoint ij = cross(p[i], p[j]);
       if (ij == o && dot(p[i], p[j]) < 0) return true;
       for (std::size_t k = j + 1; k < n; ++k) {
-        const Point normal = cross(minus(p[j], p[i]), minus(p[k], p[i]));
+        const IntegerPoint normal = cross(minus(p[j], p[i]), minus(p[k], p[i]));
         if (normal != o && dot(normal, p[i]) == 0 && dot(ij, normal) >= 0 && dot(cross(p[j], p[k]), normal) >= 0 &&
             dot(cross(p[k], p[i]), normal) >= 0)
           return true;
@@ -68,10 +68,10 @@ bool holds_origin(const std::vector<Point>& p) {
   return false;
 }
 
-EdgeTriangle expected(const std::array<Point, 2>& e, const std::array<Point, 3>& t) {
-  std::vector<Point> differences;
-  for (const Point& end : e)
-    for (const Point& corner : t) differences.push_back(minus(end, corner));
+EdgeTriangle expected(const std::array<IntegerPoint, 2>& e, const std::array<IntegerPoint, 3>& t) {
+  std::vector<IntegerPoint> differences;
+  for (const IntegerPoint& end : e)
+    for (const IntegerPoint& corner : t) differences.push_back(minus(end, corner));
   if (!holds_origin(differences)) return EdgeTriangle::apart;
   const int sides = sign(volume(t[0], t[1], t[2], e[0])) * sign(volume(t[0], t[1], t[2], e[1]));
   const int a = sign(volume(e[0], e[1], t[0], t[1])), b = sign(volume(e[0], e[1], t[1], t[2])),
@@ -84,8 +84,9 @@ TEST(VolumeSign, IsThatOfIntegers) {
   int flat = 0;
   for (int i = 0; i < 40000; ++i) {
     const int range = i % 4 == 0 ? 2 : i % 4 == 1 ? 5 : i % 4 == 2 ? 4000 : 16000000;
-    const Point a = random_point(random, range), b = random_point(random, range), c = random_point(random, range);
-    Point d = random_point(random, range);
+    const IntegerPoint a = random_integer_point(random, range), b = random_integer_point(random, range),
+                       c = random_integer_point(random, range);
+    IntegerPoint d = random_integer_point(random, range);
     if (i % 3 == 0) d = {b[0] + c[0] - a[0], b[1] + c[1] - a[1], b[2] + c[2] - a[2]};  // in the plane
     if (i % 9 == 0) ++d[i % 2];                                                        // or just beside it
     const float scale = std::ldexp(1.f, i % 5 == 0 ? -120 : i % 5 == 1 ? 90 : 0);
@@ -118,11 +119,12 @@ TEST(EdgeMeetsTriangle, AsIntegersSay) {
   std::array<int, 3> seen{};
   for (int i = 0; i < 60000; ++i) {
     const int range = i % 3 + 1;
-    std::array<Point, 2> e{random_point(random, range), random_point(random, range)};
-    std::array<Point, 3> t{random_point(random, range), random_point(random, range), random_point(random, range)};
+    std::array<IntegerPoint, 2> e{random_integer_point(random, range), random_integer_point(random, range)};
+    std::array<IntegerPoint, 3> t{random_integer_point(random, range), random_integer_point(random, range),
+                                  random_integer_point(random, range)};
     if (i % 4 == 0) {  // all in one plane, often on one line
-      for (Point& p : e) p[i % 3] = 1;
-      for (Point& p : t) p[i % 3] = 1;
+      for (IntegerPoint& p : e) p[i % 3] = 1;
+      for (IntegerPoint& p : t) p[i % 3] = 1;
     }
     const EdgeTriangle exact = expected(e, t);
     ++seen[static_cast<std::size_t>(exact)];

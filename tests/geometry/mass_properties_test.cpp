@@ -7,16 +7,14 @@
 #include <functional>
 #include <random>
 
+#include "geometry/geometry_support.h"
+
 namespace pliant {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using testing_support::expect_near;
 
-void expect_near(const Vec3d& a, const Vec3d& b, double tolerance) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(a.z, b.z, tolerance);
-}
+constexpr double pi = 3.14159265358979323846;
 
 Quatd turn(const Vec3d& axis, double radians) {
   const Vec3d unit = axis * (1 / length(axis));

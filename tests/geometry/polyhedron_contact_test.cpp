@@ -12,9 +12,9 @@
 namespace pliant {
 namespace {
 
-class Random {
+class RandomPolyhedra {
  public:
-  explicit Random(int seed) : random_(static_cast<std::uint64_t>(seed)) {}
+  explicit RandomPolyhedra(int seed) : random_(static_cast<std::uint64_t>(seed)) {}
   float number(float range = 1) { return std::uniform_real_distribution<float>(-range, range)(random_); }
   Vec3f vector(float range = 1) {
     const float x = number(range), y = number(range), z = number(range);
@@ -62,7 +62,7 @@ double largest_gap(const Polyhedron& a, const Polyhedron& b) {
 }
 
 TEST(PolyhedronContact, TheAxisIsTheBestOfAll) {
-  Random random(1);
+  RandomPolyhedra random(1);
   int overlapping = 0, by_edges = 0;
   for (int trial = 0; trial < 3000; ++trial) {
     const Polyhedron a = random.polyhedron(), b = moved(random.polyhedron(), random.pose(1.2f));
@@ -82,7 +82,7 @@ TEST(PolyhedronContact, TheAxisIsTheBestOfAll) {
 }
 
 TEST(PolyhedronContact, PointsLieOnBothAndSeparationIsBetweenThem) {
-  Random random(2);
+  RandomPolyhedra random(2);
   int touching = 0;
   for (int trial = 0; trial < 3000; ++trial) {
     const Polyhedron a = random.polyhedron(), b = moved(random.polyhedron(), random.pose(1.2f));
@@ -120,7 +120,7 @@ TEST(PolyhedronContact, PointsLieOnBothAndSeparationIsBetweenThem) {
 
 /// Slim hulls may meet beside the face that separates them best; what overlaps touches all the same.
 TEST(PolyhedronContact, SlimHullsThatOverlapTouch) {
-  Random random(9);
+  RandomPolyhedra random(9);
   int overlapping = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     const auto slim = [&] {

@@ -8,8 +8,13 @@
 #include <random>
 #include <vector>
 
+#include "geometry/geometry_support.h"
+
 namespace pliant {
 namespace {
+
+using testing_support::expect_near;
+using testing_support::random_point;
 
 constexpr LocalShape kPlane{ShapeKind::plane, 0, 0, 0};
 
@@ -28,13 +33,6 @@ const std::vector<LocalShape>& shapes() {
   return all;
 }
 
-template <class R>
-void expect_near(const Vec3<R>& a, const Vec3<R>& b, double tolerance) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(a.z, b.z, tolerance);
-}
-
 void expect_distance(const LocalShape& shape, const Vec3d& p, double distance, const Vec3d& normal) {
   const auto found = signed_distance(shape, p);
   EXPECT_NEAR(found.distance, distance, 1e-7);
@@ -42,12 +40,6 @@ void expect_distance(const LocalShape& shape, const Vec3d& p, double distance, c
   const auto single = signed_distance(shape, convert<float>(p));
   EXPECT_NEAR(single.distance, distance, 1e-6);
   expect_near(single.normal, convert<float>(normal), 1e-6);
-}
-
-Vec3d random_point(std::mt19937_64& random, double range) {
-  std::uniform_real_distribution<double> uniform(-range, range);
-  const double x = uniform(random), y = uniform(random), z = uniform(random);
-  return {x, y, z};
 }
 
 TEST(SignedDistance, KnowsPlaneSphereAndCapsule) {

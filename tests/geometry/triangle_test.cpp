@@ -10,21 +10,13 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/geometry_support.h"
+
 namespace pliant {
 namespace {
 
-template <class R>
-Vec3<R> random_point(std::mt19937_64& random, double range = 1) {
-  std::uniform_real_distribution<double> uniform(-range, range);
-  const double x = uniform(random), y = uniform(random), z = uniform(random);
-  return convert<R>(Vec3d{x, y, z});
-}
-
-void expect_near(const Vec3d& a, const Vec3d& b, double tolerance = 1e-12) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(a.z, b.z, tolerance);
-}
+using testing_support::expect_near;
+using testing_support::random_point;
 
 /// By how much a point fails the condition [m].
 double excess(const Vec3d& p, const Vec3d& r, const Vec3d (&corners)[3]) {

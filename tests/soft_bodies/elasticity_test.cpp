@@ -16,7 +16,6 @@ using namespace testing_support;
 
 // ------------------------------------------------------------------------------------------------ energy
 
-
 /// The elastic energy per volume of both constraints in a tetrahedron that is deformed by x + strain(x).
 template <class Strain>
 double energy_density(double lambda, double mu, const Strain& strain) {
