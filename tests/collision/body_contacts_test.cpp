@@ -14,7 +14,7 @@ namespace {
 
 constexpr float dt = 1.f / 60;
 
-class Scene {
+class BodyScene {
  public:
   std::vector<BodyState> states;
   std::vector<BodyContact> contacts;
@@ -47,15 +47,15 @@ class Scene {
 };
 
 /// Two pairs of balls, far from one another.
-Scene two_pairs() {
-  Scene scene;
+BodyScene two_pairs() {
+  BodyScene scene;
   for (const double x : {0., 0.202, 10., 10.202}) scene.add_ball(0.1f, {x, 0, 0});
   scene.update();
   return scene;
 }
 
 TEST(BodyContacts, OnlyThoseOfRenewedBodiesAreFoundAgain) {
-  Scene scene = two_pairs();
+  BodyScene scene = two_pairs();
   ASSERT_EQ(scene.contacts.size(), 2u);
   for (const int i : {1, 3}) scene.states[std::size_t(i)].pose.position += Vec3d{-0.001, 0.03, 0};
   scene.renew({0, 1, 0, 0});
@@ -66,7 +66,7 @@ TEST(BodyContacts, OnlyThoseOfRenewedBodiesAreFoundAgain) {
 }
 
 TEST(BodyContacts, ThoseOfOthersAreFoundAgainIfTheyMovedFar) {
-  Scene scene = two_pairs();
+  BodyScene scene = two_pairs();
   scene.states[1].pose.position.y += 0.005;
   scene.states[3].pose.position.y += 0.015;
   scene.renew({0, 0, 0, 0}, 0.1f);
@@ -76,7 +76,7 @@ TEST(BodyContacts, ThoseOfOthersAreFoundAgainIfTheyMovedFar) {
 }
 
 TEST(BodyContacts, ARenewedBodyMeetsWhatWasOutOfReach) {
-  Scene scene = two_pairs();
+  BodyScene scene = two_pairs();
   scene.states[1].velocity = {600, 0, 0};
   scene.renew({0, 0, 0, 0});
   EXPECT_EQ(scene.contacts.size(), 2u);
@@ -90,7 +90,7 @@ TEST(BodyContacts, ARenewedBodyMeetsWhatWasOutOfReach) {
 TEST(BodyContacts, RenewedOnesAreThoseOfANewSearch) {
   for (const int every : {10, 2, 1}) {
     testing_support::Random random(7);
-    Scene once, again;
+    BodyScene once, again;
     std::vector<char> of;
     for (int i = 0; i < 400; ++i) {
       const Vec3d at = testing_support::random_place(random, 1);
@@ -123,23 +123,23 @@ TEST(BodyContacts, RenewedOnesAreThoseOfANewSearch) {
 
 /// A State that is restored has a new tree of boxes, and goes on with the same bits.
 void expect_the_same_with_an_old_tree(bool again) {
-  Scene fresh, old;
+  BodyScene fresh, old;
   std::vector<char> of{1};
-  for (Scene* scene : {&fresh, &old}) {
+  for (BodyScene* scene : {&fresh, &old}) {
     testing_support::Random random(7);
     scene->add_ground(-1.2);
     for (int i = 0; i < 400; ++i) scene->add_ball(0.1f, testing_support::random_place(random, 1));
   }
   for (int i = 0; i < 400; ++i)
     of.push_back(i % 4 == 0 ? 1 : 0);  // so many that with a new tree, which they leave, it is not asked
-  const auto set_speed = [&](Scene& scene, float speed) {
+  const auto set_speed = [&](BodyScene& scene, float speed) {
     for (std::size_t i = 1; i < of.size(); ++i)
       if (of[i] != 0) scene.states[i].velocity = {speed, 0.5f * speed, 0};
   };
   set_speed(old, 30);
   old.update();
   old.contacts.clear();
-  for (Scene* scene : {&fresh, &old}) {
+  for (BodyScene* scene : {&fresh, &old}) {
     set_speed(*scene, 0);
     scene->update();
     scene->states[0].pose.position.y = -0.9;

@@ -12,7 +12,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-struct Boxes {
+struct BoxFamilies {
   std::vector<BoxBounds> boxes;
   std::vector<int> family;
 
@@ -26,10 +26,10 @@ struct Boxes {
 };
 
 /// Boxes at random places; `sizes` has the number of those without a family, then of each family.
-Boxes random_boxes(const std::vector<int>& sizes, unsigned seed) {
+BoxFamilies random_boxes(const std::vector<int>& sizes, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> place(0, 1), size(0.01f, 0.1f);
-  Boxes out;
+  BoxFamilies out;
   for (int family = 0; family < static_cast<int>(sizes.size()); ++family)
     out.family.insert(out.family.end(), static_cast<std::size_t>(sizes[static_cast<std::size_t>(family)]), family - 1);
   std::shuffle(out.family.begin(), out.family.end(), random);
@@ -40,7 +40,7 @@ Boxes random_boxes(const std::vector<int>& sizes, unsigned seed) {
   return out;
 }
 
-Pairs all_pairs(const Boxes& of) {
+Pairs all_pairs(const BoxFamilies& of) {
   Pairs out;
   for (int i = 0; i < static_cast<int>(of.boxes.size()); ++i)
     for (int j = i + 1; j < static_cast<int>(of.boxes.size()); ++j)
@@ -51,7 +51,7 @@ Pairs all_pairs(const Boxes& of) {
 TEST(BodyCrowds, FindThePairsOfAllButFamilies) {
   for (const std::vector<int>& sizes :
        {std::vector<int>{300}, {0, 200}, {1, 500}, {200, 100, 150}, {50, 20, 300}, {0, 70, 80, 90}}) {
-    const Boxes of = random_boxes(sizes, 7);
+    const BoxFamilies of = random_boxes(sizes, 7);
     BodyCrowds crowds(of.family);
     crowds.build(of.boxes);
     Pairs found;
@@ -70,7 +70,7 @@ TEST(BodyCrowds, FindThePairsOfAllButFamilies) {
 }
 
 TEST(BodyCrowds, AQueryFindsAllButTheOwnFamily) {
-  const Boxes of = random_boxes({100, 150, 30}, 3);
+  const BoxFamilies of = random_boxes({100, 150, 30}, 3);
   BodyCrowds crowds(of.family);
   crowds.build(of.boxes);
   for (int i = 0; i < static_cast<int>(of.boxes.size()); ++i) {

@@ -9,19 +9,20 @@
 #include <random>
 
 #include "collision/narrow/contact.h"
+#include "collision/points_support.h"
 #include "pliant/mesh.h"
 
 namespace pliant {
 namespace {
 
-using Random = std::mt19937;
+using testing_support::is_inside;
 
-Vec3f random_vector(Random& random, float size) {
+Vec3f random_vector(std::mt19937& random, float size) {
   std::uniform_real_distribution<float> unit(-size, size);
   return {unit(random), unit(random), unit(random)};
 }
 
-Records random_points(Random& random, int count, float size) {
+Records random_points(std::mt19937& random, int count, float size) {
   Records points;
   for (int i = 0; i < count; ++i) {
     const Vec3f p = random_vector(random, size);
@@ -31,7 +32,7 @@ Records random_points(Random& random, int count, float size) {
 }
 
 /// Moves all points at random. Returns by how much the fastest one moved.
-float shake(Random& random, float size, Records& points) {
+float shake(std::mt19937& random, float size, Records& points) {
   float fastest = 0;
   for (Record& p : points) {
     const Vec3f by = random_vector(random, size), to = Vec3f{p.x, p.y, p.z} + by;
@@ -43,10 +44,8 @@ float shake(Random& random, float size, Records& points) {
 
 bool has(const NearPoints::List& list, int i) { return std::binary_search(list.points.begin(), list.points.end(), i); }
 
-bool is_inside(const Record& p, const BoxBounds& box) { return overlap(BoxBounds{{p.x, p.y, p.z}, {p.x, p.y, p.z}}, box); }
-
 TEST(NearPoints, HaveAllPointsInABoxWhileBothMove) {
-  Random random(7);
+  std::mt19937 random(7);
   Records points = random_points(random, 3000, 1);
   NearPoints near;
   float moved = std::numeric_limits<float>::infinity();
@@ -67,7 +66,7 @@ TEST(NearPoints, HaveAllPointsInABoxWhileBothMove) {
 }
 
 TEST(NearPoints, KeepAListWhileLittleMoves) {
-  Random random(8);
+  std::mt19937 random(8);
   Records points = random_points(random, 100, 1);
   NearPoints near;
   const BoxBounds box{{-0.5f, -0.5f, -0.5f}, {0.5f, 0.5f, 0.5f}};
@@ -80,7 +79,7 @@ TEST(NearPoints, KeepAListWhileLittleMoves) {
 }
 
 TEST(NearPoints, KeepWhatIsKnownOfPointsThatStayNear) {
-  Random random(9);
+  std::mt19937 random(9);
   Records points = random_points(random, 100, 1);
   NearPoints near;
   near.begin_substep(points.data(), 0, 100, std::numeric_limits<float>::infinity());
@@ -96,7 +95,7 @@ TEST(NearPoints, KeepWhatIsKnownOfPointsThatStayNear) {
 }
 
 TEST(NearPoints, ForgetListsOfCollidersThatAreFar) {
-  Random random(10);
+  std::mt19937 random(10);
   Records points = random_points(random, 100, 1);
   NearPoints near;
   near.begin_substep(points.data(), 0, 100, std::numeric_limits<float>::infinity());
@@ -119,7 +118,7 @@ struct Cloud {
   SolidField cone;
   std::vector<MovingCollider> solids;
 
-  explicit Cloud(Random& random) : cone(DistanceGrid(measure_distances(sphere_mesh(2), 0.15f))) {
+  explicit Cloud(std::mt19937& random) : cone(DistanceGrid(measure_distances(sphere_mesh(2), 0.15f))) {
     object.thickness = 0.02f;
     positions = random_points(random, first + count, 1.6f);
     displacements.resize(positions.size());
@@ -133,7 +132,7 @@ struct Cloud {
   }
 
   /// A substep in which particles move by up to `size` and solids along with them. Returns the fastest particle's displacement.
-  float begin_substep(Random& random, float size) {
+  float begin_substep(std::mt19937& random, float size) {
     float fastest = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const Vec3f by = random_vector(random, size), v = by * (1 / h);
@@ -189,7 +188,7 @@ struct Cloud {
 };
 
 TEST(NearPoints, GiveTheContactsOfAllParticles) {
-  Random random(11);
+  std::mt19937 random(11);
   Cloud cloud(random);
   NearPoints near;
   float moved = std::numeric_limits<float>::infinity();

@@ -12,7 +12,7 @@
 namespace pliant {
 namespace {
 
-constexpr float reach = 0.1f;
+constexpr float search_radius = 0.1f;
 
 std::vector<Record> cloud(int count, float size, unsigned seed) {
   std::mt19937 random(seed);
@@ -31,7 +31,7 @@ std::vector<std::vector<int>> by_brute_force(const std::vector<Record>& points) 
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = 0; j < points.size(); ++j) {
       const float dx = points[i].x - points[j].x, dy = points[i].y - points[j].y, dz = points[i].z - points[j].z;
-      if (i != j && dx * dx + dy * dy + dz * dz <= reach * reach) found[i].push_back(static_cast<int>(j));
+      if (i != j && dx * dx + dy * dy + dz * dz <= search_radius * search_radius) found[i].push_back(static_cast<int>(j));
     }
   return found;
 }
@@ -40,7 +40,7 @@ std::vector<std::vector<int>> by_lists(const std::vector<Record>& points, const 
                                        int threads = 1) {
   Executor executor(threads);
   NeighbourLists lists;
-  lists.find(executor, kernels, points, reach);
+  lists.find(executor, kernels, points, search_radius);
   const std::vector<std::int32_t>& order = lists.order().points();
   std::vector<std::vector<int>> found(points.size());
   for (int slot = 0; slot < lists.slots(); ++slot) {
@@ -106,7 +106,7 @@ TEST(Neighbours, AreFoundBesideThousandsOfCandidatesThatAreNone) {
     for (const int threads : {1, 3}) {
       Executor executor(threads);
       NeighbourLists lists;
-      lists.find(executor, level.kernels(), points, reach);
+      lists.find(executor, level.kernels(), points, search_radius);
       EXPECT_EQ(lists.left_out(), crowd) << level.name;
       EXPECT_EQ(lists.group(0).rows, most_neighbours) << level.name;
       ASSERT_EQ(lists.group(563).rows, 7) << level.name;
@@ -136,7 +136,7 @@ TEST(Neighbours, BeyondTheLargestNumberAreCounted) {
   for (const Level& level : levels()) {
     Executor executor(1);
     NeighbourLists lists;
-    lists.find(executor, level.kernels(), points, reach);
+    lists.find(executor, level.kernels(), points, search_radius);
     EXPECT_EQ(lists.left_out(), most_neighbours + 44) << level.name;
     EXPECT_EQ(lists.group(0).rows, most_neighbours) << level.name;
   }
@@ -149,10 +149,10 @@ TEST(Neighbours, ConsecutiveSlotsOfALiquidLieTogether) {
       for (float x = 0; x < 60; ++x) points.push_back({0.05f * x, 0.05f * y, 0.05f * z, 0});
   Executor executor(1);
   CellOrder order;
-  order.sort(executor, points, reach);
+  order.sort(executor, points, search_radius);
   for (std::size_t slot = 1; slot < points.size(); ++slot) {
     const Record &a = points[order.points()[slot - 1]], &b = points[order.points()[slot]];
-    EXPECT_LT(std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}), 2 * reach) << slot;
+    EXPECT_LT(std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)}), 2 * search_radius) << slot;
   }
 }
 
@@ -160,9 +160,9 @@ TEST(Neighbours, OfAStrayPointCostNoMemory) {
   std::vector<Record> points = cloud(2000, 1, 9);
   Executor executor(1);
   NeighbourLists near, stray;
-  near.find(executor, PLIANT_OF_BASE_LEVEL(neighbour_kernels)(), points, reach);
+  near.find(executor, PLIANT_OF_BASE_LEVEL(neighbour_kernels)(), points, search_radius);
   points.back() = {9000, -4000, 2e4f, 0};
-  stray.find(executor, PLIANT_OF_BASE_LEVEL(neighbour_kernels)(), points, reach);
+  stray.find(executor, PLIANT_OF_BASE_LEVEL(neighbour_kernels)(), points, search_radius);
   EXPECT_LT(stray.bytes(), near.bytes() + near.bytes() / 4);
 }
 

@@ -8,17 +8,21 @@
 #include <random>
 #include <vector>
 
+#include "collision/random_support.h"
 #include "math/vector.h"
 
 namespace pliant {
 namespace {
 
-using Random = std::mt19937_64;
+using testing_support::Random;
 
-float uniform(Random& random, float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); }
+float uniform_float(Random& random, float low, float high) {
+  return std::uniform_real_distribution<float>(low, high)(random);
+}
 
 Record random_record(Random& random, float range, float w = 0) {
-  const float x = uniform(random, -range, range), y = uniform(random, -range, range), z = uniform(random, -range, range);
+  const float x = uniform_float(random, -range, range), y = uniform_float(random, -range, range),
+              z = uniform_float(random, -range, range);
   return {x, y, z, w};
 }
 
@@ -34,7 +38,7 @@ Four random_four(Random& random, bool free) {
   four.pair.first_side = random() % 2 == 0 ? 1 : 2;
   for (int i = 0; i < 4; ++i) {
     const bool fixed = !free && random() % 3 == 0;
-    four.positions.push_back(random_record(random, 1, fixed ? 0.f : uniform(random, 0.1f, 10)));
+    four.positions.push_back(random_record(random, 1, fixed ? 0.f : uniform_float(random, 0.1f, 10)));
     four.displacements.push_back(random_record(random, 0.5f));
     four.remainders.push_back(random_record(random, 1e-6f));
     four.velocities.push_back(random_record(random, 5));
@@ -107,14 +111,14 @@ TEST(PairDistance, IsTheSameInLanesAndInDouble) {
 
 /// Edges at angles from 10^-5 and triangles with heights from 10^-6 of their length, 10^-5 to 10^-2 apart.
 void hard_to_tell(Random& random, bool edges, std::vector<Record>& four) {
-  const auto power = [&](float low) { return std::pow(10.f, uniform(random, low, -1)); };
-  const float apart = power(-5), angle = power(-5), at = uniform(random, -1, 1), reach = edges ? power(-2) * 10 : 0;
+  const auto power = [&](float low) { return std::pow(10.f, uniform_float(random, low, -1)); };
+  const float apart = power(-5), angle = power(-5), at = uniform_float(random, -1, 1), reach = edges ? power(-2) * 10 : 0;
   const Record a = random_record(random, apart), b = random_record(random, apart);
   const Record turned = random_record(random, angle * reach);
   four = {{at + a.x, a.y, a.z, 1}, {-1, 0, 0, 1}, {1, 0, 0, 1}, {at, power(-6), 0, 1}};
   if (edges) four = {{-1, 0, 0, 1}, {1, 0, 0, 1}, four[0], {at + reach + b.x, b.y + turned.y, b.z + turned.z, 1}};
   if (edges && random() % 2 == 0) std::swap(four[0], four[2]), std::swap(four[1], four[3]);
-  const Vec3f turn{uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+  const Vec3f turn{uniform_float(random, -1, 1), uniform_float(random, -1, 1), uniform_float(random, -1, 1)};
   for (Record& r : four) {
     const Vec3f p{r.x, r.y, r.z}, q = p + cross(turn, p) * 0.5f;
     r = {q.x, q.y, q.z, r.w};

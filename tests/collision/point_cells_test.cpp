@@ -7,8 +7,12 @@
 #include <cstddef>
 #include <random>
 
+#include "collision/points_support.h"
+
 namespace pliant {
 namespace {
+
+using testing_support::is_inside;
 
 std::vector<Record> random_points(int count, Vec3f size, unsigned seed) {
   std::mt19937 random(seed);
@@ -17,11 +21,6 @@ std::vector<Record> random_points(int count, Vec3f size, unsigned seed) {
   for (int i = 0; i < count; ++i)
     points.push_back({unit(random) * size.x, unit(random) * size.y, unit(random) * size.z, 1});
   return points;
-}
-
-bool is_inside(const Record& p, const BoxBounds& box) {
-  return p.x >= box.low.x && p.y >= box.low.y && p.z >= box.low.z && p.x <= box.high.x && p.y <= box.high.y &&
-         p.z <= box.high.z;
 }
 
 /// Every point in a box is found, once, in ascending order; those beside it by less than two cells are all that is found besides.
