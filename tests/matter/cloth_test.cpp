@@ -12,11 +12,12 @@
 #include "constraints/traits.h"
 #include "pliant/error.h"
 #include "pliant/scene.h"
+#include "support/nonfinite.h"
 
 namespace pliant {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using testing_support::infinity;
 
 Vec3d in_double(const Vec3f& p) { return {p.x, p.y, p.z}; }
 

@@ -7,11 +7,12 @@
 
 #include "pliant/error.h"
 #include "pliant/material.h"
+#include "support/nonfinite.h"
 
 namespace pliant {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+using testing_support::infinity;
 
 /// A particle of mass 1 / w on a spring to the origin (C = x), in double, without gravity. If `inertia` is false, it
 /// stops in every substep.

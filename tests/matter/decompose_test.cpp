@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "geometry/convex_hull.h"
@@ -14,7 +15,7 @@
 namespace pliant {
 namespace {
 
-constexpr double pi = 3.14159265358979324;
+using std::numbers::pi;
 
 /// A prism: a polygon in the xy-plane, counter-clockwise, from z = 0 to `depth`; `fan` has its triangles.
 TriangleMesh prism(const std::vector<std::array<float, 2>>& polygon, const std::vector<std::array<int, 3>>& fan,

@@ -17,7 +17,7 @@ namespace pliant {
 namespace {
 
 using testing_support::random_vector;
-using Pairs = std::set<std::pair<int, int>>;
+using PairSet = std::set<std::pair<int, int>>;
 
 struct Moving {
   std::vector<Vec3f> from, to;
@@ -50,8 +50,8 @@ CandidateFinder finder_of(const Moving& m) {
       make_contact_elements(m.triangles, m.loose_edges, m.loose_vertices, static_cast<int>(m.from.size())));
 }
 
-Pairs as_set(const IntLists& lists) {
-  Pairs pairs;
+PairSet as_set(const IntLists& lists) {
+  PairSet pairs;
   for (int i = 0; i + 1 < static_cast<int>(lists.start.size()); ++i) {
     for (const int* item = lists.begin(i); item != lists.end(i); ++item) {
       EXPECT_TRUE(item == lists.begin(i) || item[-1] < item[0]) << "sorted, none twice";
@@ -79,7 +79,7 @@ TEST(Candidates, AreExactlyTheBoxesThatOverlapAndShareNoVertex) {
     const float radius = i % 2 == 0 ? 0.02f : 0.2f;
     CandidateFinder finder = finder_of(m);
     finder.find(executor, m.from, m.to, radius);
-    Pairs vertex_triangles, edge_edges;
+    PairSet vertex_triangles, edge_edges;
     std::set<int> vertices(m.loose_vertices.begin(), m.loose_vertices.end());
     for (const auto& t : m.triangles) vertices.insert(t.begin(), t.end());
     for (const auto& e : m.loose_edges) vertices.insert(e.begin(), e.end());
@@ -113,7 +113,7 @@ TEST(Candidates, HoldEveryPairThatComesWithinTheRadius) {
     const double radius = 0.1;
     CandidateFinder finder = finder_of(m);
     finder.find(executor, m.from, m.to, static_cast<float>(radius));
-    const Pairs found = as_set(finder.vertex_triangles());
+    const PairSet found = as_set(finder.vertex_triangles());
     for (std::size_t v = 0; v < m.from.size(); ++v)
       for (std::size_t t = 0; t < m.triangles.size(); ++t) {
         const auto& corners = m.triangles[t];

@@ -18,7 +18,7 @@ namespace {
 
 using EdgeList = std::vector<std::array<int, 2>>;
 
-EdgeList edges_of(const TriangleMesh& mesh) {
+EdgeList edge_list_of(const TriangleMesh& mesh) {
   EdgeList list;
   for (const Edge& edge : find_edges(mesh.triangles, static_cast<int>(mesh.positions.size())))
     list.push_back({edge.a, edge.b});
@@ -51,7 +51,7 @@ void expect_sound(const std::vector<Vec3f>& positions, const EdgeList& edges) {
 TEST(Paths, of_a_grid_are_diagonals_then_rows_and_columns) {
   constexpr int n = 9;
   const TriangleMesh mesh = grid_mesh(n, n, 1, 1);
-  const std::vector<PathColour> colours = lay_paths(mesh.positions, edges_of(mesh));
+  const std::vector<PathColour> colours = lay_paths(mesh.positions, edge_list_of(mesh));
   ASSERT_EQ(colours.size(), 3u);
   ASSERT_EQ(colours[0].paths.size(), 2u * n - 3);
   EXPECT_EQ(colours[0].paths[0].vertices, (std::vector<int>{0, 10, 20, 30, 40, 50, 60, 70, 80}));
@@ -73,7 +73,7 @@ TEST(Paths, of_any_mesh_hold_every_edge_once) {
     for (Vec3f& p : mesh.positions) {
       for (float* x : {&p.x, &p.y, &p.z}) *x += static_cast<float>(random() % 1000) * 4e-5f;
     }
-    ASSERT_NO_FATAL_FAILURE(expect_sound(mesh.positions, edges_of(mesh)));
+    ASSERT_NO_FATAL_FAILURE(expect_sound(mesh.positions, edge_list_of(mesh)));
   }
 }
 
