@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "apps/bench/cloth.h"
 #include "apps/bench/quality.h"
@@ -192,28 +191,6 @@ std::vector<Row> run(const Options& options) {
     if (options.workload.empty() ? workload.name.rfind("W1-quality", 0) != 0 : options.workload == workload.name)
       for (int size : options.sizes) bench.run(workload.name, size);
   return bench.take_rows();
-}
-
-std::string to_json(const std::vector<Row>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const Row& row : rows) {
-    list.push_back({{"workload", row.workload},
-                    {"size", row.size},
-                    {"engine", row.engine},
-                    {"threads", row.threads},
-                    {"substeps", row.substeps},
-                    {"iterations", row.iterations},
-                    {"ms_per_frame", row.ms_per_frame},
-                    {"ns_per_projection", row.ns_per_projection},
-                    {"stretch_mean", row.stretch_mean},
-                    {"stretch_p99", row.stretch_p99},
-                    {"stretch_max", row.stretch_max},
-                    {"energy_lost", row.energy_lost},
-                    {"met", row.met},
-                    {"ratio", row.ratio}});
-    for (const PhaseTime& phase : row.phases) list.back()["phases_ms"][phase.name] = phase.milliseconds;
-  }
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

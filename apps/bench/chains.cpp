@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <nlohmann/json.hpp>
 
 #include "pliant/body.h"
 #include "pliant/error.h"
@@ -123,18 +122,6 @@ std::vector<ChainRow> measure_chains(const ChainOptions& options) {
     }
   }
   return rows;
-}
-
-std::string to_json(const std::vector<ChainRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const ChainRow& row : rows)
-    list.push_back({{"links", row.links},
-                    {"solver", row.solver},
-                    {"substeps", row.substeps},
-                    {"ms_per_frame", row.ms_per_frame},
-                    {"drift", row.drift},
-                    {"ratio", row.ratio}});
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

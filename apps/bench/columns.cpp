@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "apps/bench/timing.h"
 #include "pliant/error.h"
@@ -113,25 +112,6 @@ std::vector<ColumnRow> measure_columns(const ColumnOptions& options) {
     }
   }
   return rows;
-}
-
-std::string to_json(const std::vector<ColumnRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const ColumnRow& row : rows)
-    list.push_back({{"depth", row.depth},
-                    {"spacing", row.spacing},
-                    {"particles", row.particles},
-                    {"substeps", row.substeps},
-                    {"iterations", row.iterations},
-                    {"default", row.is_default},
-                    {"mean", row.mean},
-                    {"largest", row.largest},
-                    {"speed", row.speed},
-                    {"fastest", row.fastest},
-                    {"height", row.height},
-                    {"ns", row.ns},
-                    {"ms_per_1000", row.ms_per_1000}});
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

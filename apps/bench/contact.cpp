@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <nlohmann/json.hpp>
 
 #include "apps/bench/timing.h"
 #include "pliant/error.h"
@@ -89,21 +88,6 @@ std::vector<ContactRow> measure_contact(const ContactOptions& options) {
     if (options.on_row) options.on_row(rows.back());
   }
   return rows;
-}
-
-std::string to_json(const std::vector<ContactRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const ContactRow& row : rows)
-    list.push_back({{"size", row.size},
-                    {"particles", row.particles},
-                    {"without_ms", row.without_ms},
-                    {"with_ms", row.with_ms},
-                    {"ratio", row.ratio},
-                    {"largest_ms", row.largest_ms},
-                    {"with_us_per_particle", row.with_us_per_particle},
-                    {"candidates_per_particle", row.candidates_per_particle},
-                    {"lists", row.lists}});
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

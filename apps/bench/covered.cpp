@@ -5,7 +5,6 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "pliant/body.h"
@@ -186,24 +185,6 @@ std::vector<CoveredRow> measure_covered(const CoveredOptions& options) {
     }
   }
   return all;
-}
-
-std::string to_json(const std::vector<CoveredRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const CoveredRow& row : rows)
-    list.push_back({{"workload", "covered"},
-                    {"what", row.what},
-                    {"size", row.size},
-                    {"bodies", row.bodies},
-                    {"frames", row.frames},
-                    {"mean_ms", row.mean_ms},
-                    {"median_ms", row.median_ms},
-                    {"largest_ms", row.largest_ms},
-                    {"worst_crossings", row.worst_crossings},
-                    {"frames_with_crossings", row.frames_with_crossings},
-                    {"unnamed", row.unnamed},
-                    {"ratio", row.ratio}});
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "apps/bench/bench.h"
 #include "pliant/error.h"
@@ -184,26 +183,6 @@ std::vector<LandingRow> measure_landings(const LandingOptions& options) {
       rows.insert(rows.end(), more.begin(), more.end());
     }
   return rows;
-}
-
-std::string to_json(const std::vector<LandingRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const LandingRow& row : rows)
-    list.push_back({{"workload", "W3-" + row.on},
-                    {"size", row.size},
-                    {"engine", row.engine},
-                    {"substeps", row.substeps},
-                    {"iterations", row.iterations},
-                    {"frames", row.frames},
-                    {"in_time", row.in_time},
-                    {"mean_ms", row.mean_ms},
-                    {"median_ms", row.median_ms},
-                    {"largest_ms", row.largest_ms},
-                    {"crossings", row.crossings},
-                    {"stretch_mean", row.stretch_mean},
-                    {"stretch_p99", row.stretch_p99},
-                    {"ratio", row.ratio}});
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "apps/bench/memory.h"
 #include "apps/bench/timing.h"
@@ -153,24 +152,6 @@ std::vector<LiquidRow> measure_liquids(const LiquidOptions& options) {
     }
   }
   return rows;
-}
-
-std::string to_json(const std::vector<LiquidRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const LiquidRow& row : rows)
-    list.push_back({{"particles", row.particles},
-                    {"engine", row.engine},
-                    {"isa", row.isa},
-                    {"substeps", row.substeps},
-                    {"median_ms", row.median_ms},
-                    {"largest_ms", row.largest_ms},
-                    {"ns_per_particle", row.ns_per_particle},
-                    {"search", row.search},
-                    {"compression", row.compression},
-                    {"ratio", row.ratio},
-                    {"bytes", row.bytes},
-                    {"surface", row.surface}});
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "apps/bench/cloth.h"
@@ -108,19 +107,6 @@ std::vector<MemoryRow> measure_memory(const MemoryOptions& options) {
     }
   }
   return rows;
-}
-
-std::string to_json(const std::vector<MemoryRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const MemoryRow& row : rows)
-    list.push_back({{"size", row.size},
-                    {"sweep", sweep_name(row.sweep)},
-                    {"scene", row.scene},
-                    {"scene_peak", row.scene_peak},
-                    {"peak", row.peak},
-                    {"peak_given_away", row.peak_given_away},
-                    {"world", row.world}});
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <nlohmann/json.hpp>
 
 #include "apps/bench/bench.h"
 #include "pliant/body.h"
@@ -240,28 +239,6 @@ std::vector<PileRow> measure_piles(const PileOptions& options) {
       rows.insert(rows.end(), more.begin(), more.end());
     }
   return rows;
-}
-
-std::string to_json(const std::vector<PileRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const PileRow& row : rows) {
-    nlohmann::ordered_json snapshots = nlohmann::ordered_json::array();
-    for (const PileSnapshot& snapshot : row.snapshots)
-      snapshots.push_back(
-          {{"frame", snapshot.frame}, {"moved", snapshot.moved}, {"speed", snapshot.speed}, {"lost", snapshot.lost}});
-    list.push_back({{"workload", "bodies-" + row.pile},
-                    {"size", row.size},
-                    {"bodies", row.bodies},
-                    {"engine", row.engine},
-                    {"threads", row.threads},
-                    {"substeps", row.substeps},
-                    {"frames", row.frames},
-                    {"mean_ms", row.mean_ms},
-                    {"largest_ms", row.largest_ms},
-                    {"snapshots", snapshots},
-                    {"ratio", row.ratio}});
-  }
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 
@@ -186,29 +185,6 @@ std::vector<SceneRow> measure_scenes(const std::vector<NamedScene>& scenes, cons
     rows.insert(rows.end(), of_scene.begin(), of_scene.end());
   }
   return rows;
-}
-
-std::string to_json(const std::vector<SceneRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const SceneRow& row : rows)
-    list.push_back({{"scene", row.scene},
-                    {"settings", row.settings},
-                    {"particles", row.particles},
-                    {"frames", row.frames},
-                    {"p99", row.p99},
-                    {"frame_of_p99", row.frame_of_p99},
-                    {"largest", row.largest},
-                    {"frame_of_largest", row.frame_of_largest},
-                    {"energy_gain", row.gain},
-                    {"energy_gain_with_bending", row.gain_with_bending},
-                    {"moved", row.moved},
-                    {"ms_per_frame", row.milliseconds},
-                    {"substeps", row.substeps},
-                    {"crossings", row.crossings},
-                    {"finite", row.finite},
-                    {"cheapest", row.cheapest},
-                    {"ratio", row.ratio}});
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "apps/bench/timing.h"
 #include "pliant/error.h"
@@ -159,24 +158,6 @@ std::vector<SoftBodyRow> measure_soft_bodies(const SoftBodyBenchOptions& options
   for (const int cells : options.sizes)
     for (const Case& of : cases) measure(of, cells, options, rows);
   return rows;
-}
-
-std::string to_json(const std::vector<SoftBodyRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const SoftBodyRow& row : rows)
-    list.push_back({{"cells", row.cells},
-                    {"tetrahedra", row.tetrahedra},
-                    {"projections", row.projections},
-                    {"material", row.material},
-                    {"engine", row.engine},
-                    {"substeps", row.substeps},
-                    {"median_ms", row.median_ms},
-                    {"ns", row.ns},
-                    {"ratio", row.ratio},
-                    {"inverted", row.inverted},
-                    {"worst", row.worst},
-                    {"set_up_ms", row.set_up_ms}});
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench

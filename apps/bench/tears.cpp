@@ -1,6 +1,5 @@
 #include "apps/bench/tears.h"
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "apps/bench/timing.h"
@@ -87,23 +86,6 @@ std::vector<TearRow> measure_tears(const TearOptions& options) {
     add("cloth", cells_of_cloth * cells, cloth, cloth.triangles.size());
   }
   return rows;
-}
-
-std::string to_json(const std::vector<TearRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const TearRow& row : rows)
-    list.push_back({{"object", row.object},
-                    {"cells", row.cells},
-                    {"elements", row.elements},
-                    {"substeps", row.substeps},
-                    {"cuts", row.cuts},
-                    {"copies", row.copies},
-                    {"whole_ms", row.whole_ms},
-                    {"cut_ms", row.cut_ms},
-                    {"ratio", row.ratio},
-                    {"us_per_copy", row.us_per_copy},
-                    {"ns_per_element", row.ns_per_element}});
-  return list.dump(2) + "\n";
 }
 
 }  // namespace pliant::bench
