@@ -10,25 +10,17 @@
 #include <string>
 #include <vector>
 
+#include "apps/command_line/figure.h"
+#include "apps/command_line/sweep_names.h"
 #include "apps/plot/chart.h"
 #include "pliant/scene.h"
 #include "pliant/world.h"
 
 namespace pliant::compare {
 
-/// A sweep with its options, and its name on the command line: "chains", "tiled+chebyshev".
-struct Method {
-  std::string name;
-  Sweep sweep = Sweep::tiled;
-  SweepOptions options;
-};
-
-/// The options that may follow a sweep's name after a plus sign: "tethers", "chebyshev", "average".
-std::vector<std::string> option_names();
-
-/// Converts a name to a method. Options that it does not name are those of `base`. Throws an Error that lists the known
-/// names.
-Method method_of(const std::string& name, const SweepOptions& base);
+using command::figure;
+using command::Method;
+using command::method_of;
 
 /// The name of the sweep and substeps that a scene has if it leaves them open.
 inline constexpr const char* default_name = "default";
@@ -99,10 +91,6 @@ Result run(const Scene& scene, const Options& options);
 /// particles. Both reset their multipliers. The last `collider_particles` particles of each State belong to mesh
 /// colliders.
 void take_state(World& to, World& from, std::size_t collider_particles = 0);
-
-/// A number with at least `digits` significant digits and all digits before the point: "0.00834", "118", "12345"; no
-/// exponent below 1e15.
-std::string figure(double value, int digits);
 
 /// Six panels: residual, largest stretch and its 99th percentile, each over iterations and over milliseconds.
 std::vector<plot::Chart> to_charts(const Result& result);

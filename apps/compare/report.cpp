@@ -141,14 +141,6 @@ bool times_next(const Result& result) {
   });
 }
 
-std::string figure(double value, int digits) {
-  char text[32];
-  const double size = std::fabs(value);
-  const bool is_long = size >= std::pow(10., digits) - 0.5 && size < 1e15;
-  std::snprintf(text, sizeof text, is_long ? "%.*f" : "%.*g", is_long ? 0 : digits, value);
-  return text;
-}
-
 std::string to_table(const Result& result) {
   std::string table = table_head(result);
   for (const Curve& curve : result.curves) table += curve_row(curve);

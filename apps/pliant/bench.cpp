@@ -19,13 +19,13 @@
 #include "apps/bench/scene_table.h"
 #include "apps/bench/soft_bodies.h"
 #include "apps/bench/tears.h"
+#include "apps/command_line/give_back.h"
+#include "apps/command_line/interrupt.h"
+#include "apps/command_line/output.h"
+#include "apps/command_line/simulate.h"
 #include "atomic_file.h"
 #include "command.h"
-#include "give_back.h"
-#include "interrupt.h"
-#include "output.h"
 #include "scene_hints.h"
-#include "simulate.h"
 
 namespace pliant::command {
 

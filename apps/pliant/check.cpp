@@ -7,18 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "apps/compare/compare.h"
+#include "apps/command_line/figure.h"
+#include "apps/command_line/interrupt.h"
+#include "apps/command_line/output.h"
+#include "apps/command_line/simulate.h"
 #include "apps/render/matrix.h"
 #include "command.h"
-#include "interrupt.h"
-#include "output.h"
 #include "pliant/advise.h"
 #include "pliant/body.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/mesh.h"
 #include "pliant/scene.h"
-#include "simulate.h"
 
 namespace pliant::command {
 
@@ -121,14 +121,14 @@ void try_out(const Scene& scene, double seconds, Checked& checked) {
   };
   const Advice advice = advise(scene, {seconds, 120, stops});
   const std::string more_time =
-      advice.cut_short ? "; --seconds " + compare::figure(more_seconds(advice, seconds), 3) + " tries more" : "";
+      advice.cut_short ? "; --seconds " + figure(more_seconds(advice, seconds), 3) + " tries more" : "";
   for (const std::string& warning : advice.warnings) findings.push_back({false, "in a trial run, " + warning, ""});
   if (!advice.words.empty()) findings.push_back({false, advice.words, advice.what_to_do + more_time});
   if (!advice.words.empty() || !advice.cut_short) return;
   const std::string tried =
       std::to_string(advice.own.frames) + " of " + counted(static_cast<std::size_t>(advice.frames), "frame");
   checked.within = " in " + tried;
-  print("tried " + tried + " within the time limit; --seconds " + compare::figure(more_seconds(advice, seconds), 3) +
+  print("tried " + tried + " within the time limit; --seconds " + figure(more_seconds(advice, seconds), 3) +
         " gives more\n");
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/command_line/simulate.h"
 #include "pliant/edit.h"
-#include "simulate.h"
 
 namespace pliant::command {
 

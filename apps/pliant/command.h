@@ -9,17 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace pliant::command {
+#include "apps/command_line/overrides.h"
 
-/// What the command line changes in a scene, for commands that simulate.
-struct Overrides {
-  std::optional<int> frames, threads, substeps, iterations;
-  std::string sweep;                ///< name of a sweep, with options: "chains+tethers"; empty: the scene's own
-  std::string isa;                  ///< instruction set level; empty: the best that the machine has
-  bool sequential = false;          ///< use scalar code
-  std::vector<std::string> meshes;  ///< "name=path": mesh files of objects and colliders
-  std::string cache;                ///< folder of cached distance grids; empty: no cache
-};
+namespace pliant::command {
 
 struct RunOptions {
   std::string scene;

@@ -3,13 +3,13 @@
 
 #include <memory>
 
+#include "apps/command_line/interrupt.h"
+#include "apps/command_line/output.h"
+#include "apps/command_line/simulate.h"
 #include "apps/plot/canvas.h"
 #include "atomic_file.h"
 #include "command.h"
-#include "interrupt.h"
-#include "output.h"
 #include "pliant/error.h"
-#include "simulate.h"
 
 namespace pliant::command {
 

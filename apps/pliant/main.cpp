@@ -8,9 +8,9 @@
 #include <limits>
 #include <new>
 
+#include "apps/command_line/interrupt.h"
+#include "apps/command_line/output.h"
 #include "command.h"
-#include "interrupt.h"
-#include "output.h"
 #include "pliant/error.h"
 #include "scene_hints.h"
 

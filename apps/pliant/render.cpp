@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/command_line/output.h"
+#include "apps/command_line/simulate.h"
 #include "apps/render/render.h"
 #include "command.h"
-#include "output.h"
 #include "pliant/error.h"
-#include "simulate.h"
 
 namespace pliant::command {
 

@@ -7,17 +7,17 @@
 #include <functional>
 #include <memory>
 
-#include "apps/compare/compare.h"
+#include "apps/command_line/figure.h"
+#include "apps/command_line/interrupt.h"
+#include "apps/command_line/output.h"
+#include "apps/command_line/simulate.h"
 #include "atomic_file.h"
 #include "checkpoint.h"
 #include "command.h"
 #include "gauge_table.h"
-#include "interrupt.h"
-#include "output.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "run_report.h"
-#include "simulate.h"
 
 namespace pliant::command {
 
@@ -25,8 +25,8 @@ namespace {
 
 std::string summary(const RunOptions& options, const World& world, const RunReport& report) {
   const std::int64_t frames = world.state().frame;
-  const std::string times = compare::figure(report.median_milliseconds(), 3) +
-                            " ms a frame (95%: " + compare::figure(report.p95_milliseconds(), 3) + "), ";
+  const std::string times =
+      figure(report.median_milliseconds(), 3) + " ms a frame (95%: " + figure(report.p95_milliseconds(), 3) + "), ";
   return one_line(options.scene) + ": " + counted(static_cast<std::size_t>(frames), "frame") + ", " +
          (report.frames() > 0 ? times : "") + counted(static_cast<std::size_t>(world.threads()), "thread") + ", " +
          world.isa() + "\nstate " + world.state_hash() + "\n";

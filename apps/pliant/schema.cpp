@@ -1,6 +1,6 @@
 // pliant schema: prints the scene format as a JSON Schema for editors.
+#include "apps/command_line/output.h"
 #include "command.h"
-#include "output.h"
 #include "pliant/io.h"
 
 namespace pliant::command {

@@ -1,6 +1,6 @@
 // pliant version: prints the version.
+#include "apps/command_line/output.h"
 #include "command.h"
-#include "output.h"
 
 namespace pliant::command {
 

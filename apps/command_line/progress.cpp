@@ -1,4 +1,4 @@
-#include "progress.h"
+#include "apps/command_line/progress.h"
 
 #include <unistd.h>
 

@@ -1,6 +1,5 @@
-#include "output.h"
+#include "apps/command_line/output.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,7 +8,7 @@
 #include <set>
 #include <system_error>
 
-#include "apps/compare/compare.h"
+#include "apps/command_line/figure.h"
 #include "pliant/error.h"
 
 namespace pliant::command {
@@ -30,7 +29,7 @@ std::string size_in_words(std::uint64_t bytes) {
   const char* const units[] = {" kB", " MB", " GB", " TB"};
   std::size_t unit = 0;
   for (; size >= 999.5 && unit < 3; ++unit) size /= 1000;
-  return compare::figure(size, 2) + units[unit];
+  return figure(size, 2) + units[unit];
 }
 
 constexpr const char* elsewhere = "choose a path with write permission";
@@ -84,7 +83,7 @@ void refuse_unwritable(const std::string& path) {
   do place = place.parent_path();
   while (!std::filesystem::exists(place, unknown) && place.has_relative_path());
   if (!std::filesystem::is_directory(place, unknown))
-    fail(path, fmt::format("cannot write: '{}' is not a folder", place.string()), elsewhere);
+    fail(path, "cannot write: '" + place.string() + "' is not a folder", elsewhere);
   if (::access(place.c_str(), W_OK | X_OK) != 0) fail(path, cannot_write(errno), elsewhere);
 }
 

@@ -1,4 +1,4 @@
-#include "interrupt.h"
+#include "apps/command_line/interrupt.h"
 
 #include <sys/time.h>
 #include <unistd.h>

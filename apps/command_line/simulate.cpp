@@ -1,15 +1,15 @@
-#include "simulate.h"
+#include "apps/command_line/simulate.h"
 
 #include <utility>
 
-#include "apps/compare/compare.h"
-#include "give_back.h"
-#include "interrupt.h"
-#include "output.h"
+#include "apps/command_line/give_back.h"
+#include "apps/command_line/interrupt.h"
+#include "apps/command_line/output.h"
+#include "apps/command_line/progress.h"
+#include "apps/command_line/sweep_names.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
-#include "progress.h"
 
 namespace pliant::command {
 
@@ -24,7 +24,7 @@ void set_sweep(const std::string& name, Scene& scene) {
     settings.sweep = Sweep::automatic;
     return;
   }
-  const compare::Method method = compare::method_of(name, settings.sweep_options);
+  const Method method = method_of(name, settings.sweep_options);
   settings.sweep = method.sweep;
   settings.sweep_options = method.options;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "command.h"
+#include "apps/command_line/overrides.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/scene.h"
