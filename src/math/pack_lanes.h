@@ -10,6 +10,10 @@
 
 #include "math/wide.h"
 
+#if PLIANT_X86_BITS > 0
+#include <immintrin.h>
+#endif
+
 namespace pliant {
 inline namespace PLIANT_ISA {
 

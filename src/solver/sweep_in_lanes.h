@@ -20,10 +20,10 @@ namespace pliant {
 inline namespace PLIANT_ISA {
 namespace {
 
-constexpr int registers_per_batch = batch_width / wide_width;
+inline constexpr int registers_per_batch = batch_width / wide_width;
 
 /// A value of the template parameter `fixed`: which slots are contiguous is known only at run time, for each segment.
-constexpr std::int32_t any_set = -1;
+inline constexpr std::int32_t any_set = -1;
 
 /// Which lanes of a batch are stored: all but in the last batch of a segment.
 struct ValidLanes {
@@ -109,7 +109,7 @@ PLIANT_HD void project_register(const RowPointers<row_count>& rows, const SlotIn
   std::memcpy(&params, rest, sizeof params);
   ConstraintResponse<Wide> response{load_wide(rows.at[fields] + slots.lane), Wide(0.f), Wide(0.f)};
   if constexpr (keeps_multipliers) {
-    if (!a.first_pass) response.multiplier = load_wide(multiplier + slots.lane);
+    if (multiplier != nullptr && !a.first_pass) response.multiplier = load_wide(multiplier + slots.lane);
   }
   Vec3<Wide> motion[slot_count<T>];
   if constexpr (law == Law::damped) {
@@ -120,7 +120,9 @@ PLIANT_HD void project_register(const RowPointers<row_count>& rows, const SlotIn
   }
   Vec3<Wide> correction[slot_count<T>];
   project<T, law, keeps_multipliers>(x, w, params, motion, response, a, correction);
-  if constexpr (keeps_multipliers) store_wide(multiplier + slots.lane, response.multiplier);
+  if constexpr (keeps_multipliers) {
+    if (multiplier != nullptr) store_wide(multiplier + slots.lane, response.multiplier);
+  }
   PLIANT_UNROLL
   for (int slot = 0; slot < slot_count<T>; ++slot)
     slots.store(a.displacements, slot, moved[slot] + to_registers({correction[slot], Wide(0.f)}), valid);
@@ -133,7 +135,7 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
   RowPointers<fields + 1 + (law == Law::damped ? 1 : 0)> rows(pool, segment.first_batch);
   SlotIndices<slot_count<T>, fixed> slots{segment.runs, pool.indices.data() + segment.index_offset};
   float* multiplier =
-      keeps_multipliers ? multipliers + static_cast<std::int64_t>(segment.first_batch) * batch_width : nullptr;
+      multipliers != nullptr ? multipliers + static_cast<std::int64_t>(segment.first_batch) * batch_width : nullptr;
   // One call for both: a second copy of the projection for the last batch doubles the code for nothing.
   const bool ends_whole = segment.last_count == (segment.runs != 0 ? 4 : batch_width);
   for (int left = segment.batches; left > 0; --left) {
@@ -147,7 +149,7 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
     }
     slots.index = slots.of(slot_count<T>);
     rows.next();
-    if constexpr (keeps_multipliers) multiplier += batch_width;
+    if (keeps_multipliers && multiplier != nullptr) multiplier += batch_width;
   }
 }
 
@@ -173,18 +175,26 @@ void sweep_either(const Pool& pool, const Segment& segment, float* multipliers, 
   }
 }
 
+/// Whether multipliers are kept is a template argument where the projection is short. Elsewhere those that are not kept are zero, which
+/// changes no bit.
+template <class T, Law law>
+void sweep_law(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
+  constexpr bool is_short = slot_count<T> == 2;
+  if constexpr (is_short) {
+    if (multipliers == nullptr) return sweep_either<T, law, false>(pool, segment, multipliers, a);
+  }
+  sweep_either<T, law, true>(pool, segment, multipliers, a);
+}
+
 template <class T>
 void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
-  const bool keeps = multipliers != nullptr;
   switch (pool.law) {
     case Law::compliant:
-      return keeps ? sweep_either<T, Law::compliant, true>(pool, segment, multipliers, a)
-                   : sweep_either<T, Law::compliant, false>(pool, segment, multipliers, a);
+      return sweep_law<T, Law::compliant>(pool, segment, multipliers, a);
     case Law::damped:
-      return keeps ? sweep_either<T, Law::damped, true>(pool, segment, multipliers, a)
-                   : sweep_either<T, Law::damped, false>(pool, segment, multipliers, a);
+      return sweep_law<T, Law::damped>(pool, segment, multipliers, a);
     case Law::pbd:
-      return sweep_either<T, Law::pbd, false>(pool, segment, multipliers, a);
+      return sweep_either<T, Law::pbd, false>(pool, segment, nullptr, a);
   }
 }
 
