@@ -20,4 +20,7 @@ enum class AtMost { refuse, first_bytes };
 /// folder, pipe or device, unreadable, or larger than `most` bytes; `first_bytes` cuts a larger file off instead.
 std::string read_file_bytes(const std::string& path, std::uint64_t most = largest_file, AtMost at_most = AtMost::refuse);
 
+/// Throws an Error about a file as a whole.
+[[noreturn]] void refuse_file(const std::string& path, const std::string& problem, const std::string& advice);
+
 }  // namespace pliant

@@ -89,7 +89,7 @@ class ObjParser {
     if (note(keyword)) return;
     if (std::find(std::begin(silent_keywords), std::end(silent_keywords), keyword) != std::end(silent_keywords)) return;
     if (note_unknown(keyword)) return;
-    fail(line_, "unknown keyword " + quoted(keyword),
+    fail(line_, "unknown keyword " + in_quotes(keyword),
          "the file is not OBJ, or the line is damaged; delete the line if it is not needed");
   }
 
@@ -111,7 +111,7 @@ class ObjParser {
       if (problem != NumberProblem::none)
         fail(line_,
              "value " + std::to_string(count + 1) + " of vertex " + std::to_string(mesh_.positions.size() + 1) + ", " +
-                 quoted(word) + ", " + describe(problem),
+                 in_quotes(word) + ", " + describe(problem),
              "give three finite coordinates");
       ++count;
     }
@@ -141,12 +141,12 @@ class ObjParser {
       std::int64_t value = 0;
       const bool may_be_empty = part > 0;
       if (!(may_be_empty && number.empty()) && !parse_integer(number, value))
-        fail(line_, quoted(whole) + " is not a face corner", "write V, V/VT, V//VN or V/VT/VN");
+        fail(line_, in_quotes(whole) + " is not a face corner", "write V, V/VT, V//VN or V/VT/VN");
       if (part == 0) vertex = value;
       if (slash == std::string_view::npos) return resolve(vertex);
       word.remove_prefix(slash + 1);
     }
-    fail(line_, quoted(whole) + " has more than three parts", "write V, V/VT, V//VN or V/VT/VN");
+    fail(line_, in_quotes(whole) + " has more than three parts", "write V, V/VT, V//VN or V/VT/VN");
   }
 
   /// Converts an index of the file, which counts from 1, or backwards from the last vertex read. It may refer to a

@@ -40,7 +40,7 @@ class TextSource {
   void end_row() {
     std::string_view rest = row_;
     const std::string_view word = take_word(rest);
-    if (!word.empty()) fail("a row continues with " + quoted(word) + " beyond the properties in the header");
+    if (!word.empty()) fail("a row continues with " + in_quotes(word) + " beyond the properties in the header");
   }
 
   void skip(PlyType) { word(); }
@@ -50,14 +50,14 @@ class TextSource {
     float value = 0;
     const std::string_view text = word();
     const NumberProblem problem = parse_float(text, value);
-    if (problem != NumberProblem::none) fail(quoted(text) + " " + describe(problem), "give finite coordinates");
+    if (problem != NumberProblem::none) fail(in_quotes(text) + " " + describe(problem), "give finite coordinates");
     return value;
   }
 
   std::int64_t integer(PlyType) {
     std::int64_t value = 0;
     const std::string_view text = word();
-    if (!parse_integer(text, value)) fail(quoted(text) + " is not an integer");
+    if (!parse_integer(text, value)) fail(in_quotes(text) + " is not an integer");
     return value;
   }
 
@@ -243,20 +243,20 @@ class RowReader {
   PolygonMesh mesh_;
 };
 
-[[noreturn]] void fail(const std::string& name, int line, std::string problem, std::string advice) {
+[[noreturn]] void refuse_header(const std::string& name, int line, std::string problem, std::string advice) {
   throw Error({.file = name, .line = line, .object = {}, .element = {}}, std::move(problem), std::move(advice));
 }
 
 Roles find_coordinates(const PlyHeader& header, const std::string& name) {
   const PlyElement* const vertex = header.find("vertex");
-  if (vertex == nullptr) fail(name, 0, "the header declares no element 'vertex'", "this is not a mesh");
+  if (vertex == nullptr) refuse_header(name, 0, "the header declares no element 'vertex'", "this is not a mesh");
   Roles roles;
   constexpr std::string_view axes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
     roles.coordinates[axis] = vertex->find(axes[axis]);
     if (roles.coordinates[axis] < 0 || vertex->properties[static_cast<std::size_t>(roles.coordinates[axis])].is_list)
-      fail(name, vertex->line, "the vertices have no coordinate '" + std::string(axes[axis]) + "'",
-           "export it with x, y and z");
+      refuse_header(name, vertex->line, "the vertices have no coordinate '" + std::string(axes[axis]) + "'",
+                    "export it with x, y and z");
   }
   return roles;
 }
@@ -264,18 +264,20 @@ Roles find_coordinates(const PlyHeader& header, const std::string& name) {
 Roles find_polygons(const PlyHeader& header, const std::string& name) {
   const PlyElement* const face = header.find("face");
   if (const PlyElement* const strips = header.find("tristrips"); face == nullptr && strips != nullptr)
-    fail(name, strips->line, "holds triangle strips instead of faces", "export it with faces");
+    refuse_header(name, strips->line, "holds triangle strips instead of faces", "export it with faces");
   if (face == nullptr || face->count == 0)
-    fail(name, face == nullptr ? 0 : face->line,
-         "has " + std::to_string(header.find("vertex")->count) + " vertices but no faces",
-         "export the mesh with its faces");
+    refuse_header(name, face == nullptr ? 0 : face->line,
+                  "has " + std::to_string(header.find("vertex")->count) + " vertices but no faces",
+                  "export the mesh with its faces");
   Roles roles;
   roles.polygon = face->find("vertex_indices");
   if (roles.polygon < 0) roles.polygon = face->find("vertex_index");
-  if (roles.polygon < 0) fail(name, face->line, "the faces have no list 'vertex_indices'", "export it with that name");
+  if (roles.polygon < 0)
+    refuse_header(name, face->line, "the faces have no list 'vertex_indices'", "export it with that name");
   const PlyProperty& list = face->properties[static_cast<std::size_t>(roles.polygon)];
   if (!list.is_list || !is_integer(list.type))
-    fail(name, face->line, "'" + list.name + "' of the faces is not a list of integers", "export it as a list of integers");
+    refuse_header(name, face->line, "'" + list.name + "' of the faces is not a list of integers",
+                  "export it as a list of integers");
   return roles;
 }
 

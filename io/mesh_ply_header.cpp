@@ -70,7 +70,7 @@ class HeaderParser {
       done_ = true;
       return;
     }
-    fail("unknown keyword " + quoted(keyword) + " in the header", "the header is damaged");
+    fail("unknown keyword " + in_quotes(keyword) + " in the header", "the header is damaged");
   }
 
   void format(std::string_view rest) {
@@ -78,7 +78,7 @@ class HeaderParser {
     const std::string_view version = take_word(rest);
     if (has_format_) fail("a second 'format' line");
     has_format_ = true;
-    if (version != "1.0") fail("version " + quoted(version) + " is not known", "export it as PLY 1.0");
+    if (version != "1.0") fail("version " + in_quotes(version) + " is not known", "export it as PLY 1.0");
     if (format == "ascii")
       header_.format = PlyHeader::Format::ascii;
     else if (format == "binary_little_endian")
@@ -86,7 +86,7 @@ class HeaderParser {
     else if (format == "binary_big_endian")
       header_.format = PlyHeader::Format::big_endian;
     else
-      fail("format " + quoted(format) + " is not known", "use ascii, binary_little_endian or binary_big_endian");
+      fail("format " + in_quotes(format) + " is not known", "use ascii, binary_little_endian or binary_big_endian");
   }
 
   void element(std::string_view rest) {
@@ -94,10 +94,10 @@ class HeaderParser {
     const std::string_view count = take_word(rest);
     std::int64_t value = 0;
     if (element_name.empty() || !parse_integer(count, value) || value < 0)
-      fail("an element needs a name and a count, and " + quoted(count) + " is not a count");
+      fail("an element needs a name and a count, and " + in_quotes(count) + " is not a count");
     if (value > std::numeric_limits<int>::max())
-      fail("claims " + std::to_string(value) + " elements " + quoted(element_name) + ", more than the limit");
-    if (header_.find(element_name) != nullptr) fail("a second element " + quoted(element_name));
+      fail("claims " + std::to_string(value) + " elements " + in_quotes(element_name) + ", more than the limit");
+    if (header_.find(element_name) != nullptr) fail("a second element " + in_quotes(element_name));
     if (header_.elements.size() == most_names) fail("more than " + std::to_string(most_names) + " elements");
     PlyElement made;
     made.name = std::string(element_name);
@@ -109,7 +109,7 @@ class HeaderParser {
   PlyType type(std::string_view type_name) const {
     for (const TypeName& known : type_names)
       if (known.name == type_name) return known.type;
-    fail("unknown type " + quoted(type_name) + " in the header");
+    fail("unknown type " + in_quotes(type_name) + " in the header");
   }
 
   void property(std::string_view rest) {
@@ -128,7 +128,7 @@ class HeaderParser {
     made.name = std::string(take_word(rest));
     if (made.name.empty()) fail("a property without a name");
     if (element.find(made.name) >= 0)
-      fail("a second property " + quoted(made.name) + " of element " + quoted(element.name));
+      fail("a second property " + in_quotes(made.name) + " of element " + in_quotes(element.name));
     element.properties.push_back(std::move(made));
   }
 
@@ -138,10 +138,10 @@ class HeaderParser {
     if (!binary) ++room;  // the last line may have no line end
     for (const PlyElement& element : header_.elements) {
       if (element.count > 0 && element.properties.empty())
-        fail("element " + quoted(element.name) + " has no properties", {}, element.line);
+        fail("element " + in_quotes(element.name) + " has no properties", {}, element.line);
       const std::uint64_t least = element.count * element.least_row_size(binary);  // < 2^31 * 1000 * 8
       if (least > room)
-        fail("claims " + std::to_string(element.count) + " elements " + quoted(element.name) + ", at least " +
+        fail("claims " + std::to_string(element.count) + " elements " + in_quotes(element.name) + ", at least " +
                  std::to_string(least) + " bytes, but " + std::to_string(room) + " bytes are left",
              "the file is truncated, or its header is wrong", element.line);
       room -= least;

@@ -27,6 +27,14 @@ struct PolygonMesh {
   void close_polygon() { ends.push_back(corners.size()); }
 };
 
+/// Equal cases: their number, and the index of the first.
+struct Tally {
+  std::size_t count = 0, first = 0;
+  void add(std::size_t place) {
+    if (count++ == 0) first = place;
+  }
+};
+
 /// Parsers of a file's bytes. `name` stands for the file in errors. They throw an Error with line or byte offset.
 PolygonMesh parse_obj(std::string_view bytes, const std::string& name);
 PolygonMesh parse_ply(std::string_view bytes, const std::string& name);

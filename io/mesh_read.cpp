@@ -18,10 +18,6 @@ namespace {
 
 enum class Format { unknown, obj, ply, stl };
 
-[[noreturn]] void fail(const std::string& name, std::string problem, std::string advice) {
-  throw Error({.file = name, .line = 0, .object = {}, .element = {}}, std::move(problem), std::move(advice));
-}
-
 bool starts_with(std::string_view bytes, std::string_view start) { return bytes.substr(0, start.size()) == start; }
 
 constexpr const char* of_tetrahedra =
@@ -30,25 +26,25 @@ constexpr const char* of_tetrahedra =
 
 /// Throws an Error for known types of files that are often mistaken for meshes.
 void refuse_what_is_known(std::string_view bytes, const std::string& name) {
-  if (bytes.empty()) fail(name, "is empty", "export the mesh again");
+  if (bytes.empty()) refuse_file(name, "is empty", "export the mesh again");
   const std::string_view wide_marks[] = {"\xff\xfe", "\xfe\xff"};
   for (const std::string_view mark : wide_marks)
-    if (starts_with(bytes, mark)) fail(name, "is text in UTF-16", "save it as UTF-8 or ASCII");
+    if (starts_with(bytes, mark)) refuse_file(name, "is text in UTF-16", "save it as UTF-8 or ASCII");
   if (starts_with(bytes, "version https://git-lfs"))
-    fail(name, "is a pointer of Git LFS, not the file itself", "fetch it with 'git lfs pull'");
+    refuse_file(name, "is a pointer of Git LFS, not the file itself", "fetch it with 'git lfs pull'");
   const std::pair<std::string_view, const char*> others[] = {
       {"PK\x03\x04", "a zip archive"}, {"\x1f\x8b", "compressed by gzip"}, {"glTF", "a binary glTF file"},
       {"OFF", "an OFF file"},          {"<?xml", "an XML file"},           {"{", "a JSON file"},
       {"#usda", "a USD file"},         {"PXR-USDC", "a USD file"},
   };
-  if (starts_with(bytes, "$MeshFormat")) fail(name, "is a Gmsh file", of_tetrahedra);
+  if (starts_with(bytes, "$MeshFormat")) refuse_file(name, "is a Gmsh file", of_tetrahedra);
   const bool is_vtk_xml = bytes.substr(0, 400).find("<VTKFile") != std::string_view::npos;
-  if (starts_with(bytes, "# vtk") || is_vtk_xml) fail(name, "is a VTK file", of_tetrahedra);
+  if (starts_with(bytes, "# vtk") || is_vtk_xml) refuse_file(name, "is a VTK file", of_tetrahedra);
   for (const auto& [start, what] : others)
-    if (starts_with(bytes, start)) fail(name, std::string("is ") + what, "give an OBJ, PLY or STL file");
+    if (starts_with(bytes, start)) refuse_file(name, std::string("is ") + what, "give an OBJ, PLY or STL file");
 }
 
-Format suffix_of(const std::string& name) {
+Format format_by_suffix(const std::string& name) {
   if (name.size() < 4) return Format::unknown;
   std::string suffix = name.substr(name.size() - 4);
   for (char& c : suffix) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -86,7 +82,7 @@ Format looks_like_text(std::string_view bytes) {
 
 Format format_of(std::string_view bytes, const std::string& name) {
   if (looks_like_ply(bytes)) return Format::ply;
-  const Format suffix = suffix_of(name);
+  const Format suffix = format_by_suffix(name);
   if (suffix != Format::unknown) return suffix;
   if (looks_like_binary_stl(bytes)) return Format::stl;
   return looks_like_text(bytes);
@@ -108,7 +104,7 @@ PolygonMesh parse(std::string_view bytes, const std::string& name) {
   }
   const std::string suffix = name.substr(std::min(name.rfind('.'), name.size()));
   const bool may_be_tetrahedra = suffix == ".node" || suffix == ".ele" || suffix == ".mesh" || suffix == ".t";
-  fail(name, "has an unknown mesh format", may_be_tetrahedra ? of_tetrahedra : "give an OBJ, PLY or STL file");
+  refuse_file(name, "has an unknown mesh format", may_be_tetrahedra ? of_tetrahedra : "give an OBJ, PLY or STL file");
 }
 
 }  // namespace
@@ -123,7 +119,7 @@ MeshFile parse_mesh(std::string_view bytes, const std::string& name, const MeshR
   const Rounding rounding = rounding_of(file.mesh.positions, file.mesh.triangles);
   if (rounding.is_noticeable()) file.repairs.push_back(rounding.in_words() + ": " + move_nearer);
   if (!file.mesh.triangles.empty()) return file;
-  fail(name, "has only degenerate triangles", "the corners of each lie on one line or coincide; check the scale");
+  refuse_file(name, "has only degenerate triangles", "the corners of each lie on one line or coincide; check the scale");
 }
 
 MeshFile read_mesh_file(const std::string& path, const MeshReadOptions& options) {

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/at.h"
 #include "math/disjoint_sets.h"
 #include "mesh_polygons.h"
 
@@ -19,30 +20,20 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
 bool has_area(const TriangleMesh& mesh, const Triangle& t) {
   if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
-  const auto at = [&](int i) {
-    const Vec3f& p = mesh.positions[index(i)];
+  const auto position_of = [&](int i) {
+    const Vec3f& p = mesh.positions[at(i)];
     return Vec3d{p.x, p.y, p.z};
   };
   // Zero if and only if the corners are collinear: for points of similar size, differences of floats and their products
   // are exact in double precision.
-  return length_squared(cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]))) > 0;
+  return length_squared(cross(position_of(t[1]) - position_of(t[0]), position_of(t[2]) - position_of(t[0]))) > 0;
 }
-
-/// Equal cases: their number, and the index of the first.
-struct Tally {
-  std::size_t count = 0, first = 0;
-  void add(std::size_t place) {
-    if (count++ == 0) first = place;
-  }
-};
 
 /// A mesh under repair. `numbers` are the triangles' indices in the file, for messages.
 struct Work {
@@ -81,14 +72,14 @@ std::vector<int> find_first_in_place(const std::vector<Vec3f>& positions) {
   std::vector<int> order(positions.size());
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int i) {
-    const Vec3f& p = positions[index(i)];
+    const Vec3f& p = positions[at(i)];
     return std::make_tuple(p.x, p.y, p.z, i);
   };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
   std::vector<int> first(positions.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && positions[index(order[i])] == positions[index(order[i - 1])];
-    first[index(order[i])] = same ? first[index(order[i - 1])] : order[i];
+    const bool same = i > 0 && positions[at(order[i])] == positions[at(order[i - 1])];
+    first[at(order[i])] = same ? first[at(order[i - 1])] : order[i];
   }
   return first;
 }
@@ -99,7 +90,7 @@ std::vector<int> find_connected_in_place(const TriangleMesh& mesh) {
   DisjointSets places(mesh.positions.size());
   for (const Triangle& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t a = index(t[k]), b = index(t[(k + 1) % 3]);
+      const std::size_t a = at(t[k]), b = at(t[(k + 1) % 3]);
       if (mesh.positions[a] == mesh.positions[b]) places.join(a, b);
     }
   std::vector<int> first(mesh.positions.size());
@@ -132,7 +123,7 @@ struct Side {
 /// All sides that still have two vertices after merging, sorted by these vertices.
 std::vector<Side> find_sides(const std::vector<Triangle>& triangles, const std::vector<int>& merged) {
   std::vector<Triangle> welded = triangles;
-  for (Triangle& t : welded) t = {merged[index(t[0])], merged[index(t[1])], merged[index(t[2])]};
+  for (Triangle& t : welded) t = {merged[at(t[0])], merged[at(t[1])], merged[at(t[2])]};
   const std::vector<bool> repeated = find_repeated(welded);
   std::vector<Side> sides;
   sides.reserve(3 * triangles.size());
@@ -151,7 +142,7 @@ template <class Visit>
 void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
     while (end < sides.size() && sides[end].after == sides[begin].after) ++end;
-    visit(index(sides[begin].after.first), index(sides[begin].after.second), end - begin,
+    visit(at(sides[begin].after.first), at(sides[begin].after.second), end - begin,
           sides[begin].before != sides[end - 1].before);
   }
 }
@@ -183,17 +174,17 @@ std::vector<bool> merge_vertices(Work& work, const std::vector<int>& connected, 
   const auto stays = [&, i = 0](int to) mutable { return to == i++; };
   if (std::all_of(merged.begin(), merged.end(), stays))
     return emptied;  // no two vertices coincide, as in most meshes: skips the slow merging below
-  for (Triangle& t : mesh.triangles) t = {connected[index(t[0])], connected[index(t[1])], connected[index(t[2])]};
+  for (Triangle& t : mesh.triangles) t = {connected[at(t[0])], connected[at(t[1])], connected[at(t[2])]};
   const std::vector<bool> branching =
       is_soup ? std::vector<bool>(merged.size(), false) : find_branching(mesh.triangles, merged);
   Tally joined, apart;
   for (std::size_t i = 0; i < merged.size(); ++i) {
-    if (index(merged[i]) == i) continue;
-    if (branching[index(merged[i])]) merged[i] = connected[i];
-    emptied[i] = index(merged[i]) != i;
+    if (at(merged[i]) == i) continue;
+    if (branching[at(merged[i])]) merged[i] = connected[i];
+    emptied[i] = at(merged[i]) != i;
     (emptied[i] ? joined : apart).add(i);
   }
-  for (Triangle& t : mesh.triangles) t = {merged[index(t[0])], merged[index(t[1])], merged[index(t[2])]};
+  for (Triangle& t : mesh.triangles) t = {merged[at(t[0])], merged[at(t[1])], merged[at(t[2])]};
   if (joined.count > 0)
     work.repairs.push_back("merged " + counted(joined.count, "vertex", "vertices") +
                            " with others at the same position, the first " + std::to_string(joined.first));
@@ -217,7 +208,7 @@ void drop_vertices(Work& work, const std::vector<bool>& emptied, bool drop_isola
   TriangleMesh& mesh = work.mesh;
   std::vector<bool> used(mesh.positions.size(), false);
   for (const Triangle& t : mesh.triangles)
-    for (const int corner : t) used[index(corner)] = true;
+    for (const int corner : t) used[at(corner)] = true;
   std::vector<int> number(mesh.positions.size(), -1);
   Tally dropped;
   std::size_t kept = 0;
@@ -229,7 +220,7 @@ void drop_vertices(Work& work, const std::vector<bool>& emptied, bool drop_isola
     number[i] = static_cast<int>(kept++);
   }
   mesh.positions.resize(kept);
-  for (Triangle& t : mesh.triangles) t = {number[index(t[0])], number[index(t[1])], number[index(t[2])]};
+  for (Triangle& t : mesh.triangles) t = {number[at(t[0])], number[at(t[1])], number[at(t[2])]};
   if (dropped.count > 0)
     work.repairs.push_back("dropped " + counted(dropped.count, "vertex", "vertices") + " of no triangle, the first " +
                            std::to_string(dropped.first));

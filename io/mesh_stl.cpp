@@ -98,7 +98,7 @@ class TextStl {
 
   void expect(std::string_view word) const {
     if (!same_word(keyword_, word))
-      fail(quoted(keyword_) + " where '" + std::string(word) + "' should stand", "the file is damaged");
+      fail(in_quotes(keyword_) + " where '" + std::string(word) + "' should stand", "the file is damaged");
   }
 
   void solid() {
@@ -129,9 +129,9 @@ class TextStl {
       const std::string_view word = take_word(rest_);
       if (word.empty()) fail("a vertex has fewer than 3 coordinates");
       const NumberProblem problem = parse_float(word, value);
-      if (problem != NumberProblem::none) fail(quoted(word) + " " + describe(problem), "give three finite coordinates");
+      if (problem != NumberProblem::none) fail(in_quotes(word) + " " + describe(problem), "give three finite coordinates");
     }
-    if (const std::string_view word = take_word(rest_); !word.empty()) fail("a vertex continues with " + quoted(word));
+    if (const std::string_view word = take_word(rest_); !word.empty()) fail("a vertex continues with " + in_quotes(word));
     add_corner(mesh_, {values[0], values[1], values[2]});
   }
 

@@ -186,14 +186,6 @@ class EarClipper {
   std::vector<double> quality_;
 };
 
-/// Equal cases: their number, and the index of the first.
-struct Tally {
-  std::size_t count = 0, first = 0;
-  void add(std::size_t place) {
-    if (count++ == 0) first = place;
-  }
-};
-
 /// Triangulates a polygon of four or more corners. Returns false if the polygon is not simple.
 template <class Emit>
 bool cut_up(const std::vector<Point>& points, std::size_t polygon, const std::string& name, const Emit& emit) {

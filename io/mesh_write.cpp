@@ -13,7 +13,7 @@ namespace pliant {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& path, std::string element, std::string problem, std::string advice) {
+[[noreturn]] void refuse_mesh(const std::string& path, std::string element, std::string problem, std::string advice) {
   throw Error({.file = path, .line = 0, .object = {}, .element = std::move(element)}, std::move(problem),
               std::move(advice));
 }
@@ -32,15 +32,16 @@ void check(const std::string& path, const TriangleMesh& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const Vec3f& p = mesh.positions[i];
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      fail(path, "vertex " + std::to_string(i), "is not finite, so nothing was written",
-           "find where the simulation diverged");
+      refuse_mesh(path, "vertex " + std::to_string(i), "is not finite, so nothing was written",
+                  "find where the simulation diverged");
   }
   const std::size_t count = mesh.positions.size();
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (const int corner : mesh.triangles[i])
       if (corner < 0 || static_cast<std::size_t>(corner) >= count)
-        fail(path, "triangle " + std::to_string(i),
-             "uses vertex " + std::to_string(corner) + " but there are " + std::to_string(count), "correct the mesh");
+        refuse_mesh(path, "triangle " + std::to_string(i),
+                    "uses vertex " + std::to_string(corner) + " but there are " + std::to_string(count),
+                    "correct the mesh");
 }
 
 class Line {
@@ -87,7 +88,8 @@ void write_ply(AtomicFile& file, const TriangleMesh& mesh) {
 
 void write_mesh(const std::string& path, const TriangleMesh& mesh) {
   const bool is_obj = ends_with(path, ".obj", 4);
-  if (!is_obj && !ends_with(path, ".ply", 4)) fail(path, {}, "has a suffix without a mesh format", "name it .obj or .ply");
+  if (!is_obj && !ends_with(path, ".ply", 4))
+    refuse_mesh(path, {}, "has a suffix without a mesh format", "name it .obj or .ply");
   check(path, mesh);
   AtomicFile file(path);
   if (is_obj)

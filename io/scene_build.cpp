@@ -260,13 +260,6 @@ MeshCollider mesh_collider_of(const JsonDocument& document, const JsonValue& at,
   return collider;
 }
 
-bool set(const JsonValue& at, const char* name, std::optional<float>& target) {
-  float value = 0;
-  const bool given = set(at, name, value);
-  if (given) target = value;
-  return given;
-}
-
 PairProperties pair_of(const JsonDocument& document, const JsonValue& at, const Scene& scene) {
   PairProperties pair;
   const JsonValue& between = *at.find("between");

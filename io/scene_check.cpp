@@ -12,10 +12,10 @@ namespace pliant::scene_file {
 
 namespace {
 
-using Json = JsonValue::Kind;
+using JsonKind = JsonValue::Kind;
 using Kind = Type::Kind;
 
-std::string words(double value) {
+std::string nine_digits(double value) {
   char digits[40];
   std::snprintf(digits, sizeof digits, "%.9g", value);
   return digits;
@@ -30,25 +30,25 @@ std::string joined(const std::vector<std::string>& names, const char* last) {
 
 const char* found(const JsonValue& value) {
   switch (value.kind) {
-    case Json::null:
+    case JsonKind::null:
       return "null";
-    case Json::boolean:
+    case JsonKind::boolean:
       return value.truth ? "true" : "false";
-    case Json::number:
+    case JsonKind::number:
       return "a number";
-    case Json::string:
+    case JsonKind::string:
       return "a string";
-    case Json::array:
+    case JsonKind::array:
       return "an array";
-    case Json::object:
+    case JsonKind::object:
       return "an object";
   }
   return "something else";
 }
 
-std::string range(const Type& type) {
-  return (type.above_minimum ? "above " : "from ") + words(type.minimum) + (type.above_minimum ? ", up to " : " to ") +
-         words(type.maximum);
+std::string range_in_words(const Type& type) {
+  return (type.above_minimum ? "above " : "from ") + nine_digits(type.minimum) +
+         (type.above_minimum ? ", up to " : " to ") + nine_digits(type.maximum);
 }
 
 /// The names that identify a record in messages: its required members, or all if none is required.
@@ -74,9 +74,9 @@ std::string expected(const Type& type) {
     case Kind::boolean:
       return "true or false";
     case Kind::integer:
-      return "an integer " + range(type);
+      return "an integer " + range_in_words(type);
     case Kind::number:
-      return "a number " + range(type) + unit;
+      return "a number " + range_in_words(type) + unit;
     case Kind::string:
       return "a string";
     case Kind::choice:
@@ -95,21 +95,21 @@ std::string expected(const Type& type) {
   return text;
 }
 
-bool fits(const Type& type, Json kind) {
+bool fits(const Type& type, JsonKind kind) {
   switch (type.kind) {
     case Kind::boolean:
-      return kind == Json::boolean;
+      return kind == JsonKind::boolean;
     case Kind::integer:
     case Kind::number:
-      return kind == Json::number;
+      return kind == JsonKind::number;
     case Kind::string:
     case Kind::choice:
-      return kind == Json::string;
+      return kind == JsonKind::string;
     case Kind::vector:
     case Kind::list:
-      return kind == Json::array;
+      return kind == JsonKind::array;
     case Kind::record:
-      return kind == Json::object;
+      return kind == JsonKind::object;
     case Kind::any_of:
       break;
   }
@@ -146,7 +146,7 @@ class Checker {
   }
 
   void record(const JsonValue& at, const Record& record) const {
-    if (at.kind != Json::object) document_.fail(at, "expected " + expected_object(record) + ", found " + found(at));
+    if (at.kind != JsonKind::object) document_.fail(at, "expected " + expected_object(record) + ", found " + found(at));
     for (std::size_t i = 0; i < at.items.size(); ++i) {
       const JsonValue& member = at.items[i];
       const Field* field = record.find(member.key);
@@ -162,8 +162,9 @@ class Checker {
  private:
   void number(const JsonValue& at, const Type& type) const {
     if (type.kind == Kind::integer && at.number != std::floor(at.number))
-      document_.fail(at, "expected " + expected(type) + ", found " + words(at.number));
-    if (!inside(at.number, type)) document_.fail(at, words(at.number) + " is out of range", "expected " + expected(type));
+      document_.fail(at, "expected " + expected(type) + ", found " + nine_digits(at.number));
+    if (!inside(at.number, type))
+      document_.fail(at, nine_digits(at.number) + " is out of range", "expected " + expected(type));
   }
 
   /// True if a number is in the range of a type as a float: a positive double may become zero.
@@ -191,7 +192,7 @@ class Checker {
     if (at.items.size() != 3)
       document_.fail(at, "expected " + expected(type) + ", found " + std::to_string(at.items.size()) + " elements");
     for (const JsonValue& item : at.items) {
-      if (item.kind == Json::number && inside(item.number, type)) continue;
+      if (item.kind == JsonKind::number && inside(item.number, type)) continue;
       Type part = type;
       part.kind = Kind::number;
       value(item, part);
@@ -229,7 +230,7 @@ class Checker {
 
 void check_used_below(const JsonDocument& document, const JsonValue& at) {
   for (const JsonValue& item : at.items) {
-    if (at.kind == Json::object && !item.used)
+    if (at.kind == JsonKind::object && !item.used)
       document.fail_key(item, "'" + item.key + "' has no meaning here", "remove it");
     check_used_below(document, item);
   }

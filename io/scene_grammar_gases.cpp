@@ -9,7 +9,7 @@ namespace {
 
 constexpr double hottest = 1e9;  // [K]
 
-const Record& ball_record() {
+const Record& region_ball_record() {
   static const Record result{
       "ball",
       "A ball in space.",
@@ -30,7 +30,7 @@ const Record& region_record() {
   static const Record result{"region",
                              "A part of space.",
                              {either("box", record(region_box_record()), "An axis-aligned box."),
-                              either("ball", record(ball_record()), "A ball.")},
+                              either("ball", record(region_ball_record()), "A ball.")},
                              {"box", "ball"}};
   return result;
 }

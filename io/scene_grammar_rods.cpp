@@ -31,7 +31,7 @@ const Record& material_record() {
   return result;
 }
 
-const Record& stiffness_record() {
+const Record& rod_stiffness_record() {
   static const Record result{"rod stiffness",
                              "Stiffness of a cross-section.",
                              {needed("stretch", positive("N"), "E A: force per strain."),
@@ -80,7 +80,7 @@ const Record& cap_record() {
   return result;
 }
 
-const Record& repeat_record() {
+const Record& rod_repeat_record() {
   static const Record result{"rod repeat",
                              "Copies of a rod, called NAME_0, NAME_1, ...",
                              {either("grid", record(rod_grid_record()), "A field of rods."),
@@ -115,7 +115,7 @@ const Record& rod_record() {
        field("end_radius", positive("m", largest_place), "as `radius`", "Radius at the last point, if the rod tapers."),
        field("material", any_of({choice(material_names()), record(material_record())}), "the defaults of rod material",
              "The name of a built-in material, or a material."),
-       field("stiffness", record(stiffness_record()), "that of a round section",
+       field("stiffness", record(rod_stiffness_record()), "that of a round section",
              "Stiffness of a flat, hollow or stranded cross-section."),
        field("across", vector("-", largest_place), "any",
              "Direction across the rod about which `bending` acts at its start."),
@@ -123,7 +123,7 @@ const Record& rod_record() {
              "True: the rest shape is straight, whatever the points. False: the points are the rest shape."),
        field("start", record(end_record()), "free", "What holds the first point."),
        field("end", record(end_record()), "free", "What holds the last point."),
-       field("repeat", record(repeat_record()), "one rod", "Makes copies of the rod."),
+       field("repeat", record(rod_repeat_record()), "one rod", "Makes copies of the rod."),
        field("break_force", positive("N"), "unlimited", "It breaks where it carries a greater force."),
        field("break_torque", positive("N m"), "unlimited", "It breaks where it carries a greater torque.")},
       {"points", "line", "helix"}};

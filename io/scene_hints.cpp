@@ -20,7 +20,7 @@ std::string nearest_spelling(const std::string& wanted, const std::vector<std::s
   return best;
 }
 
-std::vector<std::string> names_of(const Record& record) {
+std::vector<std::string> field_names_of(const Record& record) {
   std::vector<std::string> names;
   for (const Field& field : record.fields) names.push_back(field.name);
   return names;
@@ -64,7 +64,7 @@ std::string home_of(const std::string& wanted, const std::vector<Reached>& reach
 std::string nearest_elsewhere(const std::string& wanted, const std::vector<Reached>& reached) {
   std::vector<std::string> names;
   for (const Reached& one : reached)
-    for (std::string& name : names_of(*one.record)) names.push_back(std::move(name));
+    for (std::string& name : field_names_of(*one.record)) names.push_back(std::move(name));
   const std::string near = wanted.size() < 4 ? "" : nearest_spelling(wanted, names);  // short names are similar to too many
   for (const Reached& one : reached)
     if (!near.empty() && one.record->find(near) != nullptr)
@@ -92,7 +92,7 @@ std::string nearest_name(const std::string& wanted, const std::vector<std::strin
 }
 
 std::string hint_for(const std::string& wanted, const Record& record) {
-  const std::vector<std::string> names = names_of(record);
+  const std::vector<std::string> names = field_names_of(record);
   if (wanted.size() <= longest_name) {
     if (const std::string near = nearest_name(wanted, names); !near.empty()) return "did you mean '" + near + "'?";
     const std::vector<Reached> below = reached_from(record), all = reached_from(scene_record());

@@ -15,12 +15,10 @@ namespace pliant::scene_file {
 
 namespace {
 
-constexpr float radian = 0.017453292519943295f;  // per degree
-
 // ------------------------------------------------------------------------------------------------ values
 
 /// Reads a range; `unit` converts its ends.
-bool set(const JsonValue& at, const char* name, float unit, JointRange& target) {
+bool set_range(const JsonValue& at, const char* name, float unit, JointRange& target) {
   const JsonValue* value = at.find(name);
   if (value == nullptr) return false;
   set(*value, "low", target.low);
@@ -31,12 +29,12 @@ bool set(const JsonValue& at, const char* name, float unit, JointRange& target) 
   return true;
 }
 
-void set(const JsonValue& at, const char* name, float unit, std::optional<JointRange>& target) {
-  if (JointRange range; set(at, name, unit, range)) target = range;
+void set_range(const JsonValue& at, const char* name, float unit, std::optional<JointRange>& target) {
+  if (JointRange range; set_range(at, name, unit, range)) target = range;
 }
 
-void set(const JsonDocument& document, const JsonValue& at, const char* name, float unit,
-         std::optional<JointMotor>& target) {
+void set_motor(const JsonDocument& document, const JsonValue& at, const char* name, float unit,
+               std::optional<JointMotor>& target) {
   const JsonValue* value = at.find(name);
   if (value == nullptr) return;
   JointMotor motor;
@@ -50,10 +48,6 @@ void set(const JsonDocument& document, const JsonValue& at, const char* name, fl
     if (const JsonValue* given = value->find(only); given != nullptr && motor.kind == JointMotor::Kind::speed)
       document.fail_key(*given, "a motor that keeps a speed has no " + std::string(only), "remove it, or give a position");
   target = motor;
-}
-
-void set(const JsonValue& at, const char* name, std::optional<float>& target, float unit = 1) {
-  if (float value = 0; pliant::scene_file::set(at, name, value)) target = value * unit;
 }
 
 // ------------------------------------------------------------------------------------------------ a joint
@@ -96,7 +90,7 @@ BallJoint ball_of(const JointSource& from) {
   auto joint = from.start<BallJoint>();
   set(from.at, "axis", joint.axis);
   set(from.at, "most_swing", joint.most_swing, radian);
-  set(from.at, "twist", radian, joint.twist);
+  set_range(from.at, "twist", radian, joint.twist);
   set(from.at, "friction", joint.friction);
   return joint;
 }
@@ -106,8 +100,8 @@ template <class Joint>
 Joint one_axis_of(const JointSource& from, float unit) {
   auto joint = from.start<Joint>();
   set(from.at, "axis", joint.axis);
-  set(from.at, "limit", unit, joint.limit);
-  set(from.document, from.at, "motor", unit, joint.motor);
+  set_range(from.at, "limit", unit, joint.limit);
+  set_motor(from.document, from.at, "motor", unit, joint.motor);
   set(from.at, "friction", joint.friction);
   return joint;
 }
@@ -115,10 +109,10 @@ Joint one_axis_of(const JointSource& from, float unit) {
 CylindricalJoint cylindrical_of(const JointSource& from) {
   auto joint = from.start<CylindricalJoint>();
   set(from.at, "axis", joint.axis);
-  set(from.at, "slide_limit", 1, joint.slide_limit);
-  set(from.at, "turn_limit", radian, joint.turn_limit);
-  set(from.document, from.at, "slide_motor", 1, joint.slide_motor);
-  set(from.document, from.at, "turn_motor", radian, joint.turn_motor);
+  set_range(from.at, "slide_limit", 1, joint.slide_limit);
+  set_range(from.at, "turn_limit", radian, joint.turn_limit);
+  set_motor(from.document, from.at, "slide_motor", 1, joint.slide_motor);
+  set_motor(from.document, from.at, "turn_motor", radian, joint.turn_motor);
   set(from.at, "slide_friction", joint.slide_friction);
   set(from.at, "turn_friction", joint.turn_friction);
   return joint;
@@ -128,10 +122,10 @@ UniversalJoint universal_of(const JointSource& from) {
   auto joint = from.start<UniversalJoint>();
   set(from.at, "axis_a", joint.axis_a);
   set(from.at, "axis_b", joint.axis_b);
-  set(from.at, "limit_a", radian, joint.limit_a);
-  set(from.at, "limit_b", radian, joint.limit_b);
-  set(from.document, from.at, "motor_a", radian, joint.motor_a);
-  set(from.document, from.at, "motor_b", radian, joint.motor_b);
+  set_range(from.at, "limit_a", radian, joint.limit_a);
+  set_range(from.at, "limit_b", radian, joint.limit_b);
+  set_motor(from.document, from.at, "motor_a", radian, joint.motor_a);
+  set_motor(from.document, from.at, "motor_b", radian, joint.motor_b);
   set(from.at, "friction_a", joint.friction_a);
   set(from.at, "friction_b", joint.friction_b);
   return joint;
@@ -141,12 +135,12 @@ PlanarJoint planar_of(const JointSource& from) {
   auto joint = from.start<PlanarJoint>();
   set(from.at, "normal", joint.normal);
   if (Vec3f axis; set(from.at, "axis_x", axis)) joint.axis_x = axis;
-  set(from.at, "x_limit", 1, joint.x_limit);
-  set(from.at, "y_limit", 1, joint.y_limit);
-  set(from.at, "turn_limit", radian, joint.turn_limit);
-  set(from.document, from.at, "x_motor", 1, joint.x_motor);
-  set(from.document, from.at, "y_motor", 1, joint.y_motor);
-  set(from.document, from.at, "turn_motor", radian, joint.turn_motor);
+  set_range(from.at, "x_limit", 1, joint.x_limit);
+  set_range(from.at, "y_limit", 1, joint.y_limit);
+  set_range(from.at, "turn_limit", radian, joint.turn_limit);
+  set_motor(from.document, from.at, "x_motor", 1, joint.x_motor);
+  set_motor(from.document, from.at, "y_motor", 1, joint.y_motor);
+  set_motor(from.document, from.at, "turn_motor", radian, joint.turn_motor);
   set(from.at, "slide_friction", joint.slide_friction);
   set(from.at, "turn_friction", joint.turn_friction);
   return joint;
@@ -201,9 +195,9 @@ AxisFreedom freedom_of(const JsonDocument& document, const JsonValue& at, float 
     freedom.kind = at.text == "free" ? AxisFreedom::Kind::free : AxisFreedom::Kind::locked;
     return freedom;
   }
-  const bool is_limited = set(at, "limit", unit, freedom.limit);
+  const bool is_limited = set_range(at, "limit", unit, freedom.limit);
   freedom.kind = is_limited ? AxisFreedom::Kind::limited : AxisFreedom::Kind::free;
-  set(document, at, "motor", unit, freedom.motor);
+  set_motor(document, at, "motor", unit, freedom.motor);
   set(at, "friction", freedom.friction);
   return freedom;
 }

@@ -16,7 +16,7 @@ namespace {
 using Kind = Type::Kind;
 using Json = nlohmann::ordered_json;
 
-std::string words(double value) {
+std::string shortest_digits(double value) {
   std::array<char, 32> digits{};
   return {digits.data(), write_shortest(digits.data(), digits.data() + digits.size(), value)};
 }
@@ -30,15 +30,15 @@ std::string key_of(const Record& record) {
 }
 
 /// A JSON number; integers have no fraction.
-Json number(double value) {
+Json json_number(double value) {
   const bool whole = value > -1e15 && value < 1e15 && value == static_cast<double>(static_cast<long long>(value));
   return whole ? Json(static_cast<long long>(value)) : Json(value);
 }
 
 Json bounded(const char* type, const Type& of) {
   return {{"type", type},
-          {of.above_minimum ? "exclusiveMinimum" : "minimum", number(of.minimum)},
-          {"maximum", number(of.maximum)}};
+          {of.above_minimum ? "exclusiveMinimum" : "minimum", json_number(of.minimum)},
+          {"maximum", json_number(of.maximum)}};
 }
 
 Json list_schema(const Type& type, Json item) {
@@ -105,11 +105,11 @@ std::string anchor(const Record& record) {
   return "[" + record.name + "](#" + text + ")";
 }
 
-std::string range(const Type& type) {
+std::string range_suffix(const Type& type) {
   if (type.maximum >= 1e29 && type.minimum <= -1e29) return {};
-  if (type.maximum >= 1e29) return (type.above_minimum ? " > " : " >= ") + words(type.minimum);
-  if (type.above_minimum) return " > " + words(type.minimum) + ", <= " + words(type.maximum);
-  return " " + words(type.minimum) + " to " + words(type.maximum);
+  if (type.maximum >= 1e29) return (type.above_minimum ? " > " : " >= ") + shortest_digits(type.minimum);
+  if (type.above_minimum) return " > " + shortest_digits(type.minimum) + ", <= " + shortest_digits(type.maximum);
+  return " " + shortest_digits(type.minimum) + " to " + shortest_digits(type.maximum);
 }
 
 std::string type_words(const Type& type) {
@@ -118,13 +118,13 @@ std::string type_words(const Type& type) {
     case Kind::boolean:
       return "boolean";
     case Kind::integer:
-      return "integer" + range(type);
+      return "integer" + range_suffix(type);
     case Kind::number:
-      return "number" + range(type);
+      return "number" + range_suffix(type);
     case Kind::string:
       return "string";
     case Kind::vector:
-      return "[x, y, z]" + (type.maximum <= 1 ? ", each" + range(type) : std::string());
+      return "[x, y, z]" + (type.maximum <= 1 ? ", each" + range_suffix(type) : std::string());
     case Kind::list:
       return "list of " + type_words(type.parts.front());
     case Kind::record:

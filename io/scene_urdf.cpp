@@ -13,7 +13,6 @@ namespace pliant::scene_file {
 namespace {
 
 std::map<std::string, float> targets_of(const JsonValue& at) {
-  constexpr float radian = 0.017453292519943295f;  // per degree
   std::map<std::string, float> targets;
   for (const JsonValue& item : elements(at, "targets")) {
     std::string joint;

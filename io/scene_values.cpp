@@ -42,6 +42,13 @@ bool set(const JsonValue& at, const char* name, Vec3f& target) {
   return value != nullptr;
 }
 
+bool set(const JsonValue& at, const char* name, std::optional<float>& target, float unit) {
+  float value = 0;
+  const bool given = set(at, name, value);
+  if (given) target = value * unit;
+  return given;
+}
+
 bool set(const JsonValue& at, const char* name, std::uint32_t& target) {
   const JsonValue* value = at.find(name);
   if (value == nullptr) return false;

@@ -13,6 +13,8 @@
 
 namespace pliant::scene_file {
 
+inline constexpr float radian = 0.017453292519943295f;  ///< per degree
+
 Vec3f vector_of(const JsonValue& value);
 
 /// Reads the member `name` into `target`, which keeps its default if the member is absent. Returns true if it is present.
@@ -21,6 +23,8 @@ bool set(const JsonValue& at, const char* name, int& target);
 bool set(const JsonValue& at, const char* name, float& target);
 bool set(const JsonValue& at, const char* name, std::string& target);
 bool set(const JsonValue& at, const char* name, Vec3f& target);
+/// `unit` converts the value.
+bool set(const JsonValue& at, const char* name, std::optional<float>& target, float unit = 1);
 /// Reads a list of bit indices, and sets these bits.
 bool set(const JsonValue& at, const char* name, std::uint32_t& target);
 

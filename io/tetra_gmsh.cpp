@@ -16,8 +16,9 @@ struct ElementType {
   std::int64_t number;
   int nodes;
 };
-constexpr std::int64_t tetrahedron = 4;
-constexpr ElementType types[] = {{15, 1}, {1, 2}, {2, 3}, {3, 4}, {tetrahedron, 4}, {8, 3}, {9, 6}, {10, 9}, {16, 8}};
+constexpr std::int64_t gmsh_tetrahedron = 4;
+constexpr ElementType gmsh_types[] = {{15, 1}, {1, 2}, {2, 3},  {3, 4}, {gmsh_tetrahedron, 4},
+                                      {8, 3},  {9, 6}, {10, 9}, {16, 8}};
 
 /// Numbers of a file, as words or as bytes.
 class Source {
@@ -67,7 +68,7 @@ std::int64_t Source::count(const char* what) {
   if (!is_version_2_) {
     number = index(what);
   } else if (const std::string_view line = bytes_.line(); !parse_integer(line, number)) {  // text even in binary files
-    fail(quoted(line) + " is no integer, but " + what + " should be here", "the file is damaged: export it again");
+    fail(in_quotes(line) + " is no integer, but " + what + " should be here", "the file is damaged: export it again");
   }
   return bytes_.checked(number, sizeof(std::int32_t), what);
 }
@@ -77,7 +78,7 @@ void Source::read_format() {
   const std::string_view version = words_.word();
   is_version_2_ = version == "2.2" || version == "2.1" || version == "2";
   if (!is_version_2_ && version != "4.1")
-    fail("has version " + quoted(version) + " of the format", "save it as version 2.2 or 4.1: gmsh -save -format msh41");
+    fail("has version " + in_quotes(version) + " of the format", "save it as version 2.2 or 4.1: gmsh -save -format msh41");
   const bool is_binary = words_.integer("the kind of file") == 1;
   if (words_.integer("the size of numbers") != 8)
     fail("has numbers of other than 8 bytes", "save it by a present version of Gmsh");
@@ -110,16 +111,16 @@ void Source::expect_end(const std::string& section) {
   else
     found = words_.word();
   if (found.empty() || found.substr(0, 4) == "$End") return;
-  fail("has more in $" + section + " than its counts say: " + quoted(found) + " is where $End" + section + " should be",
+  fail("has more in $" + section + " than its counts say: " + in_quotes(found) + " is where $End" + section + " should be",
        "correct the counts, or export it again");
 }
 
 // ------------------------------------------------------------------------------------------------ sections
 
 const ElementType* type_of(const Source& from, std::int64_t number) {
-  const auto* found =
-      std::find_if(std::begin(types), std::end(types), [&](const ElementType& one) { return one.number == number; });
-  if (found == std::end(types))
+  const auto* found = std::find_if(std::begin(gmsh_types), std::end(gmsh_types),
+                                   [&](const ElementType& one) { return one.number == number; });
+  if (found == std::end(gmsh_types))
     from.fail("has elements of type " + std::to_string(number) + ", which are no linear tetrahedra (4)",
               "mesh with linear tetrahedra alone: Mesh.ElementOrder = 1, no recombination");
   return found;
@@ -157,7 +158,7 @@ void read_element(Source& from, const ElementType& type, bool is_long, TetraBuil
   std::array<std::int64_t, 9> nodes{};
   for (int i = 0; i < type.nodes; ++i)
     nodes[static_cast<std::size_t>(i)] = is_long ? from.index("a node") : from.tag("a node");
-  if (type.number == tetrahedron) builder.add_tetrahedron({nodes[0], nodes[1], nodes[2], nodes[3]}, from.line());
+  if (type.number == gmsh_tetrahedron) builder.add_tetrahedron({nodes[0], nodes[1], nodes[2], nodes[3]}, from.line());
 }
 
 /// As text, each element has its type; as bytes, elements of one type follow a header.

@@ -31,7 +31,7 @@ constexpr Passed passed[] = {{"Edges", 3},
                              {"TangentAtVertices", 2},
                              {"TangentAtEdges", 3},
                              {"NormalAtTriangleVertices", 3}};
-constexpr std::string_view refused[] = {"Hexahedra", "Hexaedra", "Prisms", "Pyramids", "TetrahedraP2"};
+constexpr std::string_view refused_keywords[] = {"Hexahedra", "Hexaedra", "Prisms", "Pyramids", "TetrahedraP2"};
 
 void read_vertices(WordReader& words, TetraBuilder& builder) {
   const std::int64_t count = words.count("the number of vertices");
@@ -56,7 +56,8 @@ void pass_over(WordReader& words, std::string_view keyword) {
   const auto* found =
       std::find_if(std::begin(passed), std::end(passed), [&](const Passed& one) { return one.keyword == keyword; });
   if (found == std::end(passed))
-    words.fail(quoted(keyword) + " is no keyword of this format", "remove it with its rows, or write the mesh without it");
+    words.fail(in_quotes(keyword) + " is no keyword of this format",
+               "remove it with its rows, or write the mesh without it");
   const std::int64_t count = words.count("the number of rows");
   for (std::int64_t i = 0; i < count * found->words; ++i)
     if (words.word().empty()) words.fail("ends in its " + std::string(keyword), "the file is cut off: export it again");
@@ -77,7 +78,7 @@ TetrahedralMeshFile read_medit(std::string_view bytes, const std::string& name) 
       read_vertices(words, builder);
     } else if (keyword == "Tetrahedra") {
       read_tetrahedra(words, builder);
-    } else if (std::find(std::begin(refused), std::end(refused), keyword) != std::end(refused)) {
+    } else if (std::find(std::begin(refused_keywords), std::end(refused_keywords), keyword) != std::end(refused_keywords)) {
       if (words.count("the number of rows") > 0)
         words.fail("has " + std::string(keyword), "export linear tetrahedra alone");
     } else {

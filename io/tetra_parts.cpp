@@ -6,19 +6,18 @@
 #include <tuple>
 #include <vector>
 
+#include "core/at.h"
 #include "math/disjoint_sets.h"
 
 namespace pliant {
 
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 /// For each node, the first node of its part.
 std::vector<std::size_t> parts_of(const TetrahedralMesh& mesh) {
   DisjointSets parts(mesh.positions.size());
   for (const auto& corners : mesh.tetrahedra)
-    for (const int corner : corners) parts.join(index(corners[0]), index(corner));
+    for (const int corner : corners) parts.join(at(corners[0]), at(corner));
   std::vector<std::size_t> first(mesh.positions.size());
   for (std::size_t i = 0; i < first.size(); ++i) first[i] = parts.root(i);
   return first;
@@ -29,14 +28,14 @@ std::size_t count_touching(const std::vector<Vec3f>& positions, const std::vecto
   std::vector<int> order(positions.size());
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int i) {
-    const Vec3f& p = positions[index(i)];
-    return std::make_tuple(p.x, p.y, p.z, parts[index(i)]);
+    const Vec3f& p = positions[at(i)];
+    return std::make_tuple(p.x, p.y, p.z, parts[at(i)]);
   };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
   std::size_t count = 0;
   for (std::size_t i = 1; i < order.size(); ++i) {
     const int a = order[i - 1], b = order[i];
-    if (positions[index(a)] == positions[index(b)] && parts[index(a)] != parts[index(b)]) ++count;
+    if (positions[at(a)] == positions[at(b)] && parts[at(a)] != parts[at(b)]) ++count;
   }
   return count;
 }

@@ -39,7 +39,7 @@ std::int64_t WordReader::integer(const char* what) {
   const std::string_view text = word();
   std::int64_t value = 0;
   if (text.empty()) fail(std::string("ends where ") + what + " should follow", "the file is cut off: export it again");
-  if (!parse_integer(text, value)) fail(quoted(text) + " is no integer, but " + what + " should be here");
+  if (!parse_integer(text, value)) fail(in_quotes(text) + " is no integer, but " + what + " should be here");
   return value;
 }
 
@@ -48,7 +48,7 @@ float WordReader::real(const char* what) {
   float value = 0;
   if (text.empty()) fail(std::string("ends where ") + what + " should follow", "the file is cut off: export it again");
   if (const NumberProblem problem = parse_float(text, value); problem != NumberProblem::none)
-    fail(quoted(text) + ", " + what + ", " + describe(problem), "give finite coordinates");
+    fail(in_quotes(text) + ", " + what + ", " + describe(problem), "give finite coordinates");
   return value;
 }
 
@@ -64,7 +64,7 @@ void WordReader::expect(std::string_view keyword) {
   const std::string_view found = word();
   if (found != keyword)
     fail(found.empty() ? "ends where '" + std::string(keyword) + "' should follow"
-                       : quoted(found) + " is where '" + std::string(keyword) + "' should be");
+                       : in_quotes(found) + " is where '" + std::string(keyword) + "' should be");
 }
 
 }  // namespace pliant

@@ -21,7 +21,7 @@ TetrahedralMeshFile read_vertex_tet(std::string_view bytes, const std::string& n
       for (std::int64_t& corner : corners) corner = words.integer("a corner");
       builder.add_tetrahedron(corners, words.line());
     } else if (keyword != "Edge" && keyword != "Face") {
-      words.fail(quoted(keyword) + " is no keyword of this format", "lines begin with 'Vertex' or 'Tet'");
+      words.fail(in_quotes(keyword) + " is no keyword of this format", "lines begin with 'Vertex' or 'Tet'");
     }
     words.skip_line();
   }

@@ -26,10 +26,10 @@ std::string_view read_head(WordReader& words) {
 bool read_format(WordReader& words) {
   std::string_view word = read_head(words);
   if (word == "BINARY") return true;
-  if (word != "ASCII") words.fail(quoted(word) + " is where 'ASCII' should be", "the file is no legacy VTK file");
+  if (word != "ASCII") words.fail(in_quotes(word) + " is where 'ASCII' should be", "the file is no legacy VTK file");
   words.expect("DATASET");
   word = words.word();
-  if (word != "UNSTRUCTURED_GRID") words.fail(quoted(word) + " has no tetrahedra", "write an UNSTRUCTURED_GRID");
+  if (word != "UNSTRUCTURED_GRID") words.fail(in_quotes(word) + " has no tetrahedra", "write an UNSTRUCTURED_GRID");
   return false;
 }
 
@@ -79,7 +79,7 @@ void read_cells(WordReader& words, TetraBuilder& builder, VtkCells& cells) {
   const std::string_view first = words.word();
   if (first == "OFFSETS") return read_offsets(words, count, size, cells);
   std::int64_t corners = 0;
-  if (!parse_integer(first, corners)) words.fail(quoted(first) + " is no number of corners", "the file is damaged");
+  if (!parse_integer(first, corners)) words.fail(in_quotes(first) + " is no number of corners", "the file is damaged");
   read_counted(words, corners, count, size, builder, cells);
 }
 

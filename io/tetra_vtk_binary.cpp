@@ -38,7 +38,7 @@ std::int64_t BinaryVtk::integer(std::string_view& rest, const char* what) {
   const std::string_view word = take_word(rest);
   std::int64_t value = 0;
   if (!parse_integer(word, value))
-    from_.fail(quoted(word) + " is no integer, but " + what + " should be here", "the file is damaged");
+    from_.fail(in_quotes(word) + " is no integer, but " + what + " should be here", "the file is damaged");
   return value;
 }
 
@@ -46,7 +46,7 @@ void BinaryVtk::points(std::string_view rest) {
   const std::int64_t count = integer(rest, "the number of points");
   const std::string_view type = take_word(rest);
   if (type != "float" && type != "double")
-    from_.fail("points are of type " + quoted(type), "write them as float or double");
+    from_.fail("points are of type " + in_quotes(type), "write them as float or double");
   const bool is_double = type == "double";
   from_.checked(count, is_double ? 24 : 12, "the number of points");
   const auto next = [&](const char* what) {

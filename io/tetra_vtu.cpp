@@ -88,14 +88,14 @@ class VtuReader {
     const std::string compressor = attribute(root, "compressor");
     encoding_.is_compressed = !compressor.empty();
     if (encoding_.is_compressed && compressor != "vtkZLibDataCompressor")
-      fail(root.GetLineNum(), "is compressed by " + quoted(compressor), "compress by zlib, or not");
+      fail(root.GetLineNum(), "is compressed by " + in_quotes(compressor), "compress by zlib, or not");
   }
 
   std::int64_t count(const Element& piece, const char* name) const {
     const std::string word = attribute(piece, name);
     std::int64_t value = 0;
     if (!parse_integer(word, value) || value < 0)
-      fail(piece.GetLineNum(), std::string(name) + " is " + quoted(word), "give how many there are");
+      fail(piece.GetLineNum(), std::string(name) + " is " + in_quotes(word), "give how many there are");
     return value;
   }
 
@@ -119,7 +119,7 @@ class VtuReader {
       const std::string word = attribute(at, "offset");
       std::int64_t offset = 0;
       if (!parse_integer(word, offset) || offset < 0 || static_cast<std::size_t>(offset) > appended_.bytes.size())
-        fail(at.GetLineNum(), "an array has the offset " + quoted(word), "the file is cut off: export it again");
+        fail(at.GetLineNum(), "an array has the offset " + in_quotes(word), "the file is cut off: export it again");
       encoding.is_base64 = appended_.is_base64;
       return vtu_array(appended_.bytes.substr(static_cast<std::size_t>(offset)), encoding, refuse);
     }
@@ -152,7 +152,7 @@ class VtuReader {
       std::vector<std::int64_t> out;
       for_words(at, [&](std::string_view word) {
         if (!parse_integer(word, out.emplace_back()))
-          fail(at.GetLineNum(), quoted(word) + " is no integer", "the file is damaged");
+          fail(at.GetLineNum(), in_quotes(word) + " is no integer", "the file is damaged");
       });
       return out;
     }
@@ -164,7 +164,7 @@ class VtuReader {
     if (type == "Int32") return converted<std::int32_t, std::int64_t>(bytes_of(at));
     if (type == "UInt32") return converted<std::uint32_t, std::int64_t>(bytes_of(at));
     if (type == "Int64" || type == "UInt64") return converted<std::int64_t, std::int64_t>(bytes_of(at));
-    fail(at.GetLineNum(), "has integers of type " + quoted(type), "write Int32 or Int64");
+    fail(at.GetLineNum(), "has integers of type " + in_quotes(type), "write Int32 or Int64");
   }
 
   std::vector<float> reals(const Element& at) const {
@@ -173,12 +173,12 @@ class VtuReader {
     if (attribute(at, "format") == "ascii") {
       for_words(at, [&](std::string_view word) {
         if (const NumberProblem problem = parse_float(word, out.emplace_back()); problem != NumberProblem::none)
-          fail(at.GetLineNum(), quoted(word) + " " + describe(problem), "give finite coordinates");
+          fail(at.GetLineNum(), in_quotes(word) + " " + describe(problem), "give finite coordinates");
       });
       return out;
     }
     if (type != "Float32" && type != "Float64")
-      fail(at.GetLineNum(), "has points of type " + quoted(type), "write Float32 or Float64");
+      fail(at.GetLineNum(), "has points of type " + in_quotes(type), "write Float32 or Float64");
     out = type == "Float32" ? converted<float, float>(bytes_of(at)) : narrowed(converted<double, double>(bytes_of(at)));
     for (const float number : out)
       if (!(number - number == 0)) fail(at.GetLineNum(), "has a coordinate that is not finite", "give finite coordinates");

@@ -83,7 +83,7 @@ std::string_view take_word(std::string_view& rest) {
   return word;
 }
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   constexpr std::size_t most = 40;
   std::string text = "'";
   for (const char c : word.substr(0, most)) text += c >= ' ' && c <= '~' ? c : '?';

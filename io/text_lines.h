@@ -34,7 +34,7 @@ class LineReader {
 std::string_view take_word(std::string_view& rest);
 
 /// Makes a word from a file safe for messages: at most 40 bytes, unprintable ones as '?'.
-std::string quoted(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 enum class NumberProblem { none, not_a_number, not_finite, too_large };
 

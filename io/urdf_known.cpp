@@ -91,7 +91,7 @@ class Walk {
 
   void ignored(const std::string& what, const std::string& name, const std::string& inside, int line, const Names& known,
                bool is_known) {
-    const std::string key = what + quoted(name) + " of " + inside;
+    const std::string key = what + in_quotes(name) + " of " + inside;
     const auto found = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.key == key; });
     if (found != kinds_.end()) {
       ++found->count;

@@ -47,7 +47,7 @@ class Reader {
     float value = 0;
     const NumberProblem problem = parse_float(word, value);
     if (problem != NumberProblem::none)
-      fail(at.GetLineNum(), std::string(at.Name()) + ", " + name + ": " + quoted(word) + " " + describe(problem),
+      fail(at.GetLineNum(), std::string(at.Name()) + ", " + name + ": " + in_quotes(word) + " " + describe(problem),
            word.find(',') == std::string_view::npos ? "give finite numbers"
                                                     : "separate numbers by blanks, with decimal points");
     return value;
@@ -246,7 +246,7 @@ const char* xml_error_in_words(tinyxml2::XMLError error) {
   text.remove_prefix(std::min(text.size(), text.find_first_not_of(" \t")));
   reader.fail(line,
               std::string("is not valid XML: ") + xml_error_in_words(document.ErrorID()) +
-                  (text.empty() ? "" : ": " + quoted(text)),
+                  (text.empty() ? "" : ": " + in_quotes(text)),
               "correct the file");
 }
 

@@ -25,7 +25,7 @@ inline void tuple(std::string& text, const Vec3f& v) {
   text += ')';
 }
 
-inline std::string quoted(const std::string& name) {
+inline std::string usda_string(const std::string& name) {
   std::string text = "\"";
   for (const char c : name) {
     if (c == '"' || c == '\\') text += '\\';

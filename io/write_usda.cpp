@@ -40,7 +40,7 @@ class Prim {
   }
 
   void write(AtomicFile& file, const std::string& name) {
-    file.write("\n    def " + std::string(type()) + " \"" + name + "\" (\n        doc = " + quoted(object_.name) +
+    file.write("\n    def " + std::string(type()) + " \"" + name + "\" (\n        doc = " + usda_string(object_.name) +
                "\n    )\n    {\n");
     file.write(topology());
     if (object_.is_remeshed) {

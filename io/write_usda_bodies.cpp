@@ -68,7 +68,7 @@ void UsdaBodies::write_solid(AtomicFile& file, const std::string& name, const Sh
 }
 
 void UsdaBodies::write_body(AtomicFile& file, std::size_t body, const std::string& name, const std::string& solid) const {
-  file.write("\n        def Mesh \"" + name + "\" (\n            doc = " + quoted(object_.bodies[body].name) +
+  file.write("\n        def Mesh \"" + name + "\" (\n            doc = " + usda_string(object_.bodies[body].name) +
              "\n            inherits = <" + solid + ">\n        )\n        {\n");
   const auto place = [](const RigidPose& pose) { return pose.position; };
   const auto rotation = [](const RigidPose& pose) { return pose.rotation; };
@@ -81,7 +81,7 @@ void UsdaBodies::write(AtomicFile& file, const std::string& name) const {
   std::vector<std::string> names(object_.solids.size(), "solid");
   for (const FrameBody& body : object_.bodies) names.push_back(body.name);
   names = identifiers(names);
-  file.write("\n    def Xform \"" + name + "\" (\n        doc = " + quoted(object_.name) + "\n    )\n    {");
+  file.write("\n    def Xform \"" + name + "\" (\n        doc = " + usda_string(object_.name) + "\n    )\n    {");
   for (std::size_t s = 0; s < object_.solids.size(); ++s) write_solid(file, names[s], shaded(object_.solids[s]));
   for (std::size_t b = 0; b < object_.bodies.size(); ++b)
     write_body(file, b, names[object_.solids.size() + b],
