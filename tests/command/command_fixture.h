@@ -49,9 +49,11 @@ class Command : public testing::Test {
     std::string out, err;
   };
 
-  /// Runs `pliant ARGUMENTS` through the shell in the test's folder.
-  Result pliant(const std::string& arguments) {
-    const std::string line = "cd '" + folder_.string() + "' && '" PLIANT_COMMAND "' " + arguments + " >stdout 2>stderr";
+  Result pliant(const std::string& arguments) { return run_program(PLIANT_COMMAND, arguments); }
+
+  /// Runs `PROGRAM ARGUMENTS` through the shell in the test's folder.
+  Result run_program(const std::string& program, const std::string& arguments) {
+    const std::string line = "cd '" + folder_.string() + "' && '" + program + "' " + arguments + " >stdout 2>stderr";
     const int status = std::system(line.c_str());
     Result result{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(folder_ / "stdout"), slurp(folder_ / "stderr")};
     fs::remove(folder_ / "stdout");

@@ -31,3 +31,7 @@ endforeach()
 if(COMMAND_BUILT)
   must(${WORK}/prefix/bin/pliant version)
 endif()
+# The second program is installed where it was built.
+if(EXISTS ${PLIANT_BUILD}/bin/pliant-measure)
+  must(${WORK}/prefix/bin/pliant bench --help)
+endif()

@@ -23,9 +23,9 @@
 #include "apps/command_line/interrupt.h"
 #include "apps/command_line/output.h"
 #include "apps/command_line/simulate.h"
+#include "apps/command_line/usage.h"
+#include "apps/measure/measure.h"
 #include "atomic_file.h"
-#include "command.h"
-#include "scene_hints.h"
 
 namespace pliant::command {
 
@@ -264,11 +264,8 @@ void refuse_unknown(const std::string& workload) {
                             "default", "joints", "memory", "tears", "W2", "W3", "W3-ball", "W3-cloth", "W5"})
     names.emplace_back(other);
   if (workload.empty() || std::find(names.begin(), names.end(), workload) != names.end()) return;
-  const std::string near = scene_file::nearest_name(workload, names);
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   throw Error({}, "there is no workload '" + workload + "'",
-              (near.empty() ? "" : "did you mean '" + near + "'? ") + "the workloads are " + list);
+              did_you_mean(workload, names) + "the workloads are " + joined(names));
 }
 
 /// Only liquids are counted by particles; what others count by sides or rows has a lower limit.

@@ -7,9 +7,9 @@
 #include "apps/command_line/interrupt.h"
 #include "apps/command_line/output.h"
 #include "apps/command_line/simulate.h"
+#include "apps/measure/measure.h"
 #include "apps/plot/canvas.h"
 #include "atomic_file.h"
-#include "command.h"
 #include "pliant/error.h"
 
 namespace pliant::command {
