@@ -8,13 +8,10 @@
 #include "model/model.h"
 #include "pliant/mesh.h"
 #include "solver/sweeps/chain_kernels.h"
+#include "support/random.h"
 #include "topology/edges.h"
 
 namespace pliant::testing_support {
-
-inline double uniform(std::mt19937& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
-}
 
 inline Object line(int links, float compliance, std::mt19937& random) {
   Object object;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "solver/chains_support.h"
+#include "solver/records_support.h"
 #include "support/bits.h"
 #include "support/kernels.h"
 
@@ -14,6 +15,7 @@ namespace pliant {
 namespace {
 
 using namespace testing_support;
+using testing_support::expect_same;
 
 // ---------------------------------------------------------------- the exact solution
 
@@ -107,13 +109,6 @@ TEST(Chains, keep_momentum) {
 }
 
 // ---------------------------------------------------------------- lanes
-
-void expect_same(const Records& a, const Records& b, const std::string& what) {
-  for (std::size_t i = 0; i < a.size(); ++i)
-    ASSERT_TRUE(same_bits(a[i].x, b[i].x) && same_bits(a[i].y, b[i].y) && same_bits(a[i].z, b[i].z) &&
-                same_bits(a[i].w, b[i].w))
-        << what << ", record " << i;
-}
 
 void disturb(ChainedSubstep& substep, std::mt19937& random, bool nasty) {
   const auto number = [&] { return nasty ? nasty_float(random) : static_cast<float>(uniform(random, -0.02, 0.02)); };

@@ -10,30 +10,25 @@
 #include <set>
 
 #include "solver/kernels.h"
+#include "solver/random_support.h"
 
 namespace pliant {
 namespace {
+
+using testing_support::random_vector;
+using testing_support::uniform_float;
 
 struct Tangle {
   std::vector<Record> positions, displacements, velocities;
   std::vector<Contact> contacts;
 };
 
-float uniform(std::mt19937& random, float low, float high) {
-  return std::uniform_real_distribution<float>(low, high)(random);
-}
-
-Vec3f random_vector(std::mt19937& random, float range) {
-  const float x = uniform(random, -range, range), y = uniform(random, -range, range);
-  return {x, y, uniform(random, -range, range)};
-}
-
 /// Contacts between random points, whose indices differ by at most `apart`. Every fifth point is fixed.
 Tangle random_tangle(int points, int contacts, int apart, unsigned seed) {
   std::mt19937 random(seed);
   Tangle out;
   for (int i = 0; i < points; ++i) {
-    out.positions.push_back({0, 0, 0, i % 5 == 0 ? 0.f : uniform(random, 0.5f, 2)});
+    out.positions.push_back({0, 0, 0, i % 5 == 0 ? 0.f : uniform_float(random, 0.5f, 2)});
     const Vec3f d = random_vector(random, 0.01f);
     out.displacements.push_back({d.x, d.y, d.z, 0});
   }
@@ -44,7 +39,7 @@ Tangle random_tangle(int points, int contacts, int apart, unsigned seed) {
     std::set<std::int32_t> four;
     while (four.size() < 4) four.insert(first + static_cast<int>(random() % static_cast<unsigned>(apart)));
     std::copy(four.begin(), four.end(), c.point.begin());
-    const float s = uniform(random, 0, 1), t = i % 3 == 0 ? 0 : uniform(random, 0, 1);
+    const float s = uniform_float(random, 0, 1), t = i % 3 == 0 ? 0 : uniform_float(random, 0, 1);
     c.weight = {1 - s, s, t - 1, -t};
     if (i % 7 == 0) {  // contacts of two points only
       c.point[2] = c.point[3] = c.point[0];
@@ -52,8 +47,8 @@ Tangle random_tangle(int points, int contacts, int apart, unsigned seed) {
     }
     const Vec3f n = random_vector(random, 1);
     c.normal = n * (1 / std::max(length(n), 1e-3f));
-    c.gap = uniform(random, -0.01f, 0.01f);
-    c.thickness = uniform(random, 0.001f, 0.01f);
+    c.gap = uniform_float(random, -0.01f, 0.01f);
+    c.thickness = uniform_float(random, 0.001f, 0.01f);
     c.static_friction = 0.5f;
     c.kinetic_friction = 0.3f;
     c.surface_motion = i % 4 == 0 ? random_vector(random, 0.001f) : Vec3f{};

@@ -10,6 +10,7 @@
 
 #include "geometry/shapes.h"
 #include "model/compiled_object.h"
+#include "solver/records_support.h"
 #include "support/bits.h"
 #include "support/constraint_support.h"
 #include "support/kernels.h"
@@ -19,6 +20,7 @@ namespace pliant {
 namespace {
 
 using namespace testing_support;
+using testing_support::expect_same;
 
 std::vector<const Kernels*> kernels_in_lanes() {
   std::vector<const Kernels*> all;
@@ -77,16 +79,6 @@ struct Numbers {
   }
 };
 
-void expect_same(const Records& a, const Records& b, const std::string& what) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_TRUE(same_bits(a[i].x, b[i].x) && same_bits(a[i].y, b[i].y) && same_bits(a[i].z, b[i].z) &&
-                same_bits(a[i].w, b[i].w))
-        << what << ", record " << i << ": " << a[i].x << " " << a[i].y << " " << a[i].z << " " << a[i].w << " and "
-        << b[i].x << " " << b[i].y << " " << b[i].z << " " << b[i].w;
-  }
-}
-
 /// The displacements after three passes of a substep.
 Records swept(const Kernels& kernels, const CompiledObject& object, Numbers numbers, AlignedVector<float>* multipliers) {
   SweepArguments a;
@@ -123,13 +115,13 @@ template <class T>
 constexpr int all_slots = (1 << slot_count<T>)-1;
 
 template <class T>
-class Sweeps : public testing::Test {
+class SweepKernels : public testing::Test {
  protected:
   Random random_{5};
 };
-TYPED_TEST_SUITE(Sweeps, ConstraintTypes, NameOfType);
+TYPED_TEST_SUITE(SweepKernels, ConstraintTypes, NameOfType);
 
-TYPED_TEST(Sweeps, GiveTheBitsOfTheReference) {
+TYPED_TEST(SweepKernels, GiveTheBitsOfTheReference) {
   using T = TypeParam;
   for (Law law : {Law::compliant, Law::damped, Law::pbd}) {
     for (int ladder : {all_slots<T>, 0}) {
@@ -176,7 +168,7 @@ CompiledObject every_set_of_slots(Law law, Random& random) {
   return compiled;
 }
 
-TYPED_TEST(Sweeps, GiveTheBitsOfTheReferenceWithAnySlotsInRuns) {
+TYPED_TEST(SweepKernels, GiveTheBitsOfTheReferenceWithAnySlotsInRuns) {
   using T = TypeParam;
   for (Law law : {Law::compliant, Law::damped, Law::pbd}) {
     for (bool nasty : {false, true}) {
@@ -190,7 +182,7 @@ TYPED_TEST(Sweeps, GiveTheBitsOfTheReferenceWithAnySlotsInRuns) {
   }
 }
 
-TYPED_TEST(Sweeps, MeetRunsAndSinglesInThisTest) {
+TYPED_TEST(SweepKernels, MeetRunsAndSinglesInThisTest) {
   using T = TypeParam;
   const CompiledObject rows = compile(separate_constraints<T>(160, Law::damped, all_slots<T>, this->random_), {10, 4096});
   EXPECT_EQ(rows.pools[0].block_floats, batch_width * (field_count<T> + 1))
@@ -206,7 +198,7 @@ TYPED_TEST(Sweeps, MeetRunsAndSinglesInThisTest) {
   EXPECT_GT(batches_in_runs(0, 0), 0);
 }
 
-TYPED_TEST(Sweeps, LeaveOthersAloneAndPaddingUnwritten) {
+TYPED_TEST(SweepKernels, LeaveOthersAloneAndPaddingUnwritten) {
   using T = TypeParam;
   CompiledObject compiled = compile(separate_constraints<T>(5, Law::pbd, 0, this->random_), {10, 4096});
   fill(compiled.pools[0], this->random_, false);
@@ -222,9 +214,9 @@ TYPED_TEST(Sweeps, LeaveOthersAloneAndPaddingUnwritten) {
 
 // ------------------------------------------------------------------------------------------------ particles
 
-struct Particles {
+struct RandomParticles {
   Records positions, displacements, remainders, velocities;
-  Particles(int count, Random& random, bool nasty) {
+  RandomParticles(int count, Random& random, bool nasty) {
     const auto number = [&] { return nasty ? nasty_float(random) : static_cast<float>(uniform(random, -1, 1)); };
     for (int i = 0; i < count; ++i) {
       const float w = random() % 3 == 0 ? 0.f : static_cast<float>(uniform(random, 0.1, 10));
@@ -254,7 +246,7 @@ struct Particles {
   }
 };
 
-void expect_same(const Particles& a, const Particles& b, const std::string& what) {
+void expect_same(const RandomParticles& a, const RandomParticles& b, const std::string& what) {
   ASSERT_NO_FATAL_FAILURE(expect_same(a.positions, b.positions, what + ", positions"));
   ASSERT_NO_FATAL_FAILURE(expect_same(a.displacements, b.displacements, what + ", displacements"));
   ASSERT_NO_FATAL_FAILURE(expect_same(a.remainders, b.remainders, what + ", remainders"));
@@ -269,11 +261,11 @@ void compare_on_all_lengths(const Act& act) {
   for (bool nasty : {false, true}) {
     for (int first = 0; first < 5; ++first) {
       for (int last = first; last <= 24; ++last) {
-        const Particles start(24, random, nasty);
-        Particles expected = start;
+        const RandomParticles start(24, random, nasty);
+        RandomParticles expected = start;
         act(kernels_sequential(), expected.arguments(first, last));
         for (const Kernels* kernels : kernels_in_lanes()) {
-          Particles found = start;
+          RandomParticles found = start;
           act(*kernels, found.arguments(first, last));
           ASSERT_NO_FATAL_FAILURE(expect_same(
               found, expected, std::string(kernels->isa) + ", " + std::to_string(first) + " to " + std::to_string(last)));
@@ -294,8 +286,8 @@ TEST(Kernels, AdvanceAsUpdateAndThenPredict) {
   compare_on_all_lengths([](const Kernels& kernels, const AdvanceArguments& a) { kernels.advance(a, nullptr); });
   Random random(18);
   for (const Kernels* kernels : kernels_in_lanes()) {
-    const Particles start(23, random, false);
-    Particles together = start, apart = start;
+    const RandomParticles start(23, random, false);
+    RandomParticles together = start, apart = start;
     kernels->advance(together.arguments(1, 22), nullptr);
     kernels->update(apart.arguments(1, 22));
     kernels->predict(apart.arguments(1, 22), nullptr);
@@ -313,7 +305,7 @@ TEST(Kernels, FindEveryParticleThatCouldTouch) {
     for (const LocalShape& shape : shapes) {
       int left_out = 0;
       for (int count : {0, 1, 15, 16, 17, 33, 200}) {
-        Particles particles(std::max(count, 1), random, false);
+        RandomParticles particles(std::max(count, 1), random, false);
         const Posed pose{random_point(random, 0.3), random_rotation(random)};
         const NearQuery query{
             particles.positions.data(), particles.displacements.data(), 0, count, shape, convert<float>(pose), 0.05f};
@@ -340,8 +332,8 @@ TEST(Kernels, FindEveryParticleThatCouldTouch) {
 TEST(Kernels, BoundThePathsAsTheReference) {
   Random random(2);
   for (int count = 0; count <= 21; ++count) {
-    const Particles start(std::max(count, 1), random, false);
-    Particles particles = start;
+    const RandomParticles start(std::max(count, 1), random, false);
+    RandomParticles particles = start;
     PointBounds expected;
     kernels_sequential().predict(particles.arguments(0, count), &expected);
     for (int i = 0; i < count; ++i) {
@@ -352,7 +344,7 @@ TEST(Kernels, BoundThePathsAsTheReference) {
       }
     }
     for (const Kernels* kernels : kernels_in_lanes()) {
-      Particles again = start;
+      RandomParticles again = start;
       PointBounds found;
       kernels->predict(again.arguments(0, count), &found);
       EXPECT_TRUE(found.low.x == expected.low.x && found.low.y == expected.low.y && found.low.z == expected.low.z) << count;

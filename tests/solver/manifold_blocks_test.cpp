@@ -8,23 +8,18 @@
 #include <random>
 
 #include "solver/kernels.h"
+#include "solver/random_support.h"
 #include "support/bits.h"
 #include "support/kernels.h"
 
 namespace pliant {
 namespace {
 
+using testing_support::random_vector;
 using testing_support::same_bits;
-using Random = std::mt19937;
+using testing_support::uniform_float;
 
-float uniform(Random& random, float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); }
-
-Vec3f vector(Random& random, float range) {
-  const float x = uniform(random, -range, range), y = uniform(random, -range, range);
-  return {x, y, uniform(random, -range, range)};
-}
-
-Vec3f unit(Random& random) { return unit_or(vector(random, 1), Vec3f{1, 0, 0}); }
+Vec3f unit(std::mt19937& random) { return unit_or(random_vector(random, 1), Vec3f{1, 0, 0}); }
 
 /// Bodies and contacts between them. Every seventh body is fixed, and some of those move.
 struct Pile {
@@ -34,23 +29,23 @@ struct Pile {
   ManifoldColours colours;
 };
 
-BodyMotion random_motion(bool is_fixed, bool moves, Random& random) {
+BodyMotion random_motion(bool is_fixed, bool moves, std::mt19937& random) {
   BodyMotion m;
   if (moves) {
-    m.velocity = vector(random, 2);
-    m.spin = vector(random, 3);
-    m.displacement = vector(random, 1e-2f);
-    m.rotation = vector(random, 1e-2f);
+    m.velocity = random_vector(random, 2);
+    m.spin = random_vector(random, 3);
+    m.displacement = random_vector(random, 1e-2f);
+    m.rotation = random_vector(random, 1e-2f);
   }
   if (is_fixed) return m;
-  m.inverse_mass = uniform(random, 0.1f, 10);
+  m.inverse_mass = uniform_float(random, 0.1f, 10);
   // A diagonal that dominates is positive definite.
-  m.inverse_inertia = {uniform(random, 3, 9),  uniform(random, 3, 9),  uniform(random, 3, 9),
-                       uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+  m.inverse_inertia = {uniform_float(random, 3, 9),  uniform_float(random, 3, 9),  uniform_float(random, 3, 9),
+                       uniform_float(random, -1, 1), uniform_float(random, -1, 1), uniform_float(random, -1, 1)};
   return m;
 }
 
-Manifold random_manifold(int a, int b, Random& random) {
+Manifold random_manifold(int a, int b, std::mt19937& random) {
   Manifold m;
   m.a = a;
   m.b = b;
@@ -58,26 +53,26 @@ Manifold random_manifold(int a, int b, Random& random) {
   m.normal = random() % 3 == 0 ? Vec3f{0, 1, 0} : unit(random);
   m.tangent1 = unit_or(cross(m.normal, unit(random)), Vec3f{0, 0, 1});
   m.tangent2 = cross(m.normal, m.tangent1);
-  m.arm_a = vector(random, 0.5f);
-  m.arm_b = vector(random, 0.5f);
+  m.arm_a = random_vector(random, 0.5f);
+  m.arm_b = random_vector(random, 0.5f);
   constexpr float frictions[] = {0, 0.6f, 10};
   m.friction = frictions[random() % 3];
   m.sliding = random() % 2 == 0 ? 1.f : 0.8f;
-  m.restitution = random() % 2 == 0 ? 0.f : uniform(random, 0, 1);
+  m.restitution = random() % 2 == 0 ? 0.f : uniform_float(random, 0, 1);
   for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
-    m.x[i] = m.count == 1 ? 0.f : uniform(random, -0.5f, 0.5f);
-    m.y[i] = m.count == 1 ? 0.f : uniform(random, -0.5f, 0.5f);
-    m.gap[i] = uniform(random, -0.01f, 0.01f);
-    m.impulse[i] = random() % 4 == 0 ? 0.f : uniform(random, 0, 0.5f);
+    m.x[i] = m.count == 1 ? 0.f : uniform_float(random, -0.5f, 0.5f);
+    m.y[i] = m.count == 1 ? 0.f : uniform_float(random, -0.5f, 0.5f);
+    m.gap[i] = uniform_float(random, -0.01f, 0.01f);
+    m.impulse[i] = random() % 4 == 0 ? 0.f : uniform_float(random, 0, 0.5f);
   }
-  m.friction_impulse = {uniform(random, -0.1f, 0.1f), uniform(random, -0.1f, 0.1f)};
-  m.twist_impulse = uniform(random, -0.1f, 0.1f);
+  m.friction_impulse = {uniform_float(random, -0.1f, 0.1f), uniform_float(random, -0.1f, 0.1f)};
+  m.twist_impulse = uniform_float(random, -0.1f, 0.1f);
   return m;
 }
 
 /// `of_first` contacts are those of body 1, more than there are colours if it is large.
 Pile random_pile(int bodies, int contacts, int of_first, unsigned seed) {
-  Random random(seed);
+  std::mt19937 random(seed);
   Pile pile;
   for (int i = 0; i < bodies; ++i) {
     pile.is_fixed.push_back(i % 7 == 0 ? 1 : 0);
@@ -97,10 +92,10 @@ Pile random_pile(int bodies, int contacts, int of_first, unsigned seed) {
   return pile;
 }
 
-constexpr float step = 1.f / 480;
+constexpr float pile_step = 1.f / 480;
 constexpr Vec3f fall{0, -0.025f, 0};
 constexpr ContactSoftness softness{0.04f, 0.05f, 0.5f};
-constexpr int substeps = 3;
+constexpr int pile_substeps = 3;
 
 /// Calls function(manifold, a, b) in the order of colours. Fixed bodies stay as they are.
 template <class Function>
@@ -116,24 +111,24 @@ void one_by_one(Pile& pile, const Function& function) {
 
 void advance(Pile& pile) {
   for (BodyMotion& m : pile.motions) {
-    m.displacement += m.velocity * step;
-    m.rotation += m.spin * step;
+    m.displacement += m.velocity * pile_step;
+    m.rotation += m.spin * pile_step;
   }
 }
 
 int solve_one_by_one(Pile& pile) {
   int bounces = 0;
   one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { prepare(m, a, b); });
-  for (int substep = 0; substep < substeps; ++substep) {
+  for (int substep = 0; substep < pile_substeps; ++substep) {
     one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { warm_start(m, a, b); });
     bool bounced = false;
     one_by_one(pile, [&](Manifold& m, BodyMotion& a, BodyMotion& b) {
-      if (bounce(m, a, b, step, fall)) bounced = true;
+      if (bounce(m, a, b, pile_step, fall)) bounced = true;
     });
     bounces += bounced ? 1 : 0;
-    one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, step, softness); });
+    one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, pile_step, softness); });
     advance(pile);
-    one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { velocity_pass(m, a, b, step); });
+    one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { velocity_pass(m, a, b, pile_step); });
   }
   return bounces;
 }
@@ -150,12 +145,12 @@ int solve_in_blocks(Pile& pile, const ManifoldKernels& kernels, int threads) {
   EXPECT_EQ(blocks.bounces(),
             std::any_of(pile.manifolds.begin(), pile.manifolds.end(), [](const Manifold& m) { return m.restitution > 0; }));
   blocks.prepare(executor, kernels, pile.motions);
-  for (int substep = 0; substep < substeps; ++substep) {
+  for (int substep = 0; substep < pile_substeps; ++substep) {
     blocks.warm_start(executor, kernels, pile.motions);
-    bounces += blocks.bounce(executor, kernels, pile.motions, step, fall) ? 1 : 0;
-    blocks.position_pass(executor, kernels, pile.motions, step, softness);
+    bounces += blocks.bounce(executor, kernels, pile.motions, pile_step, fall) ? 1 : 0;
+    blocks.position_pass(executor, kernels, pile.motions, pile_step, softness);
     advance(pile);
-    blocks.velocity_pass(executor, kernels, pile.motions, step);
+    blocks.velocity_pass(executor, kernels, pile.motions, pile_step);
   }
   blocks.take(
       executor, pile.colours, [](int) {},

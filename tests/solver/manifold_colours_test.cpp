@@ -9,10 +9,10 @@
 namespace pliant {
 namespace {
 
-using Bodies = std::vector<std::pair<int, int>>;
+using PairsOfBodies = std::vector<std::pair<int, int>>;
 
 /// Pairs of different bodies, sorted, each at most once. Body 0 occurs in `of_first` of them.
-Bodies random_pairs(int bodies, int count, int of_first, std::mt19937& random) {
+PairsOfBodies random_pairs(int bodies, int count, int of_first, std::mt19937& random) {
   std::set<std::pair<int, int>> pairs;
   for (int i = 0; i < of_first; ++i) pairs.insert({0, 1 + i});
   while (static_cast<int>(pairs.size()) < count) {
@@ -24,7 +24,7 @@ Bodies random_pairs(int bodies, int count, int of_first, std::mt19937& random) {
 }
 
 /// Every manifold is there once, colours share no dynamic body, and each range ascends.
-void expect_valid(const ManifoldColours& colours, const Bodies& pairs, const std::vector<char>& is_fixed) {
+void expect_valid(const ManifoldColours& colours, const PairsOfBodies& pairs, const std::vector<char>& is_fixed) {
   const std::vector<int>&order = colours.order(), &start = colours.start();
   ASSERT_EQ(start.size(), std::size_t(manifold_colours + 2));
   EXPECT_EQ(start.front(), 0);
@@ -50,7 +50,7 @@ TEST(ManifoldColours, NoColourHasADynamicBodyTwice) {
   ManifoldColours colours;  // reused, so that nothing may remain of an earlier call
   for (const int bodies : {2, 40, 400, 40})
     for (const int fixed : {0, 7}) {
-      const Bodies pairs = random_pairs(bodies, bodies == 2 ? 1 : 4 * bodies, 0, random);
+      const PairsOfBodies pairs = random_pairs(bodies, bodies == 2 ? 1 : 4 * bodies, 0, random);
       std::vector<char> is_fixed(std::size_t(bodies), 0);
       for (int i = 0; i < bodies && fixed != 0; i += fixed) is_fixed[std::size_t(i)] = 1;
       colours.colour(pairs, is_fixed);
@@ -61,7 +61,7 @@ TEST(ManifoldColours, NoColourHasADynamicBodyTwice) {
 
 TEST(ManifoldColours, WhatADynamicSlabCarriesIsTheTail) {
   std::mt19937 random(2);
-  const Bodies pairs = random_pairs(101, 100, 100, random);
+  const PairsOfBodies pairs = random_pairs(101, 100, 100, random);
   ManifoldColours colours;
   std::vector<char> is_fixed(101, 0);
   colours.colour(pairs, is_fixed);
@@ -75,7 +75,7 @@ TEST(ManifoldColours, WhatADynamicSlabCarriesIsTheTail) {
 
 /// A chain of bodies in order needs two colours; known by hand.
 TEST(ManifoldColours, AChainHasTwoColours) {
-  const Bodies pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}};
+  const PairsOfBodies pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}};
   ManifoldColours colours;
   colours.colour(pairs, std::vector<char>(6, 0));
   EXPECT_EQ(colours.order(), (std::vector<int>{0, 2, 4, 1, 3}));

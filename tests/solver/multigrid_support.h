@@ -18,10 +18,9 @@
 
 namespace pliant::testing_support {
 
-inline constexpr float infinity = std::numeric_limits<float>::infinity();
 inline constexpr float inverse_h2 = 360.f * 360;
 
-inline float uniform(std::mt19937& random, float low, float high) {
+inline float uniform_16_bit(std::mt19937& random, float low, float high) {
   return low + (high - low) * static_cast<float>(random() % 65536) / 65536;
 }
 
@@ -32,8 +31,9 @@ inline Object crumpled(int columns, int rows, unsigned seed) {
   Object object;
   object.positions = mesh.positions;
   for (Vec3f& p : object.positions)
-    p += Vec3f{uniform(random, -0.02f, 0.02f), uniform(random, -0.02f, 0.02f), uniform(random, -0.02f, 0.02f)};
-  for (std::size_t i = 0; i < object.positions.size(); ++i) object.masses.push_back(uniform(random, 0.001f, 0.004f));
+    p += Vec3f{uniform_16_bit(random, -0.02f, 0.02f), uniform_16_bit(random, -0.02f, 0.02f),
+               uniform_16_bit(random, -0.02f, 0.02f)};
+  for (std::size_t i = 0; i < object.positions.size(); ++i) object.masses.push_back(uniform_16_bit(random, 0.001f, 0.004f));
   object.pins = {{0, {}}, {columns + 2, {}}};
   ConstraintGroup rigid{"distance", {}, {}, Stiffness::rigid(), {}}, soft = rigid;
   soft.stiffness = Stiffness::compliance(0.01f);
@@ -41,7 +41,7 @@ inline Object crumpled(int columns, int rows, unsigned seed) {
   for (const Edge& edge : find_edges(mesh.triangles, columns * rows)) {
     ConstraintGroup& group = number++ % 3 == 0 ? soft : rigid;
     group.particles.insert(group.particles.end(), {edge.a, edge.b});
-    group.rest.push_back(uniform(random, 0.9f, 1.05f) / static_cast<float>(columns - 1));
+    group.rest.push_back(uniform_16_bit(random, 0.9f, 1.05f) / static_cast<float>(columns - 1));
   }
   object.constraints = {rigid, soft};
   return object;
@@ -79,7 +79,7 @@ inline Vector times(const Matrix& a, const Vector& x) {
   return y;
 }
 
-inline double size_of(const Vector& a) {
+inline double max_norm(const Vector& a) {
   double largest = 0;
   for (double x : a) largest = std::max(largest, std::fabs(x));
   return largest;
@@ -99,8 +99,8 @@ struct Linearised {
     displacements.resize(positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i)
       if (positions[i].w > 0)
-        displacements[i] = {uniform(random, -1e-3f, 1e-3f), uniform(random, -1e-3f, 1e-3f), uniform(random, -1e-3f, 1e-3f),
-                            0};
+        displacements[i] = {uniform_16_bit(random, -1e-3f, 1e-3f), uniform_16_bit(random, -1e-3f, 1e-3f),
+                            uniform_16_bit(random, -1e-3f, 1e-3f), 0};
     Model model;
     model.objects = {object};
     MultigridScratch scratch;
@@ -259,7 +259,7 @@ struct Corrected {
 inline double error_of(const Vector& found, const Vector& expected) {
   double largest = 0;
   for (std::size_t i = 0; i < found.size(); ++i) largest = std::max(largest, std::fabs(found[i] - expected[i]));
-  return largest / size_of(expected);
+  return largest / max_norm(expected);
 }
 
 }  // namespace pliant::testing_support

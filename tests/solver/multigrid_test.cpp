@@ -30,7 +30,7 @@ double largest_difference(const Matrix& a, const Matrix& b) {
 
 double largest_of(const Matrix& a) {
   double largest = 0;
-  for (const Vector& row : a) largest = std::max(largest, size_of(row));
+  for (const Vector& row : a) largest = std::max(largest, max_norm(row));
   return largest;
 }
 
@@ -57,7 +57,7 @@ TEST_P(Matrices, OfTheFinestLevelAreTheHessian) {
   }
   const Vector right = flat(of.values(0).right, of.rows(0));
   for (std::size_t i = 0; i < right.size(); ++i)
-    EXPECT_NEAR(right[i], of.moves(static_cast<int>(i / 3)) ? expected.b[i] : 0, 1e-4 * size_of(expected.b)) << i;
+    EXPECT_NEAR(right[i], of.moves(static_cast<int>(i / 3)) ? expected.b[i] : 0, 1e-4 * max_norm(expected.b)) << i;
 }
 
 /// P^T A P of the finer level, in which the coupling of two rows is halved, while what holds a row (inertia, contacts,
@@ -104,14 +104,15 @@ TEST_P(Matrices, ResidualAndJacobiAreThoseOfTheMatrix) {
     Records x(values.x.size()), out = x, right = x;
     for (int i = 0; i < level.rows; ++i) {
       if (l == 0 && !of.moves(i)) continue;
-      x[std::size_t(i)] = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1), 0};
-      right[std::size_t(i)] = {uniform(random, -1e4f, 1e4f), uniform(random, -1e4f, 1e4f), uniform(random, -1e4f, 1e4f), 0};
+      x[std::size_t(i)] = {uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1), 0};
+      right[std::size_t(i)] = {uniform_16_bit(random, -1e4f, 1e4f), uniform_16_bit(random, -1e4f, 1e4f),
+                               uniform_16_bit(random, -1e4f, 1e4f), 0};
     }
     const Matrix a = applied(of, l);
     const Vector image = times(a, flat(x, level.rows)), b = flat(right, level.rows);
     of.kernels->residual(level, values, l == 0, right.data(), x.data(), out.data(), 0, level.batches());
     const Vector residual = flat(out, level.rows);
-    for (std::size_t i = 0; i < b.size(); ++i) ASSERT_NEAR(residual[i], b[i] - image[i], 1e-5 * size_of(image)) << l;
+    for (std::size_t i = 0; i < b.size(); ++i) ASSERT_NEAR(residual[i], b[i] - image[i], 1e-5 * max_norm(image)) << l;
     of.kernels->smooth(level, values, l == 0, right.data(), x.data(), out.data(), 0, level.batches());
     const Vector smoothed = flat(out, level.rows), before = flat(x, level.rows);
     for (std::size_t i = 0; i < b.size(); i += 3) {
@@ -124,7 +125,7 @@ TEST_P(Matrices, ResidualAndJacobiAreThoseOfTheMatrix) {
       }
       const Vector step = eliminate(block, rest);
       for (std::size_t r = 0; r < 3; ++r)
-        ASSERT_NEAR(smoothed[i + r], before[i + r] + 0.65 * step[r], 1e-3 * (1 + size_of(step))) << l << ", " << i;
+        ASSERT_NEAR(smoothed[i + r], before[i + r] + 0.65 * step[r], 1e-3 * (1 + max_norm(step))) << l << ", " << i;
     }
     const float product = of.kernels->apply(level, values, l == 0, x.data(), out.data(), 0, level.batches());
     double expected = 0;
@@ -140,7 +141,8 @@ TEST_P(Matrices, RestrictionSumsAndProlongationCopies) {
   Records residual(of.values(0).x.size()), up(residual.size());
   Vector sums(3 * static_cast<std::size_t>(coarse.rows), 0);
   for (int i = 0; i < fine.rows; ++i) {
-    residual[std::size_t(i)] = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1), 0};
+    residual[std::size_t(i)] = {uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1),
+                                0};
     const int parent = fine.parent[std::size_t(lane_place(i))];
     if (parent == coarse.nothing()) continue;
     for (std::size_t c = 0; c < 3; ++c) sums[3 * std::size_t(parent) + c] += double((&residual[std::size_t(i)].x)[c]);
@@ -191,10 +193,10 @@ TEST(MultigridCorrection, ComesNearerWithEveryFewCycles) {
 TEST(MultigridCorrection, ThatIsNotFiniteIsNotMade) {
   Object sheet = crumpled(9, 9, 2);
   const Corrected sound({sheet}, 3);
-  EXPECT_GT(size_of(sound.change()), 1e-4) << "or this shows nothing";
+  EXPECT_GT(max_norm(sound.change()), 1e-4) << "or this shows nothing";
   std::mt19937 random(7);
   for (std::size_t i = 0; i < sheet.positions.size(); ++i)
-    sheet.velocities.push_back(Vec3f{uniform(random, -1e20f, 1e20f), uniform(random, -1e20f, 1e20f), 0});
+    sheet.velocities.push_back(Vec3f{uniform_16_bit(random, -1e20f, 1e20f), uniform_16_bit(random, -1e20f, 1e20f), 0});
   const Corrected found({sheet}, 3);
   for (const Record& d : found.predicted) ASSERT_TRUE(std::isfinite(d.x) && std::isfinite(d.y) && std::isfinite(d.z));
   for (const double moved : found.change()) ASSERT_EQ(moved, 0);

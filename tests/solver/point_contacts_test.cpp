@@ -8,22 +8,17 @@
 #include "pliant/error.h"
 #include "solver/contact_kernels.h"
 #include "solver/kernels.h"
+#include "solver/random_support.h"
 
 namespace pliant {
 namespace {
 
-float uniform(std::mt19937& random, float low, float high) {
-  return std::uniform_real_distribution<float>(low, high)(random);
-}
-
-Vec3f random_vector(std::mt19937& random, float range) {
-  const float x = uniform(random, -range, range), y = uniform(random, -range, range);
-  return {x, y, uniform(random, -range, range)};
-}
+using testing_support::random_vector;
+using testing_support::uniform_float;
 
 LocalShape random_shape(std::mt19937& random, ShapeKind kind) {
-  const float a = uniform(random, 0.05f, 0.3f), b = uniform(random, 0, 0.3f);
-  return {kind, a, b, uniform(random, 0.02f, 0.3f)};
+  const float a = uniform_float(random, 0.05f, 0.3f), b = uniform_float(random, 0, 0.3f);
+  return {kind, a, b, uniform_float(random, 0.02f, 0.3f)};
 }
 
 constexpr ShapeKind kinds[] = {ShapeKind::plane, ShapeKind::sphere, ShapeKind::capsule, ShapeKind::box};
@@ -65,7 +60,7 @@ struct Meeting {
     const Pose<float>& pose = colliders[0].before;
     const Vec3f anywhere = random_vector(random, 0.4f);
     const SurfaceDistance<float> surface = signed_distance(colliders[0].shape, anywhere);
-    const Vec3f near = anywhere + surface.normal * (uniform(random, -0.004f, 0.008f) - surface.distance),
+    const Vec3f near = anywhere + surface.normal * (uniform_float(random, -0.004f, 0.008f) - surface.distance),
                 at = to_world(pose, near),
                 d = random_vector(random, i % 3 == 0   ? 0.02f
                                           : i % 3 == 1 ? 0.002f
@@ -117,10 +112,10 @@ TEST(PointContacts, PathsThatStayBeyondHaveNoFirstHit) {
   int beyond = 0, hits = 0;
   for (int i = 0; i < 200000; ++i) {
     const LocalShape shape = random_shape(random, kinds[i % 4]);
-    const float margin = uniform(random, 0, 0.005f);
+    const float margin = uniform_float(random, 0, 0.005f);
     const Vec3f start = random_vector(random, 0.5f);
     const SurfaceDistance<float> surface = signed_distance(shape, start);
-    const Vec3f a = start + surface.normal * (margin + uniform(random, -0.001f, 0.01f) - surface.distance),
+    const Vec3f a = start + surface.normal * (margin + uniform_float(random, -0.001f, 0.01f) - surface.distance),
                 b = a + random_vector(random, i % 2 == 0 ? 0.02f : 0.2f);
     const bool hit = first_hit(shape, a, b, margin).hit;
     const bool stays = stays_beyond(margin, signed_distance(shape, b), b, b - a);

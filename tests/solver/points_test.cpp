@@ -20,10 +20,10 @@ using testing_support::available_isas;
 constexpr int count = 2 * launch_block + 37;
 
 /// Records of particles, a seventh of them with infinite mass.
-struct Particles {
+struct LaunchedParticles {
   std::vector<Record> positions, displacements, remainders, velocities;
 
-  Particles() {
+  LaunchedParticles() {
     std::mt19937 random(10);
     std::uniform_real_distribution<float> metres(-2, 2);
     const auto make = [&](std::vector<Record>& records, float size) {
@@ -58,7 +58,7 @@ bool same(const std::vector<Record>& a, const std::vector<Record>& b) {
   return std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0;
 }
 
-void expect_same(const Particles& a, const Particles& b, const std::string& what) {
+void expect_same(const LaunchedParticles& a, const LaunchedParticles& b, const std::string& what) {
   EXPECT_TRUE(same(a.positions, b.positions)) << what << ": positions";
   EXPECT_TRUE(same(a.displacements, b.displacements)) << what << ": displacements";
   EXPECT_TRUE(same(a.remainders, b.remainders)) << what << ": remainders";
@@ -77,30 +77,30 @@ std::vector<std::string> tables() {
 }
 
 TEST(Points, UpdateAsEveryTableOfKernels) {
-  Particles expected;
+  LaunchedParticles expected;
   run_backwards(UpdatePoint{expected.arguments()});
   for (const std::string& isa : tables()) {
-    Particles found;
+    LaunchedParticles found;
     pick_kernels(isa).update(found.arguments());
     expect_same(found, expected, isa);
   }
 }
 
 TEST(Points, PredictAsEveryTableOfKernels) {
-  Particles expected;
+  LaunchedParticles expected;
   run_backwards(PredictPoint{expected.arguments()});
   for (const std::string& isa : tables()) {
-    Particles found;
+    LaunchedParticles found;
     pick_kernels(isa).predict(found.arguments(), nullptr);
     expect_same(found, expected, isa);
   }
 }
 
 TEST(Points, AdvanceOnAnyNumberOfThreads) {
-  Particles expected;
+  LaunchedParticles expected;
   pick_kernels("sequential").advance(expected.arguments(), nullptr);
   for (const int threads : {1, 2, 4}) {
-    Particles found;
+    LaunchedParticles found;
     Executor executor(threads);
     launch(executor, "update", count, UpdatePoint{found.arguments()});
     launch(executor, "predict", count, PredictPoint{found.arguments()});
@@ -109,7 +109,7 @@ TEST(Points, AdvanceOnAnyNumberOfThreads) {
 }
 
 TEST(Points, FindWhatIsNotFinite) {
-  Particles particles;
+  LaunchedParticles particles;
   particles.displacements[1500].z = std::numeric_limits<float>::infinity();
   particles.displacements[3].x = particles.displacements[1500].z - particles.displacements[1500].z;
   std::vector<unsigned char> nonfinite(count, 2);

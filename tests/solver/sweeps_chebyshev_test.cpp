@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-constexpr int links = 60;
+constexpr int chain_links = 60;
 const double pi = std::acos(-1.0);
 
 SweepOptions chebyshev(float radius = 0, int plain = 10) {
@@ -26,11 +26,11 @@ SweepOptions chebyshev(float radius = 0, int plain = 10) {
 
 Report solve(Sweep sweep, const SweepOptions& options, int iterations) {
   std::vector<double> stretch;
-  for (int i = 0; i < links; ++i) stretch.push_back(0.02 + 0.02 * std::sin(12.9898 * i));
+  for (int i = 0; i < chain_links; ++i) stretch.push_back(0.02 + 0.02 * std::sin(12.9898 * i));
   SweepRun run = run_of(sweep, 1, iterations, options);
   run.settings.record_residuals = true;
   run.largest_tile = 4096;
-  return run_sweep({stretched_chain(links, stretch, Stiffness::rigid())}, run, 0).reports[0];
+  return run_sweep({stretched_chain(chain_links, stretch, Stiffness::rigid())}, run, 0).reports[0];
 }
 
 TEST(Chebyshev, WithoutBeingToldRhoIsManyTimesFaster) {
@@ -113,7 +113,7 @@ TEST(Chebyshev, OfWhatAllTouchesIsThePlainSweep) {
 
 /// Over natural order it diverges, so a World rejects it; this test has no World.
 TEST(Chebyshev, IsGivenUpWhereCorrectionsGrow) {
-  const double rho = std::cos(pi / (links + 1)) * std::cos(pi / (links + 1));
+  const double rho = std::cos(pi / (chain_links + 1)) * std::cos(pi / (chain_links + 1));
   const Report report = solve(Sweep::natural, chebyshev(static_cast<float>(rho), 1), 2000);
   const std::vector<double> curve = residual_curve(report);
   EXPECT_LT(*std::max_element(curve.begin(), curve.end()), 30 * curve[0]);
@@ -123,12 +123,12 @@ TEST(Chebyshev, IsGivenUpWhereCorrectionsGrow) {
 TEST(Chebyshev, RhoIsThatOfTheChain) {
   SweepRun run = run_of(Sweep::jacobi, 1, 400, chebyshev());
   std::vector<double> stretch;
-  for (int i = 0; i < links; ++i) stretch.push_back(0.02 + 0.02 * std::sin(12.9898 * i));
+  for (int i = 0; i < chain_links; ++i) stretch.push_back(0.02 + 0.02 * std::sin(12.9898 * i));
   // Split masses halve the step of Jacobi: the slowest error is multiplied by (1 + cos) / 2, a little more because of
   // the ends' whole masses.
-  const Outcome out = run_sweep({stretched_chain(links, stretch, Stiffness::rigid())}, run, 0);
+  const Outcome out = run_sweep({stretched_chain(chain_links, stretch, Stiffness::rigid())}, run, 0);
   const auto& scratch = static_cast<const ChebyshevScratch&>(*out.workspace.sweeps.at(Sweep::jacobi).acceleration);
-  const double rho = scratch.recurrence.spectral_radius, expected = (1 + std::cos(pi / (links + 1))) / 2;
+  const double rho = scratch.recurrence.spectral_radius, expected = (1 + std::cos(pi / (chain_links + 1))) / 2;
   EXPECT_LT(rho, expected + 0.1 * (1 - expected));
   EXPECT_GT(rho, expected - 3 * (1 - expected));
 }

@@ -43,7 +43,7 @@ bool equal_bits(const State& a, const State& b) {
 }
 
 /// Objects without PBD stiffness and damping, which would keep |C + alpha~ lambda| from vanishing.
-std::vector<Object> company() {
+std::vector<Object> undamped_company() {
   Object sheet = mixed_sheet(13, true);
   std::erase_if(sheet.constraints, [](const ConstraintGroup& group) {
     return group.stiffness.kind == Stiffness::Kind::pbd || group.stiffness.damping > 0;
@@ -68,7 +68,7 @@ TEST_P(ToleranceOf, EndsWhereTheRecordPassesIt) {
   run.frames = 4;
   run.settings.record_residuals = true;
   const double tolerance = 6e-5;
-  const Stopped stopped = run_with_tolerance(company(), run, tolerance);
+  const Stopped stopped = run_with_tolerance(undamped_company(), run, tolerance);
   for (const Report& report : stopped.reports) {
     const auto& record = report.convergence;
     ASSERT_GE(record.size(), 3U);
@@ -85,15 +85,16 @@ TEST_P(ToleranceOf, EndsWhereTheRecordPassesIt) {
 TEST_P(ToleranceOf, GivesTheSameBitsWhateverRunsIt) {
   SweepRun run = run_of(GetParam(), 3, 60);
   run.frames = 5;
-  const Stopped expected = run_with_tolerance(company(), run, 8e-5);
+  const Stopped expected = run_with_tolerance(undamped_company(), run, 8e-5);
   EXPECT_LT(expected.reports.back().iterations.smallest, 60);
   for (int threads : {1, 2, 3, 8}) {
     run.threads = threads;
-    EXPECT_TRUE(equal_bits(run_with_tolerance(company(), run, 8e-5).state, expected.state)) << threads << " threads";
+    EXPECT_TRUE(equal_bits(run_with_tolerance(undamped_company(), run, 8e-5).state, expected.state))
+        << threads << " threads";
   }
   for (const std::string& isa : available_isas()) {
     run.isa = isa;
-    const Stopped found = run_with_tolerance(company(), run, 8e-5);
+    const Stopped found = run_with_tolerance(undamped_company(), run, 8e-5);
     EXPECT_TRUE(equal_bits(found.state, expected.state)) << isa;
     EXPECT_EQ(found.reports.back().iterations.mean, expected.reports.back().iterations.mean) << isa;
   }
@@ -102,8 +103,8 @@ TEST_P(ToleranceOf, GivesTheSameBitsWhateverRunsIt) {
 TEST(Tolerance, OutOfReachMakesAllIterationsWithTheBitsOfNone) {
   SweepRun run = run_of(Sweep::tiled, 2, 7);
   run.frames = 3;
-  const Outcome plain = run_sweep(company(), run, 9.81f, true);
-  const Stopped out_of_reach = run_with_tolerance(company(), run, 1e-12);
+  const Outcome plain = run_sweep(undamped_company(), run, 9.81f, true);
+  const Stopped out_of_reach = run_with_tolerance(undamped_company(), run, 1e-12);
   EXPECT_TRUE(equal_bits(out_of_reach.state, plain.state));
   for (const Report& report : {plain.reports.back(), out_of_reach.reports.back()}) {
     EXPECT_EQ(report.iterations.smallest, 7);

@@ -16,6 +16,7 @@
 #include "constraints/plane_contact.h"
 #include "math/quat.h"
 #include "math/vector.h"
+#include "support/random.h"
 
 namespace pliant::testing_support {
 
@@ -99,11 +100,6 @@ void canonical_order(std::array<int, size_of<T>>& order, ParamsOf<T, float>& par
   if constexpr (requires { T::canonical(order, params); }) T::canonical(order, params);
 }
 
-using Random = std::mt19937;
-
-inline double uniform(Random& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
-}
 inline Vec3d random_point(Random& random, double reach) {
   return {uniform(random, -reach, reach), uniform(random, -reach, reach), uniform(random, -reach, reach)};
 }
