@@ -1,8 +1,6 @@
 // pliant run: simulates a scene and writes the requested files.
 //
 // All checks are made before the first frame, among them those of the formats and paths of all files.
-#include <fmt/format.h>
-
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -69,8 +67,8 @@ Resumed start_of(const RunOptions& options, const Scene& scene) {
     const std::int64_t frame = resumed.world.state().frame;
     if (frame <= scene.frames) return resumed;
     throw Error({},
-                fmt::format("is of frame {}, beyond the {} to be simulated", frame,
-                            counted(static_cast<std::size_t>(scene.frames), "frame")),
+                "is of frame " + std::to_string(frame) + ", beyond the " +
+                    counted(static_cast<std::size_t>(scene.frames), "frame") + " to be simulated",
                 "set --frames to a larger number");
   } catch (const Error& error) {
     throw of_file(error, options.resume);

@@ -1,11 +1,11 @@
 #include "run_report.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+
+#include "apps/command_line/figure.h"
 
 namespace pliant::command {
 
@@ -213,13 +213,14 @@ std::vector<std::string> RunReport::warnings() const {
   constexpr double tolerated = 0.01;
   std::vector<std::string> lines = warnings_.lines();
   if (worst_compression_.mean > tolerated)
-    lines.push_back(fmt::format(
-        "in frame {}, liquids were {:.2g} % denser than at rest on average; use more substeps, which compress a liquid by "
-        "the square of their length, or a higher speed_of_sound if it has one",
-        frame_of_mean_, 100 * worst_compression_.mean));
+    lines.push_back("in frame " + std::to_string(frame_of_mean_) + ", liquids were " +
+                    figure(100 * worst_compression_.mean, 2) +
+                    " % denser than at rest on average; use more substeps, which compress a liquid by the square of their "
+                    "length, or a higher speed_of_sound if it has one");
   if (worst_tetrahedra_.inverted > 0)
-    lines.push_back(fmt::format("in frame {}, {} of {} tetrahedra were turned inside out; use more substeps",
-                                frame_of_tetrahedra_, worst_tetrahedra_.inverted, worst_tetrahedra_.tetrahedra));
+    lines.push_back("in frame " + std::to_string(frame_of_tetrahedra_) + ", " + std::to_string(worst_tetrahedra_.inverted) +
+                    " of " + std::to_string(worst_tetrahedra_.tetrahedra) +
+                    " tetrahedra were turned inside out; use more substeps");
   return lines;
 }
 
