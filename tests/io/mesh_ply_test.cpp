@@ -14,7 +14,7 @@ std::string header(const std::string& format, const std::string& vertex_properti
 }
 
 const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
-const std::string text_mesh = header("ascii", xyz, "uchar int") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+const std::string text_ply = header("ascii", xyz, "uchar int") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 template <class Coordinate, class Count, class Index>
 std::string binary_mesh(bool big, const std::string& coordinate, const std::string& list) {
@@ -34,7 +34,7 @@ void expect_the_triangle(const std::string& bytes) {
 }
 
 TEST(MeshPly, ReadsTextAndBothByteOrdersOfEveryType) {
-  expect_the_triangle(text_mesh);
+  expect_the_triangle(text_ply);
   for (const bool big : {false, true}) {
     expect_the_triangle(binary_mesh<float, std::uint8_t, std::int32_t>(big, "float", "uchar int"));
     expect_the_triangle(binary_mesh<double, std::uint32_t, std::uint32_t>(big, "double", "uint uint"));
@@ -182,8 +182,8 @@ TEST(MeshPly, RefusesDamagedRowsByLineOrByte) {
 }
 
 TEST(MeshPly, SaysWhatIsBehindTheLastRow) {
-  EXPECT_TRUE(contains(joined(parse_mesh(text_mesh + "\n1 2\n\n3 4\n", "a.ply").repairs),
-                       "ignored 2 lines after the last element"));
+  EXPECT_TRUE(
+      contains(joined(parse_mesh(text_ply + "\n1 2\n\n3 4\n", "a.ply").repairs), "ignored 2 lines after the last element"));
   const std::string bytes = binary_mesh<float, std::uint8_t, std::int32_t>(false, "float", "uchar int");
   EXPECT_TRUE(contains(joined(parse_mesh(bytes + "12345", "a.ply").repairs), "ignored 5 bytes after the last element"));
 }

@@ -4,54 +4,57 @@
 namespace pliant::test {
 namespace {
 
-MeshFile read(const std::string& text, const MeshReadOptions& options = {}) { return parse_mesh(text, "a.obj", options); }
+MeshFile obj_file(const std::string& text, const MeshReadOptions& options = {}) {
+  return parse_mesh(text, "a.obj", options);
+}
 
 TEST(MeshRepair, MergesTwoHalvesAlongTheirSeam) {
   const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 0\nv 1 1 0\nv -0 1 -0\nf 1 2 3\nf 4 5 6\n";
-  const MeshFile file = read(text);
+  const MeshFile file = obj_file(text);
   EXPECT_EQ(file.mesh.positions.size(), 4u);
   EXPECT_EQ(file.mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}, {1, 3, 2}}));
   EXPECT_EQ(joined(file.repairs), "merged 2 vertices with others at the same position, the first 3\n");
-  EXPECT_EQ(read(text, as_it_is).mesh.positions.size(), 6u);
-  EXPECT_TRUE(read(text, as_it_is).repairs.empty());
+  EXPECT_EQ(obj_file(text, as_it_is).mesh.positions.size(), 6u);
+  EXPECT_TRUE(obj_file(text, as_it_is).repairs.empty());
 }
 
 TEST(MeshRepair, DropsTrianglesWithoutArea) {
   const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 0.1 0.1 0.1\nv 0.2 0.2 0.2\nv 0.4 0.4 0.4\nf 1 2 3\n";
   for (const char* face : {"f 1 1 2", "f 1 2 4", "f 2 3 3", "f 5 6 7"}) {
-    const MeshFile file = read(start + face);
+    const MeshFile file = obj_file(start + face);
     EXPECT_EQ(file.mesh.triangles.size(), 1u) << face;
     EXPECT_TRUE(contains(joined(file.repairs), "dropped 1 triangle without area, the first 1")) << face;
   }
-  EXPECT_EQ(read(start + "f 1 2 4", {true, false, true}).mesh.triangles.size(), 2u);
+  EXPECT_EQ(obj_file(start + "f 1 2 4", {true, false, true}).mesh.triangles.size(), 2u);
   EXPECT_TRUE(contains(error_of("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3", "a.obj"), "has only degenerate triangles"));
 }
 
 TEST(MeshRepair, KeepsATriangleThatIsMerelySmall) {
-  EXPECT_EQ(read("v 0 0 0\nv 1e-19 0 0\nv 0 1e-19 0\nf 1 2 3").mesh.triangles.size(), 1u);
+  EXPECT_EQ(obj_file("v 0 0 0\nv 1e-19 0 0\nv 0 1e-19 0\nf 1 2 3").mesh.triangles.size(), 1u);
 }
 
 TEST(MeshRepair, DropsTrianglesThatRepeatAnother) {
   const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 4\nf 1 2 3\n";
-  EXPECT_TRUE(contains(joined(read(start + "f 2 3 1").repairs), "dropped 1 triangle that repeats another, the first 2"));
-  EXPECT_TRUE(contains(joined(read(start + "f 1 2 2\nf 3 1 2\nf 2 3 1").repairs),
+  EXPECT_TRUE(
+      contains(joined(obj_file(start + "f 2 3 1").repairs), "dropped 1 triangle that repeats another, the first 2"));
+  EXPECT_TRUE(contains(joined(obj_file(start + "f 1 2 2\nf 3 1 2\nf 2 3 1").repairs),
                        "dropped 2 triangles that repeat another, the first 3"));
-  EXPECT_EQ(read(start + "f 3 2 1").mesh.triangles.size(), 3u) << "the other side of a leaf is no repetition";
+  EXPECT_EQ(obj_file(start + "f 3 2 1").mesh.triangles.size(), 3u) << "the other side of a leaf is no repetition";
 }
 
 TEST(MeshRepair, DropsIsolatedVerticesAndRenumbers) {
   const std::string text = "v 9 9 9\nv 0 0 0\nv 8 8 8\nv 1 0 0\nv 0 1 0\nv 1 0 0\nf 2 4 5\n";
-  const MeshFile file = read(text);
+  const MeshFile file = obj_file(text);
   EXPECT_EQ(file.mesh.positions, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   EXPECT_EQ(file.mesh.triangles, (std::vector<std::array<int, 3>>{{0, 1, 2}}));
   EXPECT_TRUE(contains(joined(file.repairs), "dropped 2 vertices of no triangle, the first 0"));
-  EXPECT_EQ(read(text, {true, true, false}).mesh.positions.size(), 5u) << "what merging emptied goes all the same";
+  EXPECT_EQ(obj_file(text, {true, true, false}).mesh.positions.size(), 5u) << "what merging emptied goes all the same";
 }
 
 TEST(MeshRepair, SaysWhereFloatsAreCoarse) {
-  const MeshFile file = read("v 500000 0 0\nv 500000.1 0 0\nv 500000 0.1 0\nf 1 2 3\n");
+  const MeshFile file = obj_file("v 500000 0 0\nv 500000.1 0 0\nv 500000 0.1 0\nf 1 2 3\n");
   EXPECT_TRUE(contains(joined(file.repairs), "lies 500000.1 from the origin, where floats are 0.031 apart, 28 % of its"));
-  EXPECT_TRUE(read("v 5000 0 0\nv 5000.1 0 0\nv 5000 0.1 0\nf 1 2 3\n").repairs.empty());
+  EXPECT_TRUE(obj_file("v 5000 0 0\nv 5000.1 0 0\nv 5000 0.1 0\nf 1 2 3\n").repairs.empty());
 }
 
 /// A grid of columns x rows vertices in the xz-plane at height 0, as OBJ text.
@@ -85,14 +88,14 @@ std::string reversed_sheet(int columns, int rows, int first_index) {
 }
 
 TEST(MeshRepair, LeavesTwoSheetsInOnePlaceApart) {
-  const MeshFile file = read(sheet(4, 4, 1) + reversed_sheet(4, 4, 17));
+  const MeshFile file = obj_file(sheet(4, 4, 1) + reversed_sheet(4, 4, 17));
   EXPECT_EQ(file.mesh.positions.size(), 32u);
   EXPECT_EQ(file.mesh.triangles.size(), 36u);
   EXPECT_TRUE(contains(joined(file.repairs), "kept 16 vertices separate from others at the same position, the first 16"));
 }
 
 TEST(MeshRepair, TakesASheetThatIsThereTwiceForOne) {
-  const MeshFile file = read(sheet(4, 4, 1) + sheet(4, 4, 17));
+  const MeshFile file = obj_file(sheet(4, 4, 1) + sheet(4, 4, 17));
   EXPECT_EQ(file.mesh.positions.size(), 16u);
   EXPECT_EQ(file.mesh.triangles.size(), 18u);
 }
@@ -103,7 +106,7 @@ TEST(MeshRepair, KeepsAFoldTogetherWhoseStripHasNoWidth) {
   for (int c = 1; c < 4; ++c)
     text += "f " + std::to_string(c) + " " + std::to_string(c + 1) + " " + std::to_string(c + 13) + "\nf " +
             std::to_string(c) + " " + std::to_string(c + 13) + " " + std::to_string(c + 12) + "\n";
-  const MeshFile file = read(text);
+  const MeshFile file = obj_file(text);
   EXPECT_EQ(file.mesh.positions.size(), 20u) << "4 of 24 are one with their neighbours across the fold";
   EXPECT_EQ(file.mesh.triangles.size(), 24u);
   EXPECT_TRUE(contains(joined(file.repairs), "dropped 6 triangles without area"));

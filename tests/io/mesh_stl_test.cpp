@@ -15,7 +15,7 @@ std::string facet(const std::string& corners) {
   return text + " endloop\nendfacet\n";
 }
 
-const std::string text_mesh =
+const std::string text_stl =
     "solid a b c\n" + facet("0 0 0;1 0 0;0 1 0;") + facet("1 0 0;1 1 0;0 1 0;") + "endsolid a b c\n";
 
 std::string binary_mesh(const std::vector<std::array<float, 9>>& triangles, std::string head = {}) {
@@ -32,7 +32,7 @@ std::string binary_mesh(const std::vector<std::array<float, 9>>& triangles, std:
 const std::vector<std::array<float, 9>> two = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0, 0, 1, 0}};
 
 TEST(MeshStl, ReadsTextAndBytesAlike) {
-  for (const std::string& bytes : {text_mesh, binary_mesh(two), binary_mesh(two, "solid but binary")}) {
+  for (const std::string& bytes : {text_stl, binary_mesh(two), binary_mesh(two, "solid but binary")}) {
     EXPECT_EQ(mesh_of(bytes, "a.stl").positions.size(), 6u);
     const MeshFile file = parse_mesh(bytes, "a.stl");
     EXPECT_EQ(file.mesh.positions.size(), 4u);
@@ -42,10 +42,10 @@ TEST(MeshStl, ReadsTextAndBytesAlike) {
 }
 
 TEST(MeshStl, TakesKeywordsOfEitherCaseAndSeveralSolids) {
-  std::string upper = text_mesh;
+  std::string upper = text_stl;
   for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   EXPECT_EQ(mesh_of(upper, "a.STL").triangles.size(), 2u);
-  EXPECT_EQ(mesh_of("\n\n" + text_mesh + "solid\nendsolid\n" + text_mesh, "a.stl").triangles.size(), 4u);
+  EXPECT_EQ(mesh_of("\n\n" + text_stl + "solid\nendsolid\n" + text_stl, "a.stl").triangles.size(), 4u);
 }
 
 TEST(MeshStl, JoinsAllThatLiesInOnePlaceEvenWhereItBranches) {
@@ -65,8 +65,8 @@ TEST(MeshStl, RefusesDamagedTextByLine) {
       {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 inf 0\n", "stl:4: 'inf' is not finite"},
       {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 1e60 0\n", "stl:4: '1e60' is too large"},
       {"solid\n" + facet("0 0 0;1 0 0;0 1 0;"), "stl:8: the file ends inside a solid"},
-      {text_mesh.substr(0, 40), "the file ends inside a facet"},
-      {text_mesh + "rubbish\n", "'rubbish' where 'solid' should stand"},
+      {text_stl.substr(0, 40), "the file ends inside a facet"},
+      {text_stl + "rubbish\n", "'rubbish' where 'solid' should stand"},
       {"solid\nendsolid\n", "has no triangles"},
   };
   for (const auto& [text, problem] : cases) EXPECT_TRUE(contains(error_of(text, "a.stl"), problem)) << text;
@@ -87,7 +87,7 @@ TEST(MeshStl, RefusesDamagedBytes) {
 }
 
 TEST(MeshStl, IsRecognisedWithoutASuffix) {
-  EXPECT_EQ(mesh_of(text_mesh, "thing").triangles.size(), 2u);
+  EXPECT_EQ(mesh_of(text_stl, "thing").triangles.size(), 2u);
   EXPECT_EQ(mesh_of(binary_mesh(two), "thing.bin").triangles.size(), 2u);
 }
 

@@ -10,9 +10,7 @@
 namespace pliant {
 namespace {
 
-const Object& named(const Scene& scene, const std::string& name) {
-  return *std::find_if(scene.objects.begin(), scene.objects.end(), [&](const Object& one) { return one.name == name; });
-}
+using test::named;
 
 TEST(SceneRods, AreReadWithEveryField) {
   const Scene scene = parse_scene(test::full_scene(), "every_field.json", ".");
@@ -45,19 +43,21 @@ TEST(SceneRods, AreReadWithEveryField) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(group.rest[14 + i] * group.rest[14 + i] * 0.5f, expected[i], 1e-3) << i;
 }
 
-std::string message(const std::string& rod) {
+std::string rod_message(const std::string& rod) {
   return testing_support::refusal([&] { parse_scene(R"({"objects": [{"rod": {)" + rod + "}}]}", "x.json", "."); });
 }
 
 TEST(SceneRods, AreRefusedWithAReason) {
-  EXPECT_NE(message(R"("radius": 0.01)").find("'points'"), std::string::npos);
-  EXPECT_NE(message(R"("line": {"from": [0, 0, 0], "to": [1, 0, 0], "points": 400}, "radius": 0.01)").find("2.25 radii"),
+  EXPECT_NE(rod_message(R"("radius": 0.01)").find("'points'"), std::string::npos);
+  EXPECT_NE(
+      rod_message(R"("line": {"from": [0, 0, 0], "to": [1, 0, 0], "points": 400}, "radius": 0.01)").find("2.25 radii"),
+      std::string::npos);
+  EXPECT_NE(rod_message(R"("line": {"from": [0, 0, 0], "to": [1, 0, 0], "points": 9}, "start": {"clamped": "wall"})")
+                .find("'wall'"),
             std::string::npos);
   EXPECT_NE(
-      message(R"("line": {"from": [0, 0, 0], "to": [1, 0, 0], "points": 9}, "start": {"clamped": "wall"})").find("'wall'"),
+      rod_message(R"("line": {"from": [0, 0, 0], "to": [1, 0, 0], "points": 9}, "material": "string")").find("bamboo"),
       std::string::npos);
-  EXPECT_NE(message(R"("line": {"from": [0, 0, 0], "to": [1, 0, 0], "points": 9}, "material": "string")").find("bamboo"),
-            std::string::npos);
 }
 
 TEST(SceneRods, AreNotTiedOrPinned) {

@@ -11,9 +11,7 @@
 namespace pliant {
 namespace {
 
-const Object& named(const Scene& scene, const std::string& name) {
-  return *std::find_if(scene.objects.begin(), scene.objects.end(), [&](const Object& one) { return one.name == name; });
-}
+using test::named;
 
 TEST(SceneSoftBodies, AreReadWithEveryField) {
   const Scene scene = parse_scene(test::full_scene(), "every_field.json", ".");

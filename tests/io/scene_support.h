@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -40,6 +41,11 @@ inline std::string scene_message(const std::string& text) { return scene_error(t
 
 /// A scene in which every field of the format occurs, except mesh files.
 inline std::string full_scene() { return text_of(PLIANT_SOURCE_DIR "/tests/io/every_field.json"); }
+
+/// The object of a name, which must be there.
+inline const Object& named(const Scene& scene, const std::string& name) {
+  return *std::find_if(scene.objects.begin(), scene.objects.end(), [&](const Object& one) { return one.name == name; });
+}
 
 class FullScene : public testing::Test {
  protected:

@@ -7,17 +7,17 @@
 #include <vector>
 
 #include "scene_support.h"
+#include "tetra_support.h"
 
 namespace pliant {
 namespace {
 
 namespace fs = std::filesystem;
+using test::replaced;
+using test::tetrahedra_message;
 
 std::string write(const std::string& name, const std::string& text) {
-  const fs::path folder = fs::path(testing::TempDir()) / "tetrahedra";
-  fs::create_directories(folder);
-  std::ofstream(folder / name, std::ios::binary) << text;
-  return (folder / name).string();
+  return test::write_temporary("tetrahedra", name, text);
 }
 
 double volume_of(const TetrahedralMesh& mesh) {
@@ -101,10 +101,6 @@ std::string binary_gmsh_2(bool swap) {
   return text + "\n$EndElements\n";
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
-}
-
 void expect_two(const std::string& path) {
   const TetrahedralMeshFile file = read_tetrahedral_mesh(path);
   EXPECT_EQ(file.mesh.positions.size(), 5u) << path;
@@ -168,17 +164,6 @@ TEST(TetrahedralFiles, SayWherePartsTouchThatAreNotConnected) {
     EXPECT_EQ(repair.find("part"), std::string::npos) << "they share node 3: " << repair;
 }
 
-std::string message(const std::string& path) {
-  try {
-    read_tetrahedral_mesh(path);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.where().file.empty(), false) << error.what();
-    EXPECT_FALSE(error.problem().empty()) << path;
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(TetrahedralFiles, ThatAreDamagedAreRefusedWithTheirLine) {
   const std::vector<std::pair<std::pair<std::string, std::string>, std::string>> cases = {
       {{"a.mesh", ""}, "is empty"},
@@ -235,7 +220,7 @@ TEST(TetrahedralFiles, ThatAreDamagedAreRefusedWithTheirLine) {
       {{"a.foo", "x"}, "which no format of tetrahedra has"},
   };
   for (const auto& [file, expected] : cases) {
-    const std::string found = message(write(file.first, file.second));
+    const std::string found = tetrahedra_message(write(file.first, file.second));
     EXPECT_NE(found.find(expected), std::string::npos) << file.second << "\n" << found;
   }
 }
@@ -256,7 +241,7 @@ TEST(TetrahedralFiles, SayWhereFloatsAreTooCoarse) {
   EXPECT_EQ(notes[0],
             "lies 200001 from the origin, where floats are 0.016 apart, 1 % of its mean edge: move it to the origin before "
             "it is exported");
-  EXPECT_NE(message(write("farther.t", moved("5000000", "5000000.3")))
+  EXPECT_NE(tetrahedra_message(write("farther.t", moved("5000000", "5000000.3")))
                 .find("farther.t: lies 5000000 from the origin, where floats are 0.5 apart, "),
             std::string::npos);
 }
@@ -268,10 +253,10 @@ TEST(TetrahedralFiles, OfGmshMayHaveBlankLinesAndOmitTheLastEnd) {
 
 TEST(TetrahedralFiles, OfTetGenNeedBothFiles) {
   fs::remove(fs::path(testing::TempDir()) / "tetrahedra" / "alone.node");
-  EXPECT_NE(message(write("alone.ele", ele)).find("alone.node"), std::string::npos);
+  EXPECT_NE(tetrahedra_message(write("alone.ele", ele)).find("alone.node"), std::string::npos);
   const auto pair = [](const std::string& nodes, const std::string& elements) {
     write("bad.node", nodes);
-    return message(write("bad.ele", elements));
+    return tetrahedra_message(write("bad.ele", elements));
   };
   EXPECT_NE(pair(replaced(node, "6 3 1 1", "7 3 1 1"), ele).find("ends after 6 of 7 nodes"), std::string::npos);
   EXPECT_NE(pair(replaced(node, "6 3 1 1", "6 2 1 1"), ele).find("have 2 coordinates"), std::string::npos);

@@ -3,26 +3,21 @@
 
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "pliant/error.h"
 #include "pliant/io.h"
+#include "tetra_support.h"
 
 namespace pliant {
 namespace {
 
-namespace fs = std::filesystem;
+using test::replaced;
+using test::tetrahedra_message;
 
-std::string write(const std::string& name, const std::string& text) {
-  const fs::path folder = fs::path(testing::TempDir()) / "vtu";
-  fs::create_directories(folder);
-  std::ofstream(folder / name, std::ios::binary) << text;
-  return (folder / name).string();
-}
+std::string write_vtu(const std::string& name, const std::string& text) { return test::write_temporary("vtu", name, text); }
 
 /// A triangle, and two tetrahedra of volumes 1/6 and 1/3; the second is inside out. The last point is in none.
 const std::string as_text =
@@ -168,7 +163,7 @@ std::string binary_medit(int version) {
   return text + bytes_of<std::int32_t>({54}) + place(0);
 }
 
-void expect_two(const std::string& path) {
+void expect_corners_of_two(const std::string& path) {
   const TetrahedralMeshFile file = read_tetrahedral_mesh(path);
   ASSERT_EQ(file.mesh.positions.size(), 5u) << path;
   ASSERT_EQ(file.mesh.tetrahedra.size(), 2u) << path;
@@ -178,12 +173,12 @@ void expect_two(const std::string& path) {
 }
 
 TEST(VtkXmlFiles, OfEachEncodingGiveTheSameMesh) {
-  expect_two(write("text.vtu", as_text));
-  expect_two(write("base64.vtu", inline_base64));
-  expect_two(write("compressed.vtu", compressed));
-  expect_two(write("big_end_first.vtu", big_end_first));
-  expect_two(write("appended.vtu", appended_compressed));
-  expect_two(write("raw.vtu", raw()));
+  expect_corners_of_two(write_vtu("text.vtu", as_text));
+  expect_corners_of_two(write_vtu("base64.vtu", inline_base64));
+  expect_corners_of_two(write_vtu("compressed.vtu", compressed));
+  expect_corners_of_two(write_vtu("big_end_first.vtu", big_end_first));
+  expect_corners_of_two(write_vtu("appended.vtu", appended_compressed));
+  expect_corners_of_two(write_vtu("raw.vtu", raw()));
 }
 
 /// `as_text` with a second piece, of the same cells and other points.
@@ -196,7 +191,7 @@ std::string two_pieces(const std::string& points) {
 
 TEST(VtkXmlFiles, MayHaveSeveralPieces) {
   const TetrahedralMeshFile file =
-      read_tetrahedral_mesh(write("apart.vtu", two_pieces("5 0 0 6 0 0 5 1 0 5 0 1 5 0 -2 9 9 9")));
+      read_tetrahedral_mesh(write_vtu("apart.vtu", two_pieces("5 0 0 6 0 0 5 1 0 5 0 1 5 0 -2 9 9 9")));
   EXPECT_EQ(file.mesh.positions.size(), 10u);
   EXPECT_EQ(file.mesh.tetrahedra.size(), 4u);
 }
@@ -204,7 +199,7 @@ TEST(VtkXmlFiles, MayHaveSeveralPieces) {
 /// The second piece has a face in common with the first: (0, 0, 0), (0, 1, 0), (0, 0, 1).
 TEST(VtkXmlFiles, AreOneBodyWherePiecesTouch) {
   const TetrahedralMeshFile file =
-      read_tetrahedral_mesh(write("touch.vtu", two_pieces("0 -0 0 0 1 0 -1 0 0 0 0 1 -1 0 -1 9 9 9")));
+      read_tetrahedral_mesh(write_vtu("touch.vtu", two_pieces("0 -0 0 0 1 0 -1 0 0 0 0 1 -1 0 -1 9 9 9")));
   EXPECT_EQ(file.mesh.positions.size(), 7u);
   EXPECT_EQ(file.mesh.tetrahedra.size(), 4u);
   ASSERT_FALSE(file.repairs.empty());
@@ -217,27 +212,13 @@ TEST(VtkXmlFiles, KeepCracksOfAPieceOpen) {
   const std::string cracked = "0 0 0 1 0 0 0 1 0 0 0 1 0 0 1 9 9 9";
   std::string text = two_pieces(cracked);
   text.replace(text.find("0 0 0 1 0 0\n0 1 0 0 0 1 0 0 -2 9 9 9"), 37, cracked);
-  const TetrahedralMeshFile file = read_tetrahedral_mesh(write("crack.vtu", text));
+  const TetrahedralMeshFile file = read_tetrahedral_mesh(write_vtu("crack.vtu", text));
   EXPECT_EQ(file.mesh.positions.size(), 5u);
 }
 
 TEST(MeditFiles, OfEachBinaryVersionGiveTheSameMesh) {
   for (int version = 1; version <= 4; ++version)
-    expect_two(write("v" + std::to_string(version) + ".meshb", binary_medit(version)));
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
-}
-
-std::string message(const std::string& path) {
-  try {
-    read_tetrahedral_mesh(path);
-  } catch (const Error& error) {
-    EXPECT_FALSE(error.problem().empty()) << path;
-    return error.what();
-  }
-  return "accepted";
+    expect_corners_of_two(write_vtu("v" + std::to_string(version) + ".meshb", binary_medit(version)));
 }
 
 TEST(VtkXmlFiles, ThatAreDamagedAreRefusedWithTheirLine) {
@@ -257,15 +238,17 @@ TEST(VtkXmlFiles, ThatAreDamagedAreRefusedWithTheirLine) {
            {replaced(compressed, "eJx", "eJy"), "zlib cannot read"},
            {replaced(inline_base64, "AAA", "A*A"), "none of base64"},
            {replaced(appended_compressed, "offset=\"468\"", "offset=\"46800\""), "has the offset '46800'"}}) {
-    const std::string found = message(write("damaged.vtu", text));
+    const std::string found = tetrahedra_message(write_vtu("damaged.vtu", text));
     EXPECT_NE(found.find(expected), std::string::npos) << text << "\n" << found;
   }
 }
 
 TEST(MeditFiles, ThatAreDamagedAreRefused) {
-  EXPECT_NE(message(write("a.meshb", "x")).find("byte"), std::string::npos);
-  EXPECT_NE(message(write("a.meshb", bytes_of<std::int32_t>({7, 2}))).find("is no binary Medit file"), std::string::npos);
-  EXPECT_NE(message(write("a.meshb", bytes_of<std::int32_t>({1, 2, 10, 28, 1, 0, 0}))).find("no linear tetrahedra"),
+  EXPECT_NE(tetrahedra_message(write_vtu("a.meshb", "x")).find("byte"), std::string::npos);
+  EXPECT_NE(tetrahedra_message(write_vtu("a.meshb", bytes_of<std::int32_t>({7, 2}))).find("is no binary Medit file"),
+            std::string::npos);
+  EXPECT_NE(tetrahedra_message(write_vtu("a.meshb", bytes_of<std::int32_t>({1, 2, 10, 28, 1, 0, 0})))
+                .find("no linear tetrahedra"),
             std::string::npos);
 }
 
@@ -280,7 +263,7 @@ TEST(VtkXmlFiles, NeverCrash) {
     for (std::size_t i = 0; i < text.size(); i += 2) {
       std::string changed = text;
       changed[i] = static_cast<char>(changed[i] ^ (i % 4 == 0 ? 0x10 : 0x7f));
-      for (const std::string& one : {changed, text.substr(0, i)}) message(write(name, one));
+      for (const std::string& one : {changed, text.substr(0, i)}) tetrahedra_message(write_vtu(name, one));
     }
 }
 

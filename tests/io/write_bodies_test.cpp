@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "glb_support.h"
 #include "pliant/body.h"
 #include "pliant/error.h"
 #include "write_support.h"
@@ -15,6 +16,7 @@ namespace {
 
 using nlohmann::json;
 using test::Folder;
+using test::Glb;
 using test::value_at;
 
 /// Two boxes and a ball that fall and spin, beside a rope.
@@ -114,35 +116,6 @@ TEST(WriteBodies, AsSurfacesInEveryFormatWithoutBodies) {
   EXPECT_NE(test::read(folder / "run/heap_0000.vtp").find("NumberOfPoints=\"" + std::to_string(vertices) + '"'),
             std::string::npos);
 }
-
-/// A .glb divided into its two chunks.
-struct Glb {
-  json document;
-  std::string binary;
-
-  explicit Glb(const std::string& path) {
-    const std::string bytes = test::read(path);
-    const auto text = static_cast<std::size_t>(value_at<unsigned>(bytes, 12));
-    document = json::parse(bytes.substr(20, text));
-    binary = bytes.substr(20 + text + 8);
-    EXPECT_EQ(value_at<unsigned>(bytes, 8), bytes.size());
-    EXPECT_EQ(value_at<unsigned>(bytes, 20 + text), binary.size());
-  }
-
-  /// Element i of an accessor, of numbers of 4 bytes.
-  template <class T>
-  T element(int accessor, std::size_t i) const {
-    const json& a = document["accessors"][static_cast<std::size_t>(accessor)];
-    const json& view = document["bufferViews"][a["bufferView"].get<std::size_t>()];
-    return value_at<T>(binary, view["byteOffset"].get<std::size_t>() + a["byteOffset"].get<std::size_t>() + i * sizeof(T));
-  }
-  const json& node(const std::string& name) const {
-    for (const json& one : document["nodes"])
-      if (one["name"] == name) return one;
-    ADD_FAILURE() << "no node " << name;
-    return document["nodes"][0];
-  }
-};
 
 TEST(WriteBodies, AsNodesOfGltfThatShareAMesh) {
   const Folder folder;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "glb_support.h"
 #include "write_support.h"
 
 namespace pliant {
@@ -13,6 +14,8 @@ namespace {
 
 using nlohmann::json;
 using test::Folder;
+using test::Glb;
+using test::occurrences;
 using test::value_at;
 
 /// All positions of a frame, object after object.
@@ -109,40 +112,6 @@ TEST(Pc2, HoldsEverySampleBesideItsMesh) {
   EXPECT_EQ(obj.groups.size(), 3u);
 }
 
-/// A .glb divided into its two chunks.
-struct Glb {
-  json document;
-  std::string binary;
-
-  explicit Glb(const std::string& path) {
-    const std::string bytes = test::read(path);
-    EXPECT_EQ(bytes.substr(0, 4), "glTF");
-    EXPECT_EQ(value_at<unsigned>(bytes, 4), 2u);
-    EXPECT_EQ(value_at<unsigned>(bytes, 8), bytes.size());
-    const unsigned length = value_at<unsigned>(bytes, 12);
-    EXPECT_EQ(length % 4, 0u);
-    EXPECT_EQ(bytes.substr(16, 4), "JSON");
-    document = json::parse(bytes.substr(20, length));
-    EXPECT_EQ(value_at<unsigned>(bytes, 20 + length), bytes.size() - 28 - length);
-    EXPECT_EQ(bytes.substr(24 + length, 4), std::string("BIN", 4));
-    binary = bytes.substr(28 + length);
-    EXPECT_EQ(document["buffers"][0]["byteLength"], binary.size());
-  }
-
-  template <class T>
-  std::vector<T> read(std::size_t index) const {
-    const json& accessor = document["accessors"][index];
-    const json& view = document["bufferViews"][accessor["bufferView"].get<std::size_t>()];
-    const std::size_t first = view["byteOffset"].get<std::size_t>() + accessor["byteOffset"].get<std::size_t>();
-    const std::size_t count = accessor["count"];
-    EXPECT_EQ(first % 4, 0u);
-    EXPECT_LE(accessor["byteOffset"].get<std::size_t>() + count * sizeof(T), view["byteLength"].get<std::size_t>());
-    std::vector<T> result;
-    for (std::size_t i = 0; i < count; ++i) result.push_back(value_at<T>(binary, first + i * sizeof(T)));
-    return result;
-  }
-};
-
 /// Expects the bounds of an accessor to be exactly those of its values.
 void expect_exact_bounds(const Glb& glb, std::size_t index) {
   const std::vector<Vec3f> values = glb.read<Vec3f>(index);
@@ -212,13 +181,6 @@ TEST(Glb, NeedsNoAnimationForOneFrame) {
   const Glb glb(folder / "run.glb");
   EXPECT_EQ(glb.document.count("animations"), 0u);
   EXPECT_EQ(glb.document["meshes"][0].count("weights"), 0u);
-}
-
-/// How often `part` occurs in `text`.
-int occurrences(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
 }
 
 TEST(Usda, NamesTheRateThatWasMeantByAFloat) {

@@ -11,6 +11,8 @@
 namespace pliant {
 namespace {
 
+using test::occurrences;
+
 constexpr float spacing = 0.05f;
 
 /// Two drops that part, so that their surface changes, beside a cube that is an object of bodies.
@@ -46,12 +48,6 @@ std::vector<TriangleMesh> write_surfaces(const std::string& path, const Scene& s
   }
   writer->finish();
   return surfaces;
-}
-
-int occurrences(const std::string& text, const std::string& of) {
-  int count = 0;
-  for (std::size_t at = text.find(of); at != std::string::npos; at = text.find(of, at + 1)) ++count;
-  return count;
 }
 
 /// The lines between `attribute` and the next brace.

@@ -50,6 +50,13 @@ inline std::string read(const std::string& path) {
 
 inline void put(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
+/// How often `part` occurs in `text`.
+inline int occurrences(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
 /// The value of type T at an offset in a file.
 template <class T>
 T value_at(const std::string& bytes, std::size_t at) {
