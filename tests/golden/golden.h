@@ -16,9 +16,6 @@ inline const char* const hash_file = PLIANT_SOURCE_DIR "/tests/golden/hashes.txt
 /// True if the environment has PLIANT_UPDATE_GOLDEN=1, which rewrites hashes.txt.
 inline bool updating() { return std::getenv("PLIANT_UPDATE_GOLDEN") != nullptr; }
 
-/// How often each scene runs: three times with PLIANT_THOROUGH=1, in case threads give different bits only sometimes.
-inline int repetitions() { return std::getenv("PLIANT_THOROUGH") != nullptr ? 3 : 1; }
-
 inline std::map<std::string, std::string> read_hashes() {
   std::map<std::string, std::string> hashes;
   std::ifstream file(hash_file);

@@ -5,6 +5,7 @@
 
 #include "golden/cases.h"
 #include "golden/golden.h"
+#include "support/ways_to_run.h"
 
 namespace pliant::golden {
 
@@ -30,24 +31,11 @@ class GoldenSweep : public testing::TestWithParam<SweepWay> {
   std::string golden_;
 };
 
-TEST_P(GoldenSweep, OnAnyNumberOfThreads) {
-  for (const int threads : {1, 2, 3, 4, 8}) {
-    for (int again = 0; again < repetitions(); ++again)
-      EXPECT_EQ(run_way(GetParam(), threads, ""), golden_) << threads << " threads, run " << again;
-  }
-}
-
-TEST_P(GoldenSweep, OnAnyInstructionSetAndInPlainCode) {
-  int tried = 0;
-  for (const char* isa : {"x86-64-v2", "x86-64-v3", "x86-64-v4", "generic", "sequential"}) {
-    try {
-      EXPECT_EQ(run_way(GetParam(), 2, isa), golden_) << isa;
-      ++tried;
-    } catch (const Error& error) {
-      RecordProperty(isa, error.what());  // this machine does not have this instruction set
-    }
-  }
-  EXPECT_GE(tried, 2);
+TEST_P(GoldenSweep, OnAnyThreadsAndInstructionSetAndInPlainCode) {
+  const auto hash = [&](int threads, const std::string& isa) { return run_way(GetParam(), threads, isa); };
+  std::vector<testing_support::WayToRun> ways = testing_support::ways_to_run();
+  ways.push_back({1, "sequential"});
+  testing_support::expect_hash(golden_, hash, ways);
 }
 
 TEST_P(GoldenSweep, MeetsContactsAndMoves) {
