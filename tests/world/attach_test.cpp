@@ -10,11 +10,12 @@
 #include "pliant/joint.h"
 #include "pliant/world.h"
 #include "support/refusal.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float dt = 1.f / 60;
+using testing_support::dt;
 
 /// A box under a rope of 20 links that hangs from the origin.
 Object hung_box(float mass) {

@@ -7,11 +7,15 @@
 #include "pliant/body.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
+#include "support/run.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float dt = 1.f / 60;
+using testing_support::dt;
+using testing_support::fastest;
+using testing_support::run;
 
 Scene with_ground() {
   Scene scene;
@@ -33,16 +37,6 @@ Object pyramid(int base) {
     }
   set_friction(pile, 0.6f);
   return pile;
-}
-
-void run(World& world, int frames) {
-  for (int frame = 0; frame < frames; ++frame) ASSERT_TRUE(world.step(dt).ok());
-}
-
-float fastest(const World& world) {
-  float speed = 0;
-  for (const Record& v : world.state().velocities) speed = std::max(speed, std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z));
-  return speed;
 }
 
 TEST(BodyContact, ABoxFallsOnAPlaneAndRests) {

@@ -10,12 +10,15 @@
 #include "pliant/joint.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float dt = 1.f / 60;
-constexpr float start = 0.6f;  ///< height of the ball above the sheet [m]
+using testing_support::dt;
+using testing_support::floor_at;
+
+constexpr float start_height = 0.6f;  ///< height of the ball above the sheet [m]
 
 /// A sheet that cannot stretch, with 7 % of slack inside its pinned border, about a place.
 Object slack_sheet(const Vec3f& place) {
@@ -35,7 +38,7 @@ Object slack_sheet(const Vec3f& place) {
   return cloth;
 }
 
-int add(Object& object, const SolidShape& shape, const Vec3f& position, const Vec3f& velocity = {}) {
+int add_moving_body(Object& object, const SolidShape& shape, const Vec3f& position, const Vec3f& velocity = {}) {
   BodyOptions options;
   options.position = position;
   options.velocity = velocity;
@@ -43,7 +46,7 @@ int add(Object& object, const SolidShape& shape, const Vec3f& position, const Ve
   return add_body(object, {{shape}}, options);
 }
 
-Scene scene_of(const std::vector<Object>& objects) {
+Scene guarded_scene(const std::vector<Object>& objects) {
   Scene scene;
   scene.settings.substeps = 40;  // the same with cloth and without
   for (const Object& object : objects) scene.add(object);
@@ -72,17 +75,11 @@ float rebound(const std::vector<Vec3f>& heights) {
 }
 
 /// The fall is plastic (BodyPoints.AHeavyBallDoesNotBounceOnAnInextensibleSheet): a tenth of it is left.
-constexpr float plastic = 0.1f * start;
+constexpr float plastic = 0.1f * start_height;
 
 bool are_equal(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const Vec3f& x, const Vec3f& y) { return x.x == y.x && x.y == y.y && x.z == y.z; });
-}
-
-Collider floor_at(float height) {
-  Collider floor;
-  floor.position = {0, height, 0};
-  return floor;
 }
 
 /// A ball that falls on cloth and a slider far away are bodies of one object.
@@ -90,9 +87,9 @@ TEST(BodyGuard, ASliderFarAwayGoesAsFarAsWithoutTheCloth) {
   Object bodies;
   bodies.static_friction = bodies.kinetic_friction = 0.3f;
   bodies.collides = bodies.self_collision = true;
-  add(bodies, Sphere{.15f}, {0.02f, start, 0.01f});
-  const int slider = add(bodies, Box{{.2f, .1f, .2f}}, {20, -2.9f, 0}, {4, 0, 1});
-  Scene with = scene_of({slack_sheet({}), bodies}), without = scene_of({bodies});
+  add_moving_body(bodies, Sphere{.15f}, {0.02f, start_height, 0.01f});
+  const int slider = add_moving_body(bodies, Box{{.2f, .1f, .2f}}, {20, -2.9f, 0}, {4, 0, 1});
+  Scene with = guarded_scene({slack_sheet({}), bodies}), without = guarded_scene({bodies});
   for (Scene* scene : {&with, &without}) scene->colliders.push_back(floor_at(-3));
   const auto particle = bodies.bodies[static_cast<std::size_t>(slider)].particle;
   const std::vector<Vec3f> beside_cloth = path(with, 1, particle);
@@ -105,8 +102,8 @@ TEST(BodyGuard, ASliderFarAwayGoesAsFarAsWithoutTheCloth) {
 TEST(BodyGuard, AMovingPlatformElsewhereChangesNothing) {
   Object ball;
   ball.collides = true;
-  add(ball, Sphere{.15f}, {0.02f, start, 0.01f});
-  Scene without = scene_of({slack_sheet({}), ball}), with = without;
+  add_moving_body(ball, Sphere{.15f}, {0.02f, start_height, 0.01f});
+  Scene without = guarded_scene({slack_sheet({}), ball}), with = without;
   Collider platform;
   platform.shape = Box{{1, 0.1f, 1}};
   platform.position = {10, 0, 0};
@@ -121,13 +118,13 @@ TEST(BodyGuard, AMovingPlatformElsewhereChangesNothing) {
 TEST(BodyGuard, AMotorElsewhereInTheObjectChangesNothing) {
   Object ball;
   ball.collides = ball.self_collision = true;
-  add(ball, Sphere{.15f}, {0.02f, start, 0.01f});
+  add_moving_body(ball, Sphere{.15f}, {0.02f, start_height, 0.01f});
   Object more = ball;
   BodyOptions fixed;
   fixed.position = {10, 0, 0};
   fixed.mass = std::numeric_limits<float>::infinity();
   const int base = add_body(more, {{Box{{.1f, .1f, .1f}}}}, fixed);
-  const int arm = add(more, Box{{.5f, .05f, .05f}}, {10.6f, 0, 0});
+  const int arm = add_moving_body(more, Box{{.5f, .05f, .05f}}, {10.6f, 0, 0});
   HingeJoint hinge;
   hinge.a = base;
   hinge.b = arm;
@@ -135,9 +132,9 @@ TEST(BodyGuard, AMotorElsewhereInTheObjectChangesNothing) {
   hinge.axis = {0, 0, 1};
   hinge.motor = JointMotor{JointMotor::Kind::speed, 5, 50};
   add_joint(more, hinge);
-  const std::vector<Vec3f> alone = path(scene_of({slack_sheet({}), ball}), 1, 0);
+  const std::vector<Vec3f> alone = path(guarded_scene({slack_sheet({}), ball}), 1, 0);
   EXPECT_LT(rebound(alone), plastic);
-  EXPECT_TRUE(are_equal(path(scene_of({slack_sheet({}), more}), 1, 0), alone));
+  EXPECT_TRUE(are_equal(path(guarded_scene({slack_sheet({}), more}), 1, 0), alone));
 }
 
 /// Two balls that a rigid joint connects: the joint does no work, so they do not bounce either.
@@ -145,22 +142,22 @@ TEST(BodyGuard, BodiesThatARigidJointConnectsDoNotBounce) {
   Object pair;
   pair.collides = pair.self_collision = true;
   FixedJoint joint;
-  joint.a = add(pair, Sphere{.1f}, {-0.1f, start, 0.01f});
-  joint.b = add(pair, Sphere{.1f}, {0.1f, start, 0.01f});
-  joint.anchor = {0, start, 0.01f};
+  joint.a = add_moving_body(pair, Sphere{.1f}, {-0.1f, start_height, 0.01f});
+  joint.b = add_moving_body(pair, Sphere{.1f}, {0.1f, start_height, 0.01f});
+  joint.anchor = {0, start_height, 0.01f};
   add_joint(pair, joint);
-  EXPECT_LT(rebound(path(scene_of({slack_sheet({}), pair}), 1, 0)), plastic);
+  EXPECT_LT(rebound(path(guarded_scene({slack_sheet({}), pair}), 1, 0)), plastic);
 }
 
 /// A ball that falls twice as far on another sheet is an island of its own.
 TEST(BodyGuard, TwoSheetsAreTwoIslands) {
   Object balls;
   balls.collides = balls.self_collision = true;
-  add(balls, Sphere{.15f}, {0.02f, start, 0.01f});
+  add_moving_body(balls, Sphere{.15f}, {0.02f, start_height, 0.01f});
   Object both = balls;
-  add(both, Sphere{.15f}, {10.03f, 2 * start, 0.05f});
-  const std::vector<Vec3f> alone = path(scene_of({slack_sheet({}), balls}), 1, 0);
-  EXPECT_TRUE(are_equal(path(scene_of({slack_sheet({}), both, slack_sheet({10, 0, 0})}), 1, 0), alone));
+  add_moving_body(both, Sphere{.15f}, {10.03f, 2 * start_height, 0.05f});
+  const std::vector<Vec3f> alone = path(guarded_scene({slack_sheet({}), balls}), 1, 0);
+  EXPECT_TRUE(are_equal(path(guarded_scene({slack_sheet({}), both, slack_sheet({10, 0, 0})}), 1, 0), alone));
 }
 
 /// A motor of the island lifts a ball off a plate that lies on the sheet, at 2 m/s: it does work, so the guard may not hold the ball
@@ -169,13 +166,13 @@ TEST(BodyGuard, AMotorOfTheIslandDoesWork) {
   Object lift;
   lift.collides = lift.self_collision = true;
   SliderJoint slider;
-  slider.a = add(lift, Box{{.3f, .02f, .3f}}, {0, 0.04f, 0});
-  slider.b = add(lift, Sphere{.1f}, {0, 0.3f, 0});
+  slider.a = add_moving_body(lift, Box{{.3f, .02f, .3f}}, {0, 0.04f, 0});
+  slider.b = add_moving_body(lift, Sphere{.1f}, {0, 0.3f, 0});
   slider.anchor = {0, 0.3f, 0};
   slider.axis = {0, 1, 0};
   slider.motor = JointMotor{JointMotor::Kind::speed, 2, 200};
   add_joint(lift, slider);
-  const Scene scene = scene_of({slack_sheet({}), lift});
+  const Scene scene = guarded_scene({slack_sheet({}), lift});
   const float ball = path(scene, 1, 1, 30).back().y, plate = path(scene, 1, 0, 30).back().y;
   EXPECT_GT(ball - plate, 0.26f + 0.9f);
 }

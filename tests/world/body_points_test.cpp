@@ -9,14 +9,17 @@
 #include "pliant/body.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
+#include "support/run.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float dt = 1.f / 60;
+using testing_support::dt;
+using testing_support::run;
 
 /// A square sheet of n x n vertices and the given side, level at a height.
-Object sheet(int n, float side, float height) {
+Object level_cloth(int n, float side, float height) {
   Object cloth = make_cloth(grid_mesh(n, n, side, side));
   Vec3f centre{};
   for (const Vec3f& p : cloth.positions) centre += p * (1.f / static_cast<float>(cloth.positions.size()));
@@ -39,17 +42,13 @@ Object body(const SolidShape& shape, const Vec3f& position, float mass) {
   return make_body({{shape}}, options);
 }
 
-void run(World& world, int frames) {
-  for (int frame = 0; frame < frames; ++frame) ASSERT_TRUE(world.step(dt).ok());
-}
-
 TEST(BodyPoints, EachShapeLiesInAHammock) {
   const std::vector<Vec3f> corners{{.2f, .2f, .2f}, {-.2f, -.2f, .2f}, {-.2f, .2f, -.2f}, {.2f, -.2f, -.2f}};
   const std::vector<SolidShape> shapes{Sphere{.2f},          Capsule{.1f, .1f}, Box{{.15f, .1f, .15f}},
                                        Cylinder{.15f, .15f}, Cone{.2f, .15f},   Hull{corners}};
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     Scene scene;
-    Object cloth = sheet(25, 1.2f, 0);
+    Object cloth = level_cloth(25, 1.2f, 0);
     pin_border(cloth, 1.2f);
     scene.add(cloth);
     scene.add(body(shapes[i], {0, 0.3f, 0}, 1));
@@ -69,7 +68,7 @@ TEST(BodyPoints, EachShapeLiesInAHammock) {
 TEST(BodyPoints, AFreeSystemKeepsItsMomentum) {
   Scene scene;
   scene.gravity = {};
-  scene.add(sheet(21, 1, 0));
+  scene.add(level_cloth(21, 1, 0));
   Object ball = body(Sphere{.15f}, {0.05f, 0.4f, 0}, 0.2f);
   ball.velocities = {{0, -3, 0}};
   scene.add(ball);
@@ -97,7 +96,7 @@ TEST(BodyPoints, ALightBallUnderHeavyClothStaysCalm) {
   for (const float mass : {1.f, 0.1f, 0.01f}) {
     Scene scene;
     scene.colliders.emplace_back();
-    scene.add(sheet(33, 1.5f, 0.5f));
+    scene.add(level_cloth(33, 1.5f, 0.5f));
     scene.add(body(Sphere{.1f}, {0, 0.1f, 0}, mass));
     World world(scene);
     float fastest = 0;
@@ -113,7 +112,7 @@ TEST(BodyPoints, ALightBallUnderHeavyClothStaysCalm) {
 /// What is not solved in an impact may not come back as more energy than there was.
 TEST(BodyPoints, ABallOnClothBouncesLessEachTime) {
   Scene scene;
-  Object cloth = sheet(41, 1.2f, 0);
+  Object cloth = level_cloth(41, 1.2f, 0);
   pin_border(cloth, 1.2f);
   scene.add(cloth);
   scene.add(body(Sphere{.15f}, {-0.1f, 0.35f, 0.05f}, 1));
@@ -199,7 +198,7 @@ bool passes(const Vec3f& place, const Vec3f& direction, int substeps) {
   Scene scene;
   scene.gravity = {};
   scene.settings.substeps = substeps;
-  Object cloth = sheet(13, 1.2f, 0);
+  Object cloth = level_cloth(13, 1.2f, 0);
   pin_border(cloth, 1.2f);
   scene.add(cloth);
   Object ball = body(Sphere{.025f}, place - direction * 0.4f, 0.01f);
@@ -227,7 +226,7 @@ TEST(BodyPoints, AFastSmallBallDoesNotPassCoarseCloth) {
 /// What pressed on a particle at a frame's end is not in the State, so the next frame may not know it.
 TEST(BodyPoints, AHeavyBallOnClothGoesOnWithTheSameBitsAfterARestore) {
   Scene scene;
-  Object cloth = sheet(13, 1.2f, 0);
+  Object cloth = level_cloth(13, 1.2f, 0);
   pin_border(cloth, 1.2f);
   scene.add(cloth);
   scene.add(body(Sphere{.1f}, {0, 0.15f, 0}, 20));
@@ -245,7 +244,7 @@ TEST(BodyPoints, HasTheSameBitsOnAnyNumberOfThreads) {
   for (int i = 0; i < 2; ++i) {
     Scene scene;
     scene.settings.threads = i + 1;
-    Object cloth = sheet(41, 1.2f, 0);
+    Object cloth = level_cloth(41, 1.2f, 0);
     pin_border(cloth, 1.2f);
     scene.add(cloth);
     Object pile = body(Sphere{.1f}, {0, 0.2f, 0}, 0.5f);

@@ -8,13 +8,13 @@
 #include "pliant/mesh.h"
 #include "pliant/world.h"
 #include "support/refusal.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
+using testing_support::dt;
 using testing_support::refusal;
-
-constexpr float dt = 1.f / 60;
 
 void expect_near(const RigidPose& pose, const RigidPose& wanted, double tolerance) {
   EXPECT_NEAR(pose.position.x, wanted.position.x, tolerance);

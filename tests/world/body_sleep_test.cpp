@@ -16,14 +16,16 @@
 #include "pliant/joint.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float dt = 1.f / 60;
+using testing_support::dt;
+
 constexpr int four_seconds = 240;
 
-int add(Object& object, const SolidShape& shape, const Vec3f& position, const Vec3f& velocity = {}) {
+int add_colliding_body(Object& object, const SolidShape& shape, const Vec3f& position, const Vec3f& velocity = {}) {
   BodyOptions options;
   options.position = position;
   options.velocity = velocity;
@@ -45,14 +47,14 @@ Collider ground() {
 }
 
 /// A pyramid of unit boxes on the plane y = 0.
-Object pyramid(int base) {
+Object light_pyramid(int base) {
   Object boxes;
   boxes.name = "pyramid";
   boxes.static_friction = boxes.kinetic_friction = 0.6f;
   for (int row = 0; row < base; ++row)
     for (int i = 0; i < base - row; ++i)
-      add(boxes, Box{{.5f, .5f, .5f}},
-          {static_cast<float>(i) + 0.5f * static_cast<float>(row), 0.5f + static_cast<float>(row), 0});
+      add_colliding_body(boxes, Box{{.5f, .5f, .5f}},
+                         {static_cast<float>(i) + 0.5f * static_cast<float>(row), 0.5f + static_cast<float>(row), 0});
   return boxes;
 }
 
@@ -60,7 +62,7 @@ Object pyramid(int base) {
 Object single_box() {
   Object box;
   box.name = "box";
-  add(box, Box{{.5f, .5f, .5f}}, {0, .5f, 2});
+  add_colliding_body(box, Box{{.5f, .5f, .5f}}, {0, .5f, 2});
   return box;
 }
 
@@ -91,7 +93,7 @@ bool has_same_poses(const State& a, const State& b) {
 TEST(BodySleep, IsOffByDefault) {
   Scene scene;
   scene.add(ground());
-  scene.add(pyramid(3));
+  scene.add(light_pyramid(3));
   World world(scene);
   for (int frame = 0; frame < four_seconds; ++frame) EXPECT_EQ(step(world).sleeping_bodies, 0);
   EXPECT_TRUE(world.state().rest_times.empty());
@@ -103,7 +105,7 @@ TEST(BodySleep, IsOffByDefault) {
 TEST(BodySleep, APileHasTheSameBitsForAThousandFrames) {
   Scene scene = sleeping_scene();
   scene.add(ground());
-  scene.add(pyramid(6));
+  scene.add(light_pyramid(6));
   World world(scene);
   ASSERT_TRUE(fall_asleep(world, 21));
   const State before = world.state();
@@ -127,8 +129,8 @@ TEST(BodySleep, WaitsForItsTime) {
   scene.settings.sleep.time = 1;
   scene.gravity = {};
   Object boxes;
-  add(boxes, Box{{.5f, .5f, .5f}}, {0, 0, 0});
-  add(boxes, Box{{.5f, .5f, .5f}}, {5, 0, 0}, {0.03f, 0, 0});  // faster than 0.02 m/s
+  add_colliding_body(boxes, Box{{.5f, .5f, .5f}}, {0, 0, 0});
+  add_colliding_body(boxes, Box{{.5f, .5f, .5f}}, {5, 0, 0}, {0.03f, 0, 0});  // faster than 0.02 m/s
   scene.add(boxes);
   World world(scene);
   for (int frame = 1; frame <= 120; ++frame) {
@@ -143,10 +145,10 @@ TEST(BodySleep, WaitsForItsTime) {
 TEST(BodySleep, ABodyThatMovesElsewhereWakesNothing) {
   Scene scene = sleeping_scene();
   scene.add(ground());
-  scene.add(pyramid(3));
+  scene.add(light_pyramid(3));
   Object slider;
   slider.static_friction = slider.kinetic_friction = 0;
-  add(slider, Box{{.5f, .5f, .5f}}, {0, 0.5f, 20}, {1, 0, 0});
+  add_colliding_body(slider, Box{{.5f, .5f, .5f}}, {0, 0.5f, 20}, {1, 0, 0});
   scene.add(slider);
   World world(scene);
   ASSERT_TRUE(fall_asleep(world, 6));
@@ -169,7 +171,7 @@ TEST(BodySleep, WhatTheUserSetsWakes) {
   scene.add(single_box());
   const std::vector<Vec3f> up{{0, 1, 0}}, nothing{{0, 0, 0}};
   Object ball;
-  add(ball, Sphere{.1f}, {10, 5, 0});
+  add_colliding_body(ball, Sphere{.1f}, {10, 5, 0});
   const std::vector<std::pair<std::string, std::function<void(World&)>>> ways{
       {"velocities", [&](World& world) { world.object(0).set_velocities(up); }},
       {"impulses", [&](World& world) { world.object(0).add_impulses(nothing); }},
@@ -220,10 +222,10 @@ TEST(BodySleep, ABallWakesWhatItHits) {
     scene.settings.sleep.on = sleeps;
     scene.gravity = {};
     Object box;
-    add(box, Box{{.5f, .5f, .5f}}, {});
+    add_colliding_body(box, Box{{.5f, .5f, .5f}}, {});
     scene.add(box);
     Object ball;
-    add(ball, Sphere{.2f}, {-5.7f, 0, 0}, {5, 0, 0});
+    add_colliding_body(ball, Sphere{.2f}, {-5.7f, 0, 0}, {5, 0, 0});
     scene.add(ball);
     World world(scene);
     bool was_asleep = false;
@@ -278,8 +280,8 @@ TEST(BodySleep, JointsAndMotorsWake) {
   Scene scene = sleeping_scene();
   scene.gravity = {};
   Object arms;
-  add(arms, Box{{.5f, .1f, .1f}}, {0, 0, 0});
-  add(arms, Box{{.5f, .1f, .1f}}, {1.2f, 0, 0});
+  add_colliding_body(arms, Box{{.5f, .1f, .1f}}, {0, 0, 0});
+  add_colliding_body(arms, Box{{.5f, .1f, .1f}}, {1.2f, 0, 0});
   HingeJoint hinge;
   hinge.options.name = "hinge";
   hinge.a = 0;
@@ -317,7 +319,7 @@ TEST(BodySleep, AFixedBodyThatIsMovedByTargetsWakes) {
   add_body(platform, {{Box{{1, 0.1f, 1}}}}, fixed);
   scene.add(platform);
   Object box;
-  add(box, Box{{.3f, .3f, .3f}}, {0, 0.4f, 0});
+  add_colliding_body(box, Box{{.3f, .3f, .3f}}, {0, 0.4f, 0});
   scene.add(box);
   World world(scene);
   for (int frame = 0; frame < 120; ++frame) step(world);
@@ -335,7 +337,7 @@ TEST(BodySleep, AFixedBodyThatIsMovedByTargetsWakes) {
 TEST(BodySleep, ABodyOnARopeStaysAwake) {
   Scene scene = sleeping_scene();
   Object object;
-  add(object, Box{{.1f, .1f, .1f}}, {0, -1.1f, 0});
+  add_colliding_body(object, Box{{.1f, .1f, .1f}}, {0, -1.1f, 0});
   const int first = append(object, make_rope({{0, 0, 0}, {0, -0.5f, 0}, {0, -1, 0}}));
   object.pins.push_back({first, {}});
   attach(object, {first + 2}, 0);
@@ -349,7 +351,7 @@ TEST(BodySleep, ABodyOnARopeStaysAwake) {
 /// Three boxes on a plate: where the plate goes, they fall.
 TEST(BodySleep, AStackWhoseSupportGoesFalls) {
   Object stack;
-  for (int i = 0; i < 3; ++i) add(stack, Box{{.5f, .5f, .5f}}, {0, 0.5f + static_cast<float>(i), 0});
+  for (int i = 0; i < 3; ++i) add_colliding_body(stack, Box{{.5f, .5f, .5f}}, {0, 0.5f + static_cast<float>(i), 0});
   const Box plate{{1, .1f, 1}};
   Collider collider;
   collider.shape = plate;
@@ -382,11 +384,12 @@ TEST(BodySleep, ABallSetsOffDominoesThatSleep) {
   scene.add(ground());
   Object dominoes;
   dominoes.static_friction = dominoes.kinetic_friction = 0.6f;
-  for (int i = 0; i < count; ++i) add(dominoes, Box{{.04f, .4f, .2f}}, {0.4f * static_cast<float>(i), 0.4f, 0});
+  for (int i = 0; i < count; ++i)
+    add_colliding_body(dominoes, Box{{.04f, .4f, .2f}}, {0.4f * static_cast<float>(i), 0.4f, 0});
   scene.add(dominoes);
   Object ball;
   ball.static_friction = ball.kinetic_friction = 0;
-  add(ball, Sphere{.3f}, {-6, 0.3f, 0}, {3, 0, 0});
+  add_colliding_body(ball, Sphere{.3f}, {-6, 0.3f, 0}, {3, 0, 0});
   scene.add(ball);
   World world(scene);
   ASSERT_TRUE(fall_asleep(world, count));
@@ -401,10 +404,10 @@ Scene busy_scene(int threads) {
   Scene scene = sleeping_scene();
   scene.settings.threads = threads;
   scene.add(ground());
-  scene.add(pyramid(4));
+  scene.add(light_pyramid(4));
   scene.add(single_box());
   Object ball;
-  add(ball, Sphere{.4f}, {-12, 0.4f, 0}, {6, 0, 0});
+  add_colliding_body(ball, Sphere{.4f}, {-12, 0.4f, 0}, {6, 0, 0});
   scene.add(ball);
   return scene;
 }

@@ -8,13 +8,13 @@
 #include "pliant/body.h"
 #include "pliant/world.h"
 #include "support/run.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
+using testing_support::dt;
 using testing_support::run;
-
-constexpr float dt = 1.f / 60;
 
 /// A solid whose lower face lies on a ball of radius `radius` about the origin, `angle` from the top.
 struct Lying {
@@ -24,7 +24,7 @@ struct Lying {
   Vec3f velocity{}, spin{};
 };
 
-Scene scene_of(const Lying& lying) {
+Scene lying_scene(const Lying& lying) {
   BodyOptions options;
   options.position = Vec3f{std::sin(lying.angle), std::cos(lying.angle), 0} * (lying.radius + lying.height);
   options.rotation = {0, 0, std::sin(-lying.angle / 2), std::cos(lying.angle / 2)};
@@ -38,7 +38,7 @@ Scene scene_of(const Lying& lying) {
 }
 
 Scene on_collider(const Lying& lying, Collider collider) {
-  Scene scene = scene_of(lying);
+  Scene scene = lying_scene(lying);
   collider.static_friction = collider.kinetic_friction = lying.friction;
   scene.add(collider);
   return scene;
@@ -97,7 +97,7 @@ TEST(BoxOnRound, ACapsuleBearsABoxAtItsSide) {
 
 /// A scene with a body of one solid in the origin, fixed or not, under what lies there.
 Scene on_body(const SolidShape& solid, const BodyOptions& options) {
-  Scene scene = scene_of({});
+  Scene scene = lying_scene({});
   Object object = make_body({{solid}}, options);
   object.static_friction = object.kinetic_friction = 0.8f;
   scene.add(object);

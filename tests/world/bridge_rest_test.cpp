@@ -13,7 +13,7 @@ namespace pliant {
 namespace {
 
 constexpr int planks = 8, links_a_plank = 5;
-constexpr float link = 0.05f, pitch = links_a_plank * link, half_span = 0.5f * pitch * planks, sag = 0.25f;
+constexpr float link_length = 0.05f, pitch = links_a_plank * link_length, half_span = 0.5f * pitch * planks, sag = 0.25f;
 constexpr Vec3f half_plank{0.11f, 0.02f, 0.5f}, half_box{0.13f, 0.13f, 0.13f};
 
 /// A parabola through both ends of the ropes.
@@ -22,7 +22,7 @@ float height_at(float x) { return sag * (x * x / (half_span * half_span) - 1); }
 void add_rope(Object& bridge, float z) {
   std::vector<Vec3f> points;
   for (int i = 0; i <= planks * links_a_plank; ++i) {
-    const float x = static_cast<float>(i) * link - half_span;
+    const float x = static_cast<float>(i) * link_length - half_span;
     points.push_back({x, height_at(x), z});
   }
   RopeOptions options;
@@ -75,13 +75,13 @@ std::vector<Vec3f> centres(const World& world, ObjectId id, std::size_t count) {
   return all;
 }
 
-struct Motion {
+struct FastestMotion {
   double speed = 0;  ///< of the fastest body [m/s]
   double spin = 0;   ///< of any body [rad/s]
 };
 
-Motion fastest(const World& world, const Scene& scene) {
-  Motion most;
+FastestMotion fastest(const World& world, const Scene& scene) {
+  FastestMotion most;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const auto view = world.object(world.objects()[o]);
     const std::vector<Vec3f> velocities = view.velocities(), spins = view.angular_velocities();
@@ -101,10 +101,10 @@ TEST(BridgeOfPlanks, ComesToRestWithBoxesOnIt) {
   World world(scene);
   for (int frame = 0; frame < 600; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
   const std::vector<Vec3f> before = centres(world, load, 4);
-  Motion most;
+  FastestMotion most;
   for (int frame = 0; frame < 300; ++frame) {
     ASSERT_TRUE(world.step(1.f / 60).ok());
-    const Motion now = fastest(world, scene);
+    const FastestMotion now = fastest(world, scene);
     most = {std::max(most.speed, now.speed), std::max(most.spin, now.spin)};
   }
   const std::vector<Vec3f> after = centres(world, load, 4);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "pliant/world.h"
 #include "support/scenes.h"
@@ -12,51 +13,52 @@ namespace {
 
 using namespace testing_support;
 
-constexpr double pi = 3.14159265358979, gravity = 9.81, friction = 0.3;
-constexpr double bar = 0.1, thickness = 0.004, radius = bar + thickness;
-constexpr double edge = 0.0125, seconds = 0.4;
-constexpr int across = 5, middle = 2;
+constexpr double standard_gravity = 9.81, strip_friction = 0.3;
+constexpr double bar = 0.1, strip_thickness = 0.004, strip_radius = bar + strip_thickness;
+constexpr double edge = 0.0125, sliding_seconds = 0.4;
+constexpr int across = 5, middle_of_strip = 2;
 
 /// By how much tension at the right end exceeds what hangs there if the strip accelerates by `a` at speed `v` [N m / kg].
 /// T' = mu (T + g r sin t - v^2) + g r cos t + a r around the bar, per mass and length; T starts as the left end's pull.
 double excess(double left, double right, double v, double a) {
   constexpr int steps = 200;
-  const double h = pi / steps;
+  const double h = std::numbers::pi / steps;
   const auto slope = [&](double t, double tension) {
-    return friction * (tension + gravity * radius * std::sin(t) - v * v) + gravity * radius * std::cos(t) + a * radius;
+    return strip_friction * (tension + standard_gravity * strip_radius * std::sin(t) - v * v) +
+           standard_gravity * strip_radius * std::cos(t) + a * strip_radius;
   };
-  double tension = left * (gravity + a);
+  double tension = left * (standard_gravity + a);
   for (int i = 0; i < steps; ++i) tension += h * slope((i + 0.5) * h, tension + h / 2 * slope(i * h, tension));
-  return tension - right * (gravity - a);
+  return tension - right * (standard_gravity - a);
 }
 
-/// By how much a strip with these free ends has slid to the right after `seconds` [m].
+/// By how much a strip with these free ends has slid to the right after `sliding_seconds` [m].
 double expected_way(double left, double right) {
   constexpr int steps = 400;
-  constexpr double dt = seconds / steps;
+  constexpr double step_time = sliding_seconds / steps;
   double way = 0, v = 0;
   for (int i = 0; i < steps; ++i) {
     const double at_rest = excess(left - way, right + way, v, 0), slope = excess(left - way, right + way, v, 1) - at_rest;
     const double a = -at_rest / slope;  // the excess is linear in a
     if (!(a > 0) && !(v > 0)) return 0;
-    v += a * dt;
-    way += v * dt;
+    v += a * step_time;
+    way += v * step_time;
   }
   return way;
 }
 
 /// A strip of cotton with irregular diagonals whose ends hang down by `left` and `right` from a bar along z.
 Scene strip(double left, double right) {
-  const double whole = left + pi * radius + right;
+  const double whole = left + std::numbers::pi * strip_radius + right;
   const int rows = static_cast<int>(std::lround(whole / edge));
   TriangleMesh mesh;
   for (int i = 0; i <= rows; ++i) {
-    const double s = whole * i / rows, t = (s - left) / radius;
-    const Vec3d at = t < 0    ? Vec3d{-radius, s - left, 0}
-                     : t < pi ? Vec3d{-radius * std::cos(t), radius * std::sin(t), 0}
-                              : Vec3d{radius, left + pi * radius - s, 0};
+    const double s = whole * i / rows, t = (s - left) / strip_radius;
+    const Vec3d at = t < 0                  ? Vec3d{-strip_radius, s - left, 0}
+                     : t < std::numbers::pi ? Vec3d{-strip_radius * std::cos(t), strip_radius * std::sin(t), 0}
+                                            : Vec3d{strip_radius, left + std::numbers::pi * strip_radius - s, 0};
     for (int k = 0; k < across; ++k)
-      mesh.positions.push_back({float(at.x), float(at.y), static_cast<float>((k - middle) * edge)});
+      mesh.positions.push_back({float(at.x), float(at.y), static_cast<float>((k - middle_of_strip) * edge)});
   }
   for (int i = 0; i < rows; ++i) {
     for (int k = 0; k + 1 < across; ++k) {
@@ -70,12 +72,12 @@ Scene strip(double left, double right) {
   options.material = fabric("cotton");
   options.stretch = Stiffness::rigid();
   Object object = make_cloth(mesh, options);
-  object.thickness = static_cast<float>(thickness);
-  object.static_friction = object.kinetic_friction = static_cast<float>(friction);
+  object.thickness = static_cast<float>(strip_thickness);
+  object.static_friction = object.kinetic_friction = static_cast<float>(strip_friction);
   Collider collider;
   collider.shape = Capsule{static_cast<float>(bar), 0.3f};
   collider.rotation = {std::sqrt(0.5f), 0, 0, std::sqrt(0.5f)};
-  collider.static_friction = collider.kinetic_friction = static_cast<float>(friction);
+  collider.static_friction = collider.kinetic_friction = static_cast<float>(strip_friction);
   Scene scene;
   scene.add(object);
   scene.add(collider);
@@ -87,7 +89,7 @@ Scene strip(double left, double right) {
 double found_way(double left, double right) {
   World world(strip(left, right));
   const std::vector<Vec3f> before = world.object(0).positions();
-  const int frames = static_cast<int>(std::lround(seconds * 60));
+  const int frames = static_cast<int>(std::lround(sliding_seconds * 60));
   for (int frame = 0; frame < frames; ++frame) EXPECT_TRUE(world.step(1.f / 60).ok());
   return static_cast<double>(world.object(0).positions()[2].y - before[2].y);
 }

@@ -31,7 +31,7 @@ Scene hanging(int n, int substeps, int iterations, Stiffness stretch) {
   return scene;
 }
 
-std::string run(const Scene& scene, const Settings& settings, int frames) {
+std::string hash_after_run(const Scene& scene, const Settings& settings, int frames) {
   World world(scene, settings);
   for (int frame = 0; frame < frames; ++frame) {
     const Report report = world.step(1.f / 60);
@@ -75,19 +75,19 @@ TEST(ChainSweep, gives_one_hash_whatever_runs_it) {
     Settings settings = scene.settings;
     settings.isa = "sequential";
     settings.threads = 1;
-    const std::string expected = run(scene, settings, 6);
+    const std::string expected = hash_after_run(scene, settings, 6);
     settings.isa.clear();
     for (int threads : {1, 2, 3, 8}) {
       settings.threads = threads;
-      EXPECT_EQ(run(scene, settings, 6), expected) << threads << " threads";
+      EXPECT_EQ(hash_after_run(scene, settings, 6), expected) << threads << " threads";
     }
     for (const std::string& isa : available_isas()) {
       settings.isa = isa;
-      EXPECT_EQ(run(scene, settings, 6), expected) << isa;
+      EXPECT_EQ(hash_after_run(scene, settings, 6), expected) << isa;
     }
     settings.isa.clear();
     settings.record_multipliers = settings.measure = true;
-    EXPECT_EQ(run(scene, settings, 6), expected) << "looking changes nothing";
+    EXPECT_EQ(hash_after_run(scene, settings, 6), expected) << "looking changes nothing";
   }
 }
 

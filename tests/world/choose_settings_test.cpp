@@ -24,7 +24,9 @@ Scene with(const TriangleMesh& mesh, const ClothOptions& options) {
   return scene;
 }
 
-Scene sheet(int n, float size, const ClothOptions& options = {}) { return with(grid_mesh(n, n, size, size), options); }
+Scene sheet_scene(int n, float size, const ClothOptions& options = {}) {
+  return with(grid_mesh(n, n, size, size), options);
+}
 
 /// The same with its inner vertices moved by up to a third of an edge: no springs lie in rows.
 TriangleMesh irregular_mesh(int n, float size) {
@@ -89,7 +91,7 @@ TEST(ChosenSettings, AreMoreSubstepsOfMultigridWhereClothIsDisturbed) {
 }
 
 TEST(ChosenSettings, AreTetheredWhereAttachmentsActLikePins) {
-  Scene scene = sheet(40, 1);  // 0.15 kg, 1.5 N
+  Scene scene = sheet_scene(40, 1);  // 0.15 kg, 1.5 N
   for (const int p : {0, 39}) scene.objects[0].attachments.push_back(attached(scene.objects[0], p));
   expect_chosen(scene, Sweep::tethered_chains, 0, "hangs from pins or attachments");
   const auto with_second = [&](const Attachment& second) {
@@ -128,8 +130,8 @@ TEST(ChosenSettings, AreChainsWhereCollidersAreMet) {
 }
 
 TEST(ChosenSettings, AreChainsForRegularCloth) {
-  expect_chosen(sheet(40, 1), Sweep::chains, 0, "springs lie in straight rows");
-  Scene hung = sheet(40, 1);
+  expect_chosen(sheet_scene(40, 1), Sweep::chains, 0, "springs lie in straight rows");
+  Scene hung = sheet_scene(40, 1);
   hung.pin(0, {0, 39});
   expect_chosen(hung, Sweep::tethered_chains, 0, "hangs from pins");
   Scene lying = hung;
@@ -148,17 +150,17 @@ TEST(ChosenSettings, AreMoreSubstepsForSheetsThatStretchAndHangFromFewParticles)
   options.material = fabric("rubber sheet");
   const std::string why = "springs lie in straight rows";
   const auto hung = [&](int n, int step) {
-    Scene scene = sheet(n, 1, options);
+    Scene scene = sheet_scene(n, 1, options);
     for (int p = 0; p < n; p += step) scene.pin(0, {p});
     return scene;
   };
-  expect_chosen(sheet(64, 1, options), Sweep::chains, 20, why);
+  expect_chosen(sheet_scene(64, 1, options), Sweep::chains, 20, why);
   expect_chosen(hung(64, 63), Sweep::chains, 76, why);
   expect_chosen(hung(64, 64), Sweep::chains, 76, why);  // one corner
   expect_chosen(hung(64, 21), Sweep::chains, 52, why);  // four pins
   expect_chosen(hung(64, 1), Sweep::chains, 20, why);
   expect_chosen(hung(144, 143), Sweep::chains, 160, why);
-  Scene attached_at_corners = sheet(64, 1, options);
+  Scene attached_at_corners = sheet_scene(64, 1, options);
   for (const int p : {0, 63})
     attached_at_corners.objects[0].attachments.push_back(attached(attached_at_corners.objects[0], p));
   expect_chosen(attached_at_corners, Sweep::chains, 76, why);
@@ -168,8 +170,8 @@ TEST(ChosenSettings, AreMoreSubstepsForSheetsThatStretchAndHangFromFewParticles)
 }
 
 TEST(ChosenSettings, ArePlainForWhatIsCoarse) {
-  expect_chosen(sheet(5, 1), Sweep::tiled, 20, "fewer than 32");
-  expect_chosen(sheet(6, 1), Sweep::chains, 0, "straight rows");
+  expect_chosen(sheet_scene(5, 1), Sweep::tiled, 20, "fewer than 32");
+  expect_chosen(sheet_scene(6, 1), Sweep::chains, 0, "straight rows");
   expect_chosen(Scene{}, Sweep::tiled, 20, "fewer than 32");
 }
 
@@ -307,8 +309,8 @@ TEST(ChosenSettings, AreEachObjectsOwn) {
 TEST(ChosenSettings, ArePlainWherePbdStiffnessOrIterationsSaySo) {
   ClothOptions options;
   options.stretch = Stiffness::pbd(0.9f);
-  expect_chosen(sheet(20, 1, options), Sweep::tiled, 20, "fewer than 32");
-  Scene scene = sheet(20, 1);
+  expect_chosen(sheet_scene(20, 1, options), Sweep::tiled, 20, "fewer than 32");
+  Scene scene = sheet_scene(20, 1);
   scene.settings.iterations = 2;
   expect_chosen(scene, Sweep::tiled, 20, "more than one iteration");
 }
@@ -325,7 +327,7 @@ TEST(ChosenSettings, AreChainsWithoutTethersForSheetsThatHoldThemselvesUp) {
     const double length = std::cbrt(0.02 / (0.75 * 9.81));
     for (const int n : {8, 30}) {
       const auto hung = [&](double size) {
-        Scene scene = sheet(n, static_cast<float>(size), options);
+        Scene scene = sheet_scene(n, static_cast<float>(size), options);
         scene.pin(0, {0, n - 1});
         return scene;
       };
@@ -338,9 +340,9 @@ TEST(ChosenSettings, AreChainsWithoutTethersForSheetsThatHoldThemselvesUp) {
 TEST(ChosenSettings, AreChainsInFixedSubstepsForPbdBending) {
   ClothOptions options;
   options.bending = Stiffness::pbd(0.1f);
-  expect_chosen(sheet(20, 1, options), Sweep::chains, 20, "a quarter of its size");
+  expect_chosen(sheet_scene(20, 1, options), Sweep::chains, 20, "a quarter of its size");
   options.bending = Stiffness::rigid();
-  expect_chosen(sheet(20, 1, options), Sweep::chains, 0, "a quarter of its size");
+  expect_chosen(sheet_scene(20, 1, options), Sweep::chains, 0, "a quarter of its size");
 }
 
 TEST(ChosenSettings, AreChainsWhereSurfacesMeet) {
@@ -371,7 +373,7 @@ TEST(ChosenSettings, AreChainsWhereSurfacesMeet) {
 }
 
 TEST(ChosenSettings, LeaveWhatIsNamed) {
-  Scene scene = sheet(40, 1);
+  Scene scene = sheet_scene(40, 1);
   for (const NamedSweep& one : sweeps()) {
     scene.settings.sweep = one.sweep;
     std::string reason;
@@ -387,19 +389,19 @@ TEST(ChosenSettings, LeaveWhatIsNamed) {
 TEST(ChosenSettings, AreNotDecidedByAHingeOfNoArea) {
   ClothOptions options;
   options.material.bending_stiffness = 5;
-  Scene scene = sheet(20, 1, options);
+  Scene scene = sheet_scene(20, 1, options);
   const std::vector<int> hinge = scene.objects[0].constraints[1].particles;
   scene.objects[0].positions.at(std::size_t(hinge[1])) = scene.objects[0].positions.at(std::size_t(hinge[0]));
   expect_chosen(scene, Sweep::chains, 0, "a quarter of its size");
 }
 
 TEST(ChosenSettings, AreNotDecidedByAFewStiffHingesOrLooseParticles) {
-  Scene scene = sheet(20, 1);
+  Scene scene = sheet_scene(20, 1);
   scene.objects[0].constraints[1].compliances.at(7) = 0;
   expect_chosen(scene, Sweep::chains, 0, "straight rows");
   ClothOptions stiff;
   stiff.material.bending_stiffness = 5;
-  scene = sheet(20, 1, stiff);
+  scene = sheet_scene(20, 1, stiff);
   scene.objects[0].triangles.clear();
   expect_chosen(scene, Sweep::chains, 20, "a quarter of its size");
   scene = {};

@@ -21,7 +21,7 @@ std::string words_of(const Scene& scene) {
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-Object sheet(const std::string& name, float height, bool upright = false) {
+Object colliding_sheet(const std::string& name, float height, bool upright = false) {
   TriangleMesh mesh = grid_mesh(5, 5, 1, 1);
   for (Vec3f& p : mesh.positions) p = upright ? Vec3f{p.x + 0.04f, p.z + height + 0.03f, 0.01f} : Vec3f{p.x, height, p.z};
   Object object = make_cloth(mesh);
@@ -33,7 +33,7 @@ Object sheet(const std::string& name, float height, bool upright = false) {
 
 Scene with_mesh(TriangleMesh mesh) {
   Scene scene;
-  scene.add(sheet("sheet", 2));
+  scene.add(colliding_sheet("sheet", 2));
   MeshCollider collider;
   collider.name = "rock";
   collider.mesh = std::move(mesh);
@@ -78,7 +78,7 @@ TEST(MeshColliders, ThatCannotBeAreRefusedByName) {
 
 TEST(Thickness, BeyondTheMedianEdgeIsDoubted) {
   Scene scene;
-  scene.add(sheet("sheet", 0));
+  scene.add(colliding_sheet("sheet", 0));
   scene.objects[0].collides = false;
   scene.objects[0].self_collision = true;
   EXPECT_EQ(words_of(scene), "");
@@ -143,8 +143,8 @@ TEST(Cost, OfAMeshThatIsFineInOnePlaceIsSaid) {
 
 TEST(Start, NearerThanTheTwoKeepIsDoubted) {
   Scene scene;
-  scene.add(sheet("shirt", 1));
-  scene.add(sheet("coat", 1.005f));
+  scene.add(colliding_sheet("shirt", 1));
+  scene.add(colliding_sheet("coat", 1.005f));
   const std::string text = words_of(scene);
   EXPECT_TRUE(says(text,
                    "object 'shirt', particle 0 and 24 more: starts nearer to object 'coat' than the 0.02 m that the two "
@@ -154,7 +154,7 @@ TEST(Start, NearerThanTheTwoKeepIsDoubted) {
   scene.pairs.push_back({"coat", "shirt", 0.004f, std::nullopt, std::nullopt, std::nullopt});
   EXPECT_FALSE(says(words_of(scene), "starts nearer")) << words_of(scene);
   scene.pairs.clear();
-  scene.objects[1] = sheet("coat", 1.02f);
+  scene.objects[1] = colliding_sheet("coat", 1.02f);
   EXPECT_FALSE(says(words_of(scene), "starts nearer")) << "just so far apart:\n" << words_of(scene);
 }
 
@@ -216,8 +216,8 @@ TEST(Thickness, ParticlesWithoutTrianglesAndLinksAreNamed) {
 
 TEST(Tangles, AreNamedBeforeAnythingMoves) {
   Scene scene;
-  scene.add(sheet("table", 0));
-  scene.add(sheet("wall", 0, true));
+  scene.add(colliding_sheet("table", 0));
+  scene.add(colliding_sheet("wall", 0, true));
   const std::string words = words_of(scene);
   EXPECT_TRUE(says(words, "object 'table', edge ")) << words;
   EXPECT_TRUE(says(words, ") of object 'wall' at the start, one of ")) << words;
@@ -232,8 +232,8 @@ TEST(Tangles, AreNamedBeforeAnythingMoves) {
 /// The warning must name an edge and a triangle that do intersect.
 TEST(Tangles, AreNamedInTheReport) {
   Scene scene;
-  scene.add(sheet("table", 0));
-  scene.add(sheet("wall", 0, true));
+  scene.add(colliding_sheet("table", 0));
+  scene.add(colliding_sheet("wall", 0, true));
   scene.settings.threads = 1;
   World world(scene);
   const Report report = world.step(1.f / 600);
@@ -269,8 +269,8 @@ TEST(Tangles, WithColliderNameThem) {
 
 TEST(Tangles, OfWhatDoesNotMeetAreNone) {
   Scene scene;
-  scene.add(sheet("table", 0));
-  scene.add(sheet("wall", 0, true));
+  scene.add(colliding_sheet("table", 0));
+  scene.add(colliding_sheet("wall", 0, true));
   scene.objects[1].collides = false;
   scene.objects[0].self_collision = true;
   World world(scene);
@@ -283,7 +283,7 @@ TEST(Tangles, OfWhatDoesNotMeetAreNone) {
 TEST(Unresolvable, PinchesAreSaid) {
   Scene scene;
   scene.gravity = {};
-  scene.add(sheet("sheet", 0));
+  scene.add(colliding_sheet("sheet", 0));
   for (const float sign : {-1.f, 1.f}) {
     MeshCollider wall;
     wall.name = sign < 0 ? "floor" : "ceiling";

@@ -9,14 +9,14 @@
 #include "geometry/shapes.h"
 #include "math/vector.h"
 #include "support/scenes.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
 using namespace testing_support;
 
-constexpr float dt = 1.f / 60;
-constexpr float gravity = 9.81f;
+constexpr float earth_gravity = 9.81f;
 
 double distance_to(const Collider& collider, double time, const Vec3f& point) {
   const Vec3d local = to_local(collider_pose(collider, time), convert<double>(point));
@@ -32,18 +32,18 @@ Collider without_friction(const Shape& shape) {
 
 // ------------------------------------------------------------------------------------------------ rest
 
-struct Named {
+struct NamedShape {
   std::string name;
   Shape shape;
   float top;  ///< height of the shape above its centre [m]
 };
-void PrintTo(const Named& named, std::ostream* out) { *out << named.name; }
+void PrintTo(const NamedShape& named, std::ostream* out) { *out << named.name; }
 
-class OnEachShape : public testing::TestWithParam<Named> {};
+class OnEachShape : public testing::TestWithParam<NamedShape> {};
 INSTANTIATE_TEST_SUITE_P(Shapes, OnEachShape,
-                         testing::Values(Named{"plane", Plane{}, 0}, Named{"sphere", Sphere{0.5f}, 0.5f},
-                                         Named{"capsule", Capsule{0.2f, 0.3f}, 0.5f},
-                                         Named{"box", Box{{0.5f, 0.25f, 0.5f}}, 0.25f}),
+                         testing::Values(NamedShape{"plane", Plane{}, 0}, NamedShape{"sphere", Sphere{0.5f}, 0.5f},
+                                         NamedShape{"capsule", Capsule{0.2f, 0.3f}, 0.5f},
+                                         NamedShape{"box", Box{{0.5f, 0.25f, 0.5f}}, 0.25f}),
                          [](const auto& named) { return named.param.name; });
 
 TEST_P(OnEachShape, AParticleRestsAtTheThickness) {
@@ -149,22 +149,22 @@ int passed_through(const Collider& collider, const Vec3f& carried, float spread,
   return count;
 }
 
-struct Target {
+struct TargetShape {
   std::string name;
   Shape shape;
   float spread;
 };
-const std::vector<Target>& targets() {
-  static const std::vector<Target> all{{"box", Box{{0.5f, 0.005f, 0.5f}}, 0.2f},
-                                       {"small sphere", Sphere{0.005f}, 0.002f},
-                                       {"sphere", Sphere{0.3f}, 0.1f},
-                                       {"capsule", Capsule{0.005f, 0.3f}, 0.002f},
-                                       {"plane", Plane{}, 1.f}};
+const std::vector<TargetShape>& targets() {
+  static const std::vector<TargetShape> all{{"box", Box{{0.5f, 0.005f, 0.5f}}, 0.2f},
+                                            {"small sphere", Sphere{0.005f}, 0.002f},
+                                            {"sphere", Sphere{0.3f}, 0.1f},
+                                            {"capsule", Capsule{0.005f, 0.3f}, 0.002f},
+                                            {"plane", Plane{}, 1.f}};
   return all;
 }
 
 TEST(Shots, NoneGoesThroughWhatStandsStill) {
-  for (const Target& target : targets()) {
+  for (const TargetShape& target : targets()) {
     Collider collider = without_friction(target.shape);
     collider.position = {0.3f, 0.2f, -0.1f};
     if (target.name == "capsule") collider.rotation = rotation({0, 0, 1}, 90);
@@ -178,7 +178,7 @@ TEST(Shots, NoneGoesThroughWhatStandsStill) {
 }
 
 TEST(Shots, NoneGoesThroughWhatMoves) {
-  for (const Target& target : targets()) {
+  for (const TargetShape& target : targets()) {
     if (target.name == "plane") continue;
     for (const Vec3f& carried : {Vec3f{0, 20, 0}, Vec3f{15, 0, 0}, Vec3f{-5, -8, 3}}) {
       Collider collider = without_friction(target.shape);
@@ -267,7 +267,8 @@ TEST(Friction, SticksBelowItsAngleAndSlipsAbove) {
 TEST(Friction, SlidesWithWhatGravityLeaves) {
   World world(ramp(40, 0.4f, 0.3f), settings_of(20));
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
-  const double angle = 40 * 3.14159265358979 / 180, acceleration = gravity * (std::sin(angle) - 0.3 * std::cos(angle));
+  const double angle = 40 * 3.14159265358979 / 180,
+               acceleration = earth_gravity * (std::sin(angle) - 0.3 * std::cos(angle));
   EXPECT_NEAR(length(world.object(0).velocities()[0]), acceleration * 1.0, 0.01 * acceleration);
   EXPECT_NEAR(length(world.object(0).positions()[0]), 0.5 * acceleration, 0.01 * acceleration);
 }
@@ -279,7 +280,7 @@ TEST(Friction, StopsAfterItsDistance) {
       scene.objects[0].velocities = {{3, 0, 0}};
       World world(scene, settings_of(substeps));
       for (int frame = 0; frame < 180; ++frame) world.step(dt);
-      const float expected = 9 / (2 * mu * gravity);
+      const float expected = 9 / (2 * mu * earth_gravity);
       EXPECT_NEAR(world.object(0).positions()[0].x, expected, 0.01f * expected) << mu << ", " << substeps << " substeps";
       EXPECT_LT(length(world.object(0).velocities()[0]), 1e-4f);
     }
@@ -292,7 +293,7 @@ TEST(Friction, IsTheGeometricMeanOfBothSides) {
   scene.objects[0].velocities = {{3, 0, 0}};
   World world(scene, settings_of(20));
   for (int frame = 0; frame < 180; ++frame) world.step(dt);
-  const float expected = 9 / (2 * 0.3f * gravity);
+  const float expected = 9 / (2 * 0.3f * earth_gravity);
   EXPECT_NEAR(world.object(0).positions()[0].x, expected, 0.01f * expected);
 }
 
@@ -310,7 +311,7 @@ TEST(Restitution, ReturnsTheSquareOfTheHeight) {
       world.step(dt);
       const double v = world.object(0).velocities()[0].y, h = world.object(0).positions()[0].y - 0.001;
       bounced = bounced || v > 0;
-      if (bounced && v > 0) apex = std::max(apex, h + v * v / (2 * gravity));
+      if (bounced && v > 0) apex = std::max(apex, h + v * v / (2 * earth_gravity));
     }
     EXPECT_NEAR(apex, e * e, 0.01 * e * e) << "restitution " << e;
   }
@@ -328,7 +329,7 @@ TEST(Restitution, IsTheLargerOfBothSides) {
     world.step(dt);
     fastest = std::max(fastest, static_cast<double>(world.object(0).velocities()[0].y));
   }
-  EXPECT_NEAR(fastest, 0.8 * std::sqrt(2 * gravity * 0.499), 0.2);
+  EXPECT_NEAR(fastest, 0.8 * std::sqrt(2 * earth_gravity * 0.499), 0.2);
 }
 
 // ------------------------------------------------------------------------------------------------ colliders that move
@@ -374,7 +375,7 @@ TEST(MovingCollider, CarriesByFrictionLikeAConveyor) {
   scene.add(object);
   World world(scene, settings_of(20));
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
-  EXPECT_NEAR(world.object(0).velocities()[0].x, 0.1 * gravity * 0.5, 0.01) << "speeding up at mu g";
+  EXPECT_NEAR(world.object(0).velocities()[0].x, 0.1 * earth_gravity * 0.5, 0.01) << "speeding up at mu g";
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
   EXPECT_NEAR(world.object(0).velocities()[0].x, 1, 1e-3) << "and then as fast as the belt";
 }

@@ -3,18 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
+#include "support/nonfinite.h"
 #include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
 using namespace testing_support;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-double distance(const Vec3f& a, const Vec3f& b) { return std::sqrt(static_cast<double>(length_squared(a - b))); }
 
 // ------------------------------------------------------------------------------------------------ control
 

@@ -23,34 +23,34 @@ struct Placed {
   std::vector<std::array<int, 3>> triangles;
 };
 
-struct Bounds {
+struct MeshBounds {
   Vec3f low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
 
   void add(const Vec3f& p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  bool meets(const Bounds& b) const {
+  bool meets(const MeshBounds& b) const {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y && low.z <= b.high.z &&
            b.low.z <= high.z;
   }
 };
 
-Bounds bounds_of(const Placed& mesh, const std::array<int, 3>& triangle) {
-  Bounds bounds;
+MeshBounds bounds_of(const Placed& mesh, const std::array<int, 3>& triangle) {
+  MeshBounds bounds;
   for (const int i : triangle) bounds.add(mesh.positions[static_cast<std::size_t>(i)]);
   return bounds;
 }
 
 /// Edges of `a` through triangles of `b`, by exact signs. Every edge of a closed mesh is an edge of two triangles and counts twice.
 int edges_through(const Placed& a, const Placed& b) {
-  Bounds of_b;
+  MeshBounds of_b;
   for (const Vec3f& p : b.positions) of_b.add(p);
-  std::vector<Bounds> of_triangles;
+  std::vector<MeshBounds> of_triangles;
   for (const std::array<int, 3>& u : b.triangles) of_triangles.push_back(bounds_of(b, u));
   int count = 0;
   for (const std::array<int, 3>& t : a.triangles) {
-    const Bounds own = bounds_of(a, t);
+    const MeshBounds own = bounds_of(a, t);
     if (!own.meets(of_b)) continue;
     for (std::size_t k = 0; k < b.triangles.size(); ++k) {
       if (!own.meets(of_triangles[k])) continue;

@@ -10,11 +10,13 @@
 #include "pliant/joint.h"
 #include "pliant/world.h"
 #include "support/run.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float pi = 3.14159265f;
+using testing_support::pi;
+using testing_support::run;
 
 /// Turns about the y-axis through a pivot by `speed` [rad/s] for some seconds.
 Motion turning(float speed, int seconds, const Vec3f& pivot = {}) {
@@ -40,8 +42,6 @@ Object driven(const SolidShape& shape, const Vec3f& position, const Motion& moti
   body.pins.push_back({0, motion});
   return body;
 }
-
-using testing_support::run;
 
 /// The angle about y of a rotation about that axis [rad].
 float angle_of(const Quatf& q) {

@@ -2,18 +2,16 @@
 // continue.
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <stdexcept>
 
 #include "pliant/body.h"
+#include "support/nonfinite.h"
 #include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
 using namespace testing_support;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 TEST(BadForce, IsLeftOutAndNamed) {
   Scene scene = hanging_cloth();

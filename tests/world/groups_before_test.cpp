@@ -15,7 +15,7 @@ namespace pliant {
 namespace {
 
 /// A sheet that meets those of its group; 0: none.
-CompiledObject sheet(std::uint32_t group, int n, Sweep sweep) {
+CompiledObject compiled_sheet(std::uint32_t group, int n, Sweep sweep) {
   ClothOptions cloth;
   cloth.stretch = Stiffness::compliance(1e-7f);
   Object object = make_cloth(grid_mesh(n, n, 1, 1), cloth);
@@ -62,7 +62,7 @@ TEST(GroupsBefore, GiveWhatIsMadeAnew) {
   const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
   const auto some_sheet = [&] {
     const Sweep sweeps[] = {Sweep::chains, Sweep::tethered_chains, Sweep::tiled};
-    return sheet(static_cast<std::uint32_t>(below(6)), 20 + below(3), sweeps[below(3)]);
+    return compiled_sheet(static_cast<std::uint32_t>(below(6)), 20 + below(3), sweeps[below(3)]);
   };
   Model model;
   for (int i = 0; i < 8; ++i) model.add(some_sheet());

@@ -8,12 +8,14 @@
 
 #include "pliant/body.h"
 #include "pliant/world.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float dt = 1.f / 60;
-constexpr float side = 0.1f;  ///< half the side of the box that hangs [m]
+using testing_support::dt;
+
+constexpr float half_side = 0.1f;  ///< half the side of the box that hangs [m]
 
 struct Hung {
   int links = 10;
@@ -23,12 +25,12 @@ struct Hung {
 };
 
 /// A rope of 1 m and 50 g with a box at its end.
-Object hung(const Hung& h) {
+Object hung_weight(const Hung& h) {
   BodyOptions options;
   options.name = "weight";
-  options.position = h.starts_level ? Vec3f{1 + side, 0, 0} : Vec3f{0, -1 - side, 0};
+  options.position = h.starts_level ? Vec3f{1 + half_side, 0, 0} : Vec3f{0, -1 - half_side, 0};
   options.mass = h.mass;
-  Object object = make_body({{Box{{side, side, side}}}}, options);
+  Object object = make_body({{Box{{half_side, half_side, half_side}}}}, options);
   std::vector<Vec3f> points;
   for (int i = 0; i <= h.links; ++i) {
     const float along = static_cast<float>(i) / static_cast<float>(h.links);
@@ -56,7 +58,7 @@ double rope_length(const World& world) {
   return sum;
 }
 
-Extent run(World& world, int frames) {
+Extent extent_of_run(World& world, int frames) {
   Extent found;
   for (int frame = 0; frame < frames; ++frame) {
     const Report report = world.step(dt);
@@ -79,8 +81,8 @@ TEST(HeavyTie, DoesNotStretchARopeThatHangs) {
   for (const int links : {10, 20, 40})
     for (const float mass : {1.f, 10.f, 100.f, 1000.f}) {
       SCOPED_TRACE(std::to_string(links) + " links, " + std::to_string(mass) + " kg");
-      World world = world_of(hung({.links = links, .mass = mass}));
-      const Extent found = run(world, 120);
+      World world = world_of(hung_weight({.links = links, .mass = mass}));
+      const Extent found = extent_of_run(world, 120);
       EXPECT_LT(found.stretch, 1e-3);
       EXPECT_LT(found.gap, 1e-4);
     }
@@ -91,8 +93,8 @@ TEST(HeavyTie, DoesNotStretchARopeThatSwings) {
   for (const int links : {10, 40})
     for (const float mass : {10.f, 100.f}) {
       SCOPED_TRACE(std::to_string(links) + " links, " + std::to_string(mass) + " kg");
-      World world = world_of(hung({.links = links, .mass = mass, .starts_level = true}));
-      const Extent found = run(world, 60);
+      World world = world_of(hung_weight({.links = links, .mass = mass, .starts_level = true}));
+      const Extent found = extent_of_run(world, 60);
       EXPECT_LT(found.stretch, 1e-3);
       EXPECT_LT(found.gap, 1e-4);
     }
@@ -104,7 +106,8 @@ TEST(HeavyTie, StretchesAnElasticRopeByItsCompliance) {
     for (const float mass : {10.f, 100.f}) {
       SCOPED_TRACE(std::to_string(links) + " links, " + std::to_string(mass) + " kg");
       const double wanted = 0.02, force = (static_cast<double>(mass) + 0.025) * 9.81;
-      Object object = hung({.links = links, .mass = mass, .compliance = static_cast<float>(wanted / (links * force))});
+      Object object =
+          hung_weight({.links = links, .mass = mass, .compliance = static_cast<float>(wanted / (links * force))});
       object.damping = 5;
       World world = world_of(object);
       for (int frame = 0; frame < 300; ++frame) ASSERT_TRUE(world.step(dt).ok());
@@ -114,14 +117,14 @@ TEST(HeavyTie, StretchesAnElasticRopeByItsCompliance) {
 
 /// Tethers, which only an object that names them has here, pull the tied particle off its body.
 TEST(HeavyTie, ThatOpensIsNamed) {
-  Object object = hung({.links = 40});
+  Object object = hung_weight({.links = 40});
   object.sweep = Sweep::tethered_chains;
   World world = world_of(object);
   Report report;
   for (int frame = 0; frame < 10; ++frame) report = world.step(dt);
   const TieGap& tie = report.widest_tie;
   const std::vector<Vec3f> x = world.object(0).positions();
-  const Vec3f place = world.object(0).pose("weight").position + Vec3f{0, side, 0};
+  const Vec3f place = world.object(0).pose("weight").position + Vec3f{0, half_side, 0};
   EXPECT_EQ(tie.object, ObjectId(0));
   EXPECT_EQ(tie.body, 0);
   EXPECT_EQ(tie.particle, 41);
@@ -138,7 +141,7 @@ TEST(HeavyTie, ThatOpensIsNamed) {
 TEST(HeavyTie, WithComplianceOpensByItAndIsNotMeasured) {
   for (const int links : {10, 40}) {
     SCOPED_TRACE(links);
-    Object object = hung({.links = links});
+    Object object = hung_weight({.links = links});
     object.constraints.back().stiffness = Stiffness::compliance(1e-3f);
     object.damping = 5;
     World world = world_of(object);
@@ -146,7 +149,7 @@ TEST(HeavyTie, WithComplianceOpensByItAndIsNotMeasured) {
     const float end = world.object(0).positions().back().y;
     const double force = 10 * 9.81, h = static_cast<double>(dt) / world.object(0).info().substeps;
     const double moved = force * h * h / static_cast<double>(object.masses.back());
-    EXPECT_NEAR(end - (world.object(0).pose("weight").position.y + side), 1e-3 * force, moved);
+    EXPECT_NEAR(end - (world.object(0).pose("weight").position.y + half_side), 1e-3 * force, moved);
   }
 }
 

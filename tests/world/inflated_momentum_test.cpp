@@ -16,7 +16,7 @@ namespace {
 
 using testing_support::dt;
 
-constexpr float radius = 0.2f;
+constexpr float inflated_radius = 0.2f;
 
 ClothOptions of_fabric(const char* name) {
   ClothOptions options;
@@ -36,7 +36,7 @@ Object ball(ClothOptions options, float pressure, int subdivisions = 3) {
   options.name = "ball";
   options.volume = Volume{pressure, Stiffness::rigid()};
   TriangleMesh mesh = sphere_mesh(subdivisions);
-  for (Vec3f& p : mesh.positions) p = p * radius;
+  for (Vec3f& p : mesh.positions) p = p * inflated_radius;
   return make_cloth(mesh, options);
 }
 
@@ -151,7 +151,7 @@ TEST(InflatedMomentum, IsKeptByTheLimitOfOverstretch) {
 
 /// A mesh without friction exerts no torque about the vertical. Chains are solved again where the ball presses on it.
 TEST(InflatedMomentum, DoesNotTurnABallOnASmoothMesh) {
-  Object one = at(ball(of_fabric("rubber sheet"), 1.4f), {0, 1.12f * radius + 0.011f, 0});
+  Object one = at(ball(of_fabric("rubber sheet"), 1.4f), {0, 1.12f * inflated_radius + 0.011f, 0});
   one.collides = true;
   one.thickness = 0.005f;
   one.static_friction = one.kinetic_friction = 0;
@@ -184,7 +184,7 @@ TEST(InflatedMomentum, IsKeptByBallsThatCollide) {
   const Vec3d about_origin = left.angular_momentum + right.angular_momentum +
                              cross(left.centre, left.velocity) * left.mass +
                              cross(right.centre, right.velocity) * right.mass;
-  EXPECT_LT(length(about_origin), 0.02 * left.mass * 2 * static_cast<double>(radius));
+  EXPECT_LT(length(about_origin), 0.02 * left.mass * 2 * static_cast<double>(inflated_radius));
 }
 
 /// Linear momentum, and angular momentum about the origin, of all that moves in a World whose rigid bodies are spheres.
@@ -234,7 +234,8 @@ TEST(InflatedMomentum, IsKeptWithRigidBodies) {
       const Momentum end = momentum_of(world);
       const std::string what = (is_thrown ? "body thrown, " : "balloon thrown, ") + std::to_string(mass) + " kg";
       EXPECT_LT(length(end.linear - start.linear), 1e-4 * length(start.linear)) << what;
-      EXPECT_LT(length(end.angular - start.angular), 2e-3 * length(start.linear) * static_cast<double>(radius)) << what;
+      EXPECT_LT(length(end.angular - start.angular), 2e-3 * length(start.linear) * static_cast<double>(inflated_radius))
+          << what;
       EXPECT_GT(motion_of(world).velocity.x - static_cast<double>(world.object(1).velocities()[0].x), 0.3)
           << what << ": no impact";
     }
@@ -242,7 +243,7 @@ TEST(InflatedMomentum, IsKeptWithRigidBodies) {
 
 Scene on_a_slope(const Object& object, double sine) {
   Scene scene;
-  scene.add(at(object, {0, 1.12f * radius + 0.005f, 0}));
+  scene.add(at(object, {0, 1.12f * inflated_radius + 0.005f, 0}));
   scene.gravity = {static_cast<float>(9.81 * sine), static_cast<float>(-9.81 * std::sqrt(1 - sine * sine)), 0};
   Collider ground;
   ground.static_friction = ground.kinetic_friction = 0.8f;
@@ -264,7 +265,8 @@ TEST(InflatedMomentum, LetsABallRollDownASlope) {
   const double acceleration = (late.velocity.x - early.velocity.x) / 2 / (9.81 * sine);
   EXPECT_GT(acceleration, 0.48);
   EXPECT_LT(acceleration, 0.62);
-  EXPECT_NEAR(-late.angular_velocity().z * 1.12 * static_cast<double>(radius), late.velocity.x, 0.05 * late.velocity.x);
+  EXPECT_NEAR(-late.angular_velocity().z * 1.12 * static_cast<double>(inflated_radius), late.velocity.x,
+              0.05 * late.velocity.x);
 }
 
 /// Five tiles, another ball in the same group, and other kernels.

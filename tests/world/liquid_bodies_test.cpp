@@ -11,23 +11,20 @@
 #include "pliant/mesh.h"
 #include "pliant/world.h"
 #include "support/same_bits.h"
+#include "world/liquid_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float spacing = 0.05f, side = 0.3f, width = 0.9f, depth = 0.6f;
+using testing_support::add_tank;
+using testing_support::liquid_spacing;
+using testing_support::wall;
 
-Collider wall(const Vec3f& at, const Quatf& rotation) {
-  Collider plane;
-  plane.position = at;
-  plane.rotation = rotation;
-  plane.static_friction = plane.kinetic_friction = 0;
-  return plane;
-}
+constexpr float cube_side = 0.3f, pool_width = 0.9f, pool_depth = 0.6f;
 
 Object cube(float relative_density, float tilt, const Vec3f& at) {
   Solid solid;
-  solid.shape = Box{{side / 2, side / 2, side / 2}};
+  solid.shape = Box{{cube_side / 2, cube_side / 2, cube_side / 2}};
   solid.density = 1000 * relative_density;
   BodyOptions options;
   options.position = at;
@@ -38,14 +35,10 @@ Object cube(float relative_density, float tilt, const Vec3f& at) {
 /// A cube let go just above a pool.
 Scene pool(float relative_density, float tilt = 0) {
   Scene scene;
-  scene.add(make_liquid(fill_box({0, 0, 0}, {width, depth, width}, spacing), {.fluid = {.spacing = spacing}}));
-  const float r = std::sqrt(0.5f);
-  scene.add(wall({0, 0, 0}, {0, 0, 0, 1}));
-  scene.add(wall({0, 0, 0}, {0, 0, -r, r}));
-  scene.add(wall({width, 0, 0}, {0, 0, r, r}));
-  scene.add(wall({0, 0, 0}, {r, 0, 0, r}));
-  scene.add(wall({0, 0, width}, {-r, 0, 0, r}));
-  scene.add(cube(relative_density, tilt, {width / 2, depth + side / 2 + 0.02f, width / 2}));
+  scene.add(make_liquid(fill_box({0, 0, 0}, {pool_width, pool_depth, pool_width}, liquid_spacing),
+                        {.fluid = {.spacing = liquid_spacing}}));
+  add_tank(scene, {pool_width, pool_depth, pool_width});
+  scene.add(cube(relative_density, tilt, {pool_width / 2, pool_depth + cube_side / 2 + 0.02f, pool_width / 2}));
   scene.settings.threads = 1;
   return scene;
 }
@@ -56,15 +49,16 @@ struct Floating {
 };
 
 /// The mean of a last second, in which a cube bobs a little.
-Floating run(World& world, int frames, double relative_density) {
-  const double volume = static_cast<double>(side) * side * side, area = static_cast<double>(width) * width;
-  const double level = depth + relative_density * volume / area;
+Floating floating_after(World& world, int frames, double relative_density) {
+  const double volume = static_cast<double>(cube_side) * cube_side * cube_side,
+               area = static_cast<double>(pool_width) * pool_width;
+  const double level = pool_depth + relative_density * volume / area;
   Floating of;
   for (int i = 0; i < frames; ++i) {
     const Report report = world.step(1.f / 60);
     EXPECT_TRUE(report.ok()) << report.explain();
     if (i < frames - 60) continue;
-    of.draft += (level - (static_cast<double>(world.state().positions.back().y) - side / 2)) / 60;
+    of.draft += (level - (static_cast<double>(world.state().positions.back().y) - cube_side / 2)) / 60;
     const Record& q = world.state().frames.orientations.front();
     of.upright += (1 - 2 * static_cast<double>(q.x * q.x + q.z * q.z)) / 60;
   }
@@ -75,15 +69,15 @@ Floating run(World& world, int frames, double relative_density) {
 TEST(LiquidBodies, FloatWithTheDraftOfTheirDensity) {
   for (const float density : {0.25f, 0.9f}) {
     World world(pool(density));
-    const Floating of = run(world, 360, density);
-    EXPECT_NEAR(of.draft, density * side, spacing / 4) << "density " << density;
+    const Floating of = floating_after(world, 360, density);
+    EXPECT_NEAR(of.draft, density * cube_side, liquid_spacing / 4) << "density " << density;
   }
 }
 
 // The centre of a cube of half the liquid's density is at the waterline, however it is turned.
 TEST(LiquidBodies, OfHalfTheDensityFloatWithTheirCentreAtTheWaterline) {
   World world(pool(0.5f, 0.3f));
-  EXPECT_NEAR(run(world, 360, 0.5).draft, side / 2, spacing / 4);
+  EXPECT_NEAR(floating_after(world, 360, 0.5).draft, cube_side / 2, liquid_spacing / 4);
 }
 
 /// The share of a ball's volume that lies deeper than `height` above its centre.
@@ -96,17 +90,18 @@ double share_below(double height, double radius) {
 // of 0.07 at a half and of 0.05 at nine tenths.
 TEST(LiquidBodies, ThatAreBallsDiveByTheShareOfTheirDensity) {
   constexpr double radius = 0.13, volume = 4. / 3 * std::numbers::pi * radius * radius * radius, tolerance = 0.04;
-  constexpr float pool_depth = 0.4f, shares[] = {0.25f, 0.5f, 0.9f};
+  constexpr float shallow_depth = 0.4f, shares[] = {0.25f, 0.5f, 0.9f};
   Scene scene = pool(0.5f);
   scene.objects.clear();
-  scene.add(make_liquid(fill_box({0, 0, 0}, {width, pool_depth, width}, spacing), {.fluid = {.spacing = spacing}}));
-  double level = static_cast<double>(pool_depth);
+  scene.add(make_liquid(fill_box({0, 0, 0}, {pool_width, shallow_depth, pool_width}, liquid_spacing),
+                        {.fluid = {.spacing = liquid_spacing}}));
+  double level = static_cast<double>(shallow_depth);
   for (int i = 0; i < 3; ++i) {
     Solid ball{.shape = Sphere{static_cast<float>(radius)}};
     ball.density = 1000 * shares[i];
-    scene.add(
-        make_body({ball}, {.position = {0.2f + 0.25f * static_cast<float>(i), pool_depth + 0.15f, i == 1 ? 0.7f : 0.25f}}));
-    level += static_cast<double>(shares[i]) * volume / static_cast<double>(width * width);
+    scene.add(make_body(
+        {ball}, {.position = {0.2f + 0.25f * static_cast<float>(i), shallow_depth + 0.15f, i == 1 ? 0.7f : 0.25f}}));
+    level += static_cast<double>(shares[i]) * volume / static_cast<double>(pool_width * pool_width);
   }
   World world(scene);
   constexpr int frames = 360, averaged = 60;
@@ -127,25 +122,27 @@ TEST(LiquidBodies, ThatAreBallsDiveByTheShareOfTheirDensity) {
 // A cube of relative density below (3 - sqrt(3)) / 6 = 0.21 or above 0.79 floats upright (Gilbert 1991); 0.9 is far above.
 TEST(LiquidBodies, ThatAreTiltedTurnUpright) {
   World world(pool(0.9f, 0.3f));
-  EXPECT_GT(run(world, 480, 0.9).upright, std::cos(0.12));
+  EXPECT_GT(floating_after(world, 480, 0.9).upright, std::cos(0.12));
 }
 
 // Of half the density it floats neither flat nor upright: from a tilt of 0.1 about a horizontal axis it turns on.
 TEST(LiquidBodies, OfHalfTheDensityDoNotFloatFlat) {
   World world(pool(0.5f, 0.1f));
-  EXPECT_LT(run(world, 480, 0.5).upright, std::cos(0.5));
+  EXPECT_LT(floating_after(world, 480, 0.5).upright, std::cos(0.5));
 }
 
 TEST(LiquidBodies, ThatAreHeavierSink) {
   World world(pool(2.5f));
-  run(world, 240, 2.5);
-  EXPECT_LT(world.state().positions.back().y, side / 2 + 1.5f * spacing) << "one layer of particles may stay below";
+  floating_after(world, 240, 2.5);
+  EXPECT_LT(world.state().positions.back().y, cube_side / 2 + 1.5f * liquid_spacing)
+      << "one layer of particles may stay below";
 }
 
 TEST(LiquidBodies, AndLiquidKeepTheirMomentum) {
   Scene scene;
   scene.gravity = {};
-  Object liquid = make_liquid(fill_box({0, 0, 0}, {0.4f, 0.4f, 0.4f}, spacing), {.fluid = {.spacing = spacing}});
+  Object liquid =
+      make_liquid(fill_box({0, 0, 0}, {0.4f, 0.4f, 0.4f}, liquid_spacing), {.fluid = {.spacing = liquid_spacing}});
   liquid.velocities.assign(liquid.positions.size(), {3, 0.5f, 0});
   const double mass = static_cast<double>(liquid.masses.front()), count = static_cast<double>(liquid.positions.size());
   scene.add(liquid);

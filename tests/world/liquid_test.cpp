@@ -8,31 +8,15 @@
 #include "pliant/world.h"
 #include "support/refusal.h"
 #include "support/same_bits.h"
+#include "world/liquid_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float spacing = 0.05f;
+using testing_support::add_tank;
+using testing_support::liquid_spacing;
 
-Collider wall(const Vec3f& at, const Quatf& rotation) {
-  Collider plane;
-  plane.position = at;
-  plane.rotation = rotation;
-  plane.static_friction = plane.kinetic_friction = 0;
-  return plane;
-}
-
-/// A tank of planes around the box from the origin to `size`, open above.
-void add_tank(Scene& scene, const Vec3f& size) {
-  const float r = std::sqrt(0.5f);
-  scene.add(wall({0, 0, 0}, {0, 0, 0, 1}));
-  scene.add(wall({0, 0, 0}, {0, 0, -r, r}));
-  scene.add(wall({size.x, 0, 0}, {0, 0, r, r}));
-  scene.add(wall({0, 0, 0}, {r, 0, 0, r}));
-  scene.add(wall({0, 0, size.z}, {-r, 0, 0, r}));
-}
-
-Scene column(float height, float width = 0.5f, float tank = 0.5f, const Fluid& fluid = {.spacing = spacing}) {
+Scene column(float height, float width = 0.5f, float tank = 0.5f, const Fluid& fluid = {.spacing = liquid_spacing}) {
   Scene scene;
   scene.add(make_liquid(fill_box({0, 0, 0}, {width, height, 0.5f}, fluid.spacing), {.fluid = fluid}));
   add_tank(scene, {tank, height, 0.5f});
@@ -44,7 +28,7 @@ struct Still {
   double height = 0, speed = 0;  ///< of the centre of mass [m]; root mean square [m/s]
 };
 
-Still measure(const World& world) {
+Still still_of(const World& world) {
   Still of;
   const std::vector<Vec3f> places = world.object(0).positions(), velocities = world.object(0).velocities();
   for (const Vec3f& p : places) of.height += static_cast<double>(p.y) / static_cast<double>(places.size());
@@ -53,7 +37,7 @@ Still measure(const World& world) {
   return of;
 }
 
-Report run(World& world, int frames) {
+Report advance(World& world, int frames) {
   Report report;
   for (int i = 0; i < frames; ++i) report = world.step(1.f / 60);
   return report;
@@ -62,7 +46,7 @@ Report run(World& world, int frames) {
 // The mean error is 1.3 g (depth / 2) h^2 D / w for one iteration a substep: the substeps are chosen for 0.35 %.
 TEST(Liquid, ThatRestsIsAsDenseAsTheSubstepsSay) {
   World world(column(1));
-  const Report report = run(world, 180);
+  const Report report = advance(world, 180);
   ASSERT_TRUE(report.ok()) << report.explain();
   EXPECT_LT(report.compression.mean, 0.0045);
   EXPECT_GT(report.compression.mean, 0.0015) << "a column that weighs nothing";
@@ -72,23 +56,23 @@ TEST(Liquid, ThatRestsIsAsDenseAsTheSubstepsSay) {
 
 TEST(Liquid, ThatRestsKeepsItsVolume) {
   World world(column(1));
-  run(world, 180);
-  const Still of = measure(world);
+  advance(world, 180);
+  const Still of = still_of(world);
   EXPECT_NEAR(
       of.height, 0.5,
       0.015);  // the lattice settles by about 1 % in the first second (fluids of particles are a little denser than it)
   const double after_three_seconds = of.height;
-  run(world, 180);
-  EXPECT_NEAR(measure(world).height, after_three_seconds, 0.002);
+  advance(world, 180);
+  EXPECT_NEAR(still_of(world).height, after_three_seconds, 0.002);
 }
 
 // A liquid that yields is denser by p / (density c^2): g (depth / 2) / c^2 on average.
 TEST(Liquid, YieldsToPressureBySpeedOfSound) {
   const double c = 12;
-  Scene scene = column(1, 0.5f, 0.5f, {.spacing = spacing, .density = 800, .speed_of_sound = static_cast<float>(c)});
+  Scene scene = column(1, 0.5f, 0.5f, {.spacing = liquid_spacing, .density = 800, .speed_of_sound = static_cast<float>(c)});
   scene.settings.substeps = 60;
   World world(scene);
-  const Report report = run(world, 240);
+  const Report report = advance(world, 240);
   const double expected = 9.81 * 0.5 / (c * c);
   EXPECT_NEAR(report.compression.mean, expected, 0.15 * expected);
 }
@@ -96,15 +80,15 @@ TEST(Liquid, YieldsToPressureBySpeedOfSound) {
 TEST(Liquid, KeepsItsMomentumWithoutWalls) {
   Scene scene;
   scene.gravity = {};
-  std::vector<Vec3f> places = fill_box({0, 0, 0}, {0.5f, 0.5f, 0.5f}, spacing);
+  std::vector<Vec3f> places = fill_box({0, 0, 0}, {0.5f, 0.5f, 0.5f}, liquid_spacing);
   const std::size_t first = places.size();
-  for (const Vec3f& p : fill_box({0.6f, 0.1f, 0}, {1.1f, 0.6f, 0.5f}, spacing)) places.push_back(p);
-  Object liquid = make_liquid(places, {.fluid = {.spacing = spacing}});
+  for (const Vec3f& p : fill_box({0.6f, 0.1f, 0}, {1.1f, 0.6f, 0.5f}, liquid_spacing)) places.push_back(p);
+  Object liquid = make_liquid(places, {.fluid = {.spacing = liquid_spacing}});
   liquid.velocities.assign(places.size(), {});
   for (std::size_t i = first; i < places.size(); ++i) liquid.velocities[i] = {-4, 0.5f, 0};
   scene.add(liquid);
   World world(scene);
-  run(world, 60);
+  advance(world, 60);
   Vec3d sum{};
   double size = 0;
   for (const Vec3f& v : world.object(0).velocities()) {
@@ -162,13 +146,13 @@ TEST(Liquid, HasTheSameBitsOnAnyThreadsAndLevels) {
 TEST(Liquid, GoesOnFromARestoredStateWithTheSameBits) {
   const Scene scene = column(0.8f, 0.45f, 0.9f);
   World world(scene);
-  run(world, 9);
+  advance(world, 9);
   const State kept = world.state();
-  run(world, 7);
+  advance(world, 7);
   const std::string expected = hash(world.state());
   World other(scene);
   other.restore(kept);
-  run(other, 7);
+  advance(other, 7);
   EXPECT_EQ(hash(other.state()), expected);
 }
 
@@ -176,17 +160,17 @@ TEST(Liquid, OfAnotherSpacingOrMaskIsAnotherLiquid) {
   const auto speed = [](float of_second, std::uint32_t mask) {
     Scene scene;
     scene.gravity = {};
-    scene.add(make_liquid(fill_box({0, 0, 0}, {0.4f, 0.4f, 0.4f}, spacing), {.fluid = {.spacing = spacing}}));
+    scene.add(make_liquid(fill_box({0, 0, 0}, {0.4f, 0.4f, 0.4f}, liquid_spacing), {.fluid = {.spacing = liquid_spacing}}));
     Object second = make_liquid(fill_box({0, 0, 0}, {0.4f, 0.4f, 0.4f}, of_second),
                                 {.name = "second", .fluid = {.spacing = of_second}});
     second.mask = mask;
     scene.add(second);
     World world(scene);
-    run(world, 5);
-    return measure(world).speed;
+    advance(world, 5);
+    return still_of(world).speed;
   };
-  EXPECT_GT(speed(spacing, ~0u), 0.1) << "two liquids in one place push one another away";
-  EXPECT_LT(speed(spacing, 0), 1e-2);
+  EXPECT_GT(speed(liquid_spacing, ~0u), 0.1) << "two liquids in one place push one another away";
+  EXPECT_LT(speed(liquid_spacing, 0), 1e-2);
   EXPECT_LT(speed(0.04f, 0), 1e-2);
   EXPECT_GT(speed(0.04f, ~0u), 0.1) << "liquids that do not mix touch";
 }
@@ -194,14 +178,14 @@ TEST(Liquid, OfAnotherSpacingOrMaskIsAnotherLiquid) {
 TEST(Liquid, ThatIsHeavierSinksBelowALighterOne) {
   Scene scene;
   const auto add = [&](const char* name, float bottom, float density) {
-    const std::vector<Vec3f> places = fill_box({0, bottom, 0}, {0.5f, bottom + 0.4f, 0.5f}, spacing);
-    scene.add(make_liquid(places, {.name = name, .fluid = {.spacing = spacing, .density = density}}));
+    const std::vector<Vec3f> places = fill_box({0, bottom, 0}, {0.5f, bottom + 0.4f, 0.5f}, liquid_spacing);
+    scene.add(make_liquid(places, {.name = name, .fluid = {.spacing = liquid_spacing, .density = density}}));
   };
   add("oil", 0, 500);
   add("water", 0.4f, 1000);
   add_tank(scene, {0.5f, 1, 0.5f});
   World world(scene);
-  run(world, 600);
+  advance(world, 600);
   const auto height = [&](int object) {
     double sum = 0;
     const std::vector<Vec3f> places = world.object(object).positions();
@@ -224,7 +208,7 @@ TEST(Liquid, MixesWithOneOfAnotherHeight) {
   add_tank(scene, {0.5f, 1, 0.25f});
   World world(scene);
   EXPECT_EQ(world.object(0).info().substeps, world.object(1).info().substeps);
-  run(world, 120);
+  advance(world, 120);
   double mean = 0, count = 0;
   for (int object = 0; object < 2; ++object)
     for (const Vec3f& p : world.object(object).positions()) {
@@ -239,7 +223,7 @@ TEST(Liquid, DoesNotMoveItsFixedParticles) {
   scene.objects[0].pins = {{0, {}}, {40, {}}};
   const Vec3f first = scene.objects[0].positions[0], other = scene.objects[0].positions[40];
   World world(scene);
-  run(world, 30);
+  advance(world, 30);
   EXPECT_EQ(world.object(0).positions()[0], first);
   EXPECT_EQ(world.object(0).positions()[40], other);
 }

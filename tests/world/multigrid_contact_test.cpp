@@ -13,9 +13,9 @@ namespace {
 
 using namespace testing_support;
 
-constexpr float thickness = 0.004f;
+constexpr float layer_thickness = 0.004f;
 
-TriangleMesh sheet_at(int n, float size, const Vec3f& at) {
+TriangleMesh sheet_mesh_at(int n, float size, const Vec3f& at) {
   TriangleMesh mesh = sheet(n, size, at.y);
   for (Vec3f& p : mesh.positions) p += Vec3f{at.x, 0, at.z};
   return mesh;
@@ -25,9 +25,9 @@ TriangleMesh sheet_at(int n, float size, const Vec3f& at) {
 Scene hammock() {
   Scene scene;
   for (int i = 0; i < 3; ++i)
-    scene.add(cloth(sheet_at(i == 0 ? 24 : 16, i == 0 ? 0.5f : 0.3f,
-                             {0.003f * static_cast<float>(i), 0.012f * static_cast<float>(i), 0}),
-                    thickness));
+    scene.add(cloth(sheet_mesh_at(i == 0 ? 24 : 16, i == 0 ? 0.5f : 0.3f,
+                                  {0.003f * static_cast<float>(i), 0.012f * static_cast<float>(i), 0}),
+                    layer_thickness));
   scene.pin(0, {0, 23, 24 * 23, 24 * 24 - 1});
   return scene;
 }
@@ -54,8 +54,8 @@ TEST(MultigridContact, LayersStretchAsLittleAsOneSheet) {
 TEST(MultigridContact, KeepsMomentum) {
   Scene scene;
   scene.gravity = {};
-  scene.add(cloth(sheet_at(20, 0.4f, {}), thickness));
-  scene.add(cloth(sheet_at(14, 0.2f, {0.01f, 0.02f, 0.02f}), thickness));
+  scene.add(cloth(sheet_mesh_at(20, 0.4f, {}), layer_thickness));
+  scene.add(cloth(sheet_mesh_at(14, 0.2f, {0.01f, 0.02f, 0.02f}), layer_thickness));
   for (float& mass : scene.objects[1].masses) mass *= 3;
   scene.objects[1].velocities.assign(scene.objects[1].positions.size(), {0.3f, -2, 0});
   scene.settings = settings_of(6);

@@ -41,7 +41,7 @@ Object cotton(const TriangleMesh& mesh) {
   return make_cloth(mesh, options);
 }
 
-Scene hung(const TriangleMesh& mesh, int n) {
+Scene hung_mesh(const TriangleMesh& mesh, int n) {
   Scene scene;
   Object object = cotton(mesh);
   object.pins = {{0, {}}, {n - 1, {}}};
@@ -99,7 +99,7 @@ Worst worst_of(Scene scene, Sweep sweep, int substeps, int frames = 70) {
 
 /// The limit of overstretch follows the sweep. Two cycles leave the longest edges at the pins and in folds that run through.
 TEST(Multigrid, StretchesNoEdgeBeyondTheLimit) {
-  Scene scene = hung(grid_mesh(40, 40, 1, 1), 40);
+  Scene scene = hung_mesh(grid_mesh(40, 40, 1, 1), 40);
   EXPECT_LT(worst_of(scene, Sweep::multigrid, 6).largest, 1.0505);
   scene.settings.sweep_options.most_overstretch = 0;
   EXPECT_GT(worst_of(scene, Sweep::multigrid, 6).largest, 1.06);
@@ -109,7 +109,7 @@ TEST(Multigrid, StretchesNoEdgeBeyondTheLimit) {
 TEST(Multigrid, StretchesNoMoreTheFinerTheMesh) {
   double plain = 0;
   for (int n : {24, 48, 64}) {
-    const Scene scene = hung(grid_mesh(n, n, 1, 1), n);
+    const Scene scene = hung_mesh(grid_mesh(n, n, 1, 1), n);
     const Worst found = worst_of(scene, Sweep::multigrid, 6);
     EXPECT_LT(found.p99, 1.015) << n;
     EXPECT_LT(found.largest, 1.1) << n;
@@ -121,8 +121,8 @@ TEST(Multigrid, StretchesNoMoreTheFinerTheMesh) {
 }
 
 TEST(Multigrid, StretchesNoMoreOnAnIrregularMesh) {
-  EXPECT_LT(worst_of(hung(jittered(48), 48), Sweep::multigrid, 6).p99, 1.015);
-  EXPECT_GT(worst_of(hung(jittered(48), 48), Sweep::tiled, 6).p99, 1.05);
+  EXPECT_LT(worst_of(hung_mesh(jittered(48), 48), Sweep::multigrid, 6).p99, 1.015);
+  EXPECT_GT(worst_of(hung_mesh(jittered(48), 48), Sweep::tiled, 6).p99, 1.05);
 }
 
 TEST(Multigrid, DrapesWithoutPins) {
@@ -185,13 +185,13 @@ TEST(Multigrid, IsNotTornByWhatFrictionHolds) {
 
 TEST(Multigrid, FollowsPinsThatMove) {
   constexpr int n = 32;
-  Scene scene = hung(grid_mesh(n, n, 1, 1), n);
+  Scene scene = hung_mesh(grid_mesh(n, n, 1, 1), n);
   for (Pin& pin : scene.objects[0].pins) pin.motion = straight({0.5f, 0.3f, 0}, 0.5f);
   EXPECT_LT(worst_of(scene, Sweep::multigrid, 6, 40).p99, 1.02);
 }
 
 TEST(Multigrid, CyclesOutOfRangeAreRefusedByName) {
-  Scene scene = hung(grid_mesh(4, 4, 1, 1), 4);
+  Scene scene = hung_mesh(grid_mesh(4, 4, 1, 1), 4);
   scene.settings.sweep = Sweep::multigrid;
   for (int cycles : {0, -1, 101}) {
     scene.settings.sweep_options.multigrid_cycles = cycles;

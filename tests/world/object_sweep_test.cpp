@@ -33,7 +33,7 @@ Object ball_of_air(Sweep sweep) {
   return ball;
 }
 
-Scene scene_of(const std::vector<Object>& objects, SweepOptions::Acceleration acceleration) {
+Scene accelerated_scene(const std::vector<Object>& objects, SweepOptions::Acceleration acceleration) {
   Scene scene;
   for (const Object& object : objects) scene.add(object);
   Collider ball, floor;
@@ -55,12 +55,12 @@ bool equal_bits(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
 }
 
 void expect_the_same_alone(const std::vector<Object>& objects, SweepOptions::Acceleration acceleration) {
-  World together(scene_of(objects, acceleration));
+  World together(accelerated_scene(objects, acceleration));
   for (int frame = 0; frame < 20; ++frame) ASSERT_TRUE(together.step(dt).ok());
   for (std::size_t o = 0; o < objects.size(); ++o) {
     SCOPED_TRACE(objects[o].name);
     Object object = objects[o];
-    Scene scene = scene_of({}, acceleration);
+    Scene scene = accelerated_scene({}, acceleration);
     scene.settings.sweep = object.sweep;  // the sweep comes from the scene's settings; the object has none
     object.sweep = Sweep::automatic;
     scene.add(object);

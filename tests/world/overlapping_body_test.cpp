@@ -7,17 +7,13 @@
 
 #include "pliant/body.h"
 #include "pliant/world.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float dt = 1.f / 60;
-
-float fastest(const World& world) {
-  float speed = 0;
-  for (const Record& v : world.state().velocities) speed = std::max(speed, std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z));
-  return speed;
-}
+using testing_support::dt;
+using testing_support::fastest;
 
 /// The speed of the fastest body in any frame, and what the Reports of all frames warn of [m/s].
 struct Watched {
@@ -25,7 +21,7 @@ struct Watched {
   std::string warnings;
 };
 
-Watched run(World& world, int frames) {
+Watched watched_run(World& world, int frames) {
   Watched all;
   for (int frame = 0; frame < frames; ++frame) {
     const Report report = world.step(dt);
@@ -57,7 +53,7 @@ Scene half_overlapping_tower(int count, float side) {
 TEST(OverlappingBodies, ATowerOfHalfOverlappingCubesRisesSlowlyAndStands) {
   for (const float side : {1.f, 0.1f}) {
     World world(half_overlapping_tower(10, side));
-    const Watched all = run(world, 600);
+    const Watched all = watched_run(world, 600);
     EXPECT_LT(all.fastest, 2.5f * std::sqrt(side)) << side;
     EXPECT_LT(all.last, 1e-3f) << side;
     for (int i = 0; i < 10; ++i) {
@@ -81,7 +77,7 @@ Scene coincident_boxes(int count) {
 /// Without a limit the fastest had 38 m/s. They still leave with 3 m/s on average: contacts cannot pull back what others have pushed.
 TEST(OverlappingBodies, BoxesInOnePlaceSeparateWithoutAnExplosion) {
   World world(coincident_boxes(200));
-  const Watched all = run(world, 600);
+  const Watched all = watched_run(world, 600);
   EXPECT_LT(all.fastest, 6);
   const std::vector<Vec3f> at = world.object(0).positions();
   double mean = 0;
@@ -95,18 +91,18 @@ TEST(OverlappingBodies, TheReportNamesThemAndHowDeep) {
   ASSERT_EQ(first.warnings.size(), 1U);
   EXPECT_NE(first.warnings[0].find("9 pairs of bodies overlap"), std::string::npos) << first.warnings[0];
   EXPECT_NE(first.warnings[0].find("of 'tower' by 0.500"), std::string::npos) << first.warnings[0];
-  const Watched rest = run(world, 300);
+  const Watched rest = watched_run(world, 300);
   EXPECT_EQ(rest.warnings.find("too heavy"), std::string::npos) << rest.warnings;
 }
 
 TEST(OverlappingBodies, ARestoredWorldGoesOnWithTheSameBits) {
   const Scene scene = half_overlapping_tower(6, 1);
   World world(scene);
-  run(world, 30);
+  watched_run(world, 30);
   World other(scene);
   other.restore(world.state());
-  run(world, 30);
-  run(other, 30);
+  watched_run(world, 30);
+  watched_run(other, 30);
   EXPECT_EQ(world.state_hash(), other.state_hash());
 }
 
@@ -118,7 +114,7 @@ TEST(OverlappingBodies, WeightIsNoOverlapAtTheStart) {
   options.mass = 300000;
   scene.add(make_body({{Box{{0.5f, 0.5f, 0.5f}}}}, options));
   World world(scene);
-  EXPECT_EQ(run(world, 240).warnings.find("pairs of bodies overlap"), std::string::npos);
+  EXPECT_EQ(watched_run(world, 240).warnings.find("pairs of bodies overlap"), std::string::npos);
 }
 
 }  // namespace

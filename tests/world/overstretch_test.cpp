@@ -10,17 +10,17 @@
 #include "pliant/material.h"
 #include "support/kernels.h"
 #include "support/scenes.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
 using namespace testing_support;
 
-constexpr float dt = 1.f / 60;
-constexpr int substeps = 6;
+constexpr int measured_substeps = 6;
 
 /// A sheet of 12 x 12, hung by a row of pins, so that some of its edges join two fixed particles.
-Object sheet(const std::string& name, const Stiffness& stretch, float x, Sweep sweep = Sweep::automatic) {
+Object sheet_on_pins(const std::string& name, const Stiffness& stretch, float x, Sweep sweep = Sweep::automatic) {
   Scene scene;
   ClothOptions options;
   options.name = name;
@@ -35,17 +35,17 @@ Object sheet(const std::string& name, const Stiffness& stretch, float x, Sweep s
 /// Cloth of all kinds of stiffness and of several sweeps, and a damped rope.
 Scene all_kinds() {
   Scene scene;
-  scene.add(sheet("rigid", Stiffness::rigid(), 0));
-  scene.add(sheet("elastic", Stiffness::compliance(2e-4f), 2));
-  scene.add(sheet("elastic chains", Stiffness::compliance(2e-4f), 4, Sweep::chains));
-  scene.add(sheet("multigrid", Stiffness::compliance(1e-5f), 6, Sweep::multigrid));
-  scene.add(sheet("damped", Stiffness::compliance(2e-4f, 0.01f), 8));
-  scene.add(sheet("pbd", Stiffness::pbd(0.2f), 10));
+  scene.add(sheet_on_pins("rigid", Stiffness::rigid(), 0));
+  scene.add(sheet_on_pins("elastic", Stiffness::compliance(2e-4f), 2));
+  scene.add(sheet_on_pins("elastic chains", Stiffness::compliance(2e-4f), 4, Sweep::chains));
+  scene.add(sheet_on_pins("multigrid", Stiffness::compliance(1e-5f), 6, Sweep::multigrid));
+  scene.add(sheet_on_pins("damped", Stiffness::compliance(2e-4f, 0.01f), 8));
+  scene.add(sheet_on_pins("pbd", Stiffness::pbd(0.2f), 10));
   Object rope = chain(12, 0.1f, Stiffness::compliance(1e-4f, 0.05f));
   rope.pins = {{0, {}}};
   for (Vec3f& p : rope.positions) p.x += 12;
   scene.add(rope);
-  scene.settings = settings_of(substeps);
+  scene.settings = settings_of(measured_substeps);
   scene.settings.record_multipliers = true;
   return scene;
 }
@@ -61,7 +61,7 @@ void add_overstretches(const World& world, ObjectId id, const Object& object, st
   const auto is_fixed = [&](int particle) {
     return std::any_of(object.pins.begin(), object.pins.end(), [&](const Pin& pin) { return pin.particle == particle; });
   };
-  const double h = double(dt) / substeps;
+  const double h = double(dt) / measured_substeps;
   std::size_t number = 0;
   for (const ConstraintGroup& group : object.constraints) {
     if (group.type != "distance") continue;
@@ -233,13 +233,13 @@ struct Collected {
 
 TEST(WorstOverstretch, IsThatOfAllFramesWhileObjectsComeAndGo) {
   Scene scene;
-  scene.add(sheet("first", Stiffness::rigid(), 0));
-  scene.settings = settings_of(substeps);
+  scene.add(sheet_on_pins("first", Stiffness::rigid(), 0));
+  scene.settings = settings_of(measured_substeps);
   World world(scene);
   Collected collected;
   ObjectId added{};
   for (int frame = 0; frame < 60; ++frame) {
-    if (frame == 20) added = world.add(sheet("second", Stiffness::rigid(), 2, Sweep::tiled));
+    if (frame == 20) added = world.add(sheet_on_pins("second", Stiffness::rigid(), 2, Sweep::tiled));
     if (frame == 40) world.remove(ObjectId{0});
     if (frame == 40 && collected.worst.object == 0)
       collected.worst.object = collected.worst.particles[0] = collected.worst.particles[1] = -1;
@@ -254,7 +254,7 @@ TEST(WorstOverstretch, IsThatOfAllFramesWhileObjectsComeAndGo) {
 
 TEST(WorstOverstretch, NamesNoObjectThatWasRemovedOrEdited) {
   for (const bool edits : {false, true}) {
-    const Object object = sheet("only", Stiffness::rigid(), 0);
+    const Object object = sheet_on_pins("only", Stiffness::rigid(), 0);
     Scene scene;
     scene.add(object);
     scene.settings = settings_of(2);
@@ -277,7 +277,7 @@ TEST(WorstOverstretch, NamesNoObjectThatWasRemovedOrEdited) {
 
 TEST(WorstOverstretch, BeginsAnewWhenAStateIsRestored) {
   Scene scene;
-  scene.add(sheet("only", Stiffness::rigid(), 0));
+  scene.add(sheet_on_pins("only", Stiffness::rigid(), 0));
   scene.settings = settings_of(2);
   World world(scene), same(scene);
   const State start = world.state();
@@ -331,7 +331,7 @@ TEST(OverstretchOfAFrame, CountsTheWholeStretchAfterAFrameThatWasStopped) {
 
 TEST(OverstretchInWords, OfAnObjectThatIsGoneReadsNothingOfAnother) {
   Scene scene;
-  scene.add(sheet("first", Stiffness::rigid(), 0));
+  scene.add(sheet_on_pins("first", Stiffness::rigid(), 0));
   scene.settings = settings_of(2);
   World world(scene);
   Report report;

@@ -163,7 +163,7 @@ Scene random_scene(unsigned seed, float& step) {
   return scene;
 }
 
-bool is_finite(const State& state) {
+bool records_are_finite(const State& state) {
   for (const auto* records : {&state.positions, &state.remainders, &state.velocities}) {
     for (const Record& r : *records) {
       if (!std::isfinite(r.x) || !std::isfinite(r.y) || !std::isfinite(r.z) || !std::isfinite(r.w)) return false;
@@ -184,7 +184,7 @@ void expect_finite_or_said(Sweep sweep, unsigned first, int scenes) {
       World world(scene);
       for (int frame = 0; frame < frames; ++frame) {
         const Report report = world.step(step);
-        ASSERT_TRUE(is_finite(world.state())) << "frame " << frame;
+        ASSERT_TRUE(records_are_finite(world.state())) << "frame " << frame;
         if (report.ok()) continue;
         ++stopped;
         EXPECT_NE(report.nonfinite->object, "cloth") << report.explain();

@@ -8,13 +8,12 @@
 #include "pliant/world.h"
 #include "support/constraint_support.h"
 #include "support/scenes.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
 using namespace testing_support;
-
-constexpr float dt = 1.f / 60;
 
 reference::Hardness hardness_of(const Stiffness& stiffness) {
   reference::Hardness hardness;
@@ -77,7 +76,7 @@ TYPED_TEST_SUITE(AgainstReference, ConstraintTypes, NameOfType);
 /// Many constraints of a type that share no particle, each away from its rest shape.
 template <class T>
 Object separate(const Stiffness& stiffness) {
-  Random random(31);
+  testing_support::Random random(31);
   Object object;
   ConstraintGroup group{T::name, {}, {}, stiffness, {}};
   for (int c = 0; c < 50; ++c) {

@@ -5,11 +5,14 @@
 
 #include "pliant/body.h"
 #include "pliant/world.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float dt = 1.f / 60, radius = 0.1f;
+using testing_support::dt;
+
+constexpr float rolling_radius = 0.1f;
 constexpr double g = 9.81;
 
 /// A ball on a plane that slopes down along x by `slope` (a tangent).
@@ -20,8 +23,8 @@ Scene ball_on_slope(double slope, float rolling, float spinning, const BodyOptio
   scene.colliders[0].rotation = {0, 0, std::sin(half), std::cos(half)};
   scene.colliders[0].static_friction = scene.colliders[0].kinetic_friction = 0.6f;
   BodyOptions placed = options;
-  placed.position = Vec3f{-std::sin(2 * half), std::cos(2 * half), 0} * radius;
-  Object ball = make_body({{Sphere{radius}}}, placed);
+  placed.position = Vec3f{-std::sin(2 * half), std::cos(2 * half), 0} * rolling_radius;
+  Object ball = make_body({{Sphere{rolling_radius}}}, placed);
   ball.static_friction = ball.kinetic_friction = 0.6f;
   ball.rolling_friction = rolling;
   ball.spinning_friction = spinning;
@@ -32,11 +35,11 @@ Scene ball_on_slope(double slope, float rolling, float spinning, const BodyOptio
 TEST(Rolling, ABallStopsAfterTheDistanceThatTheTorqueGives) {
   BodyOptions options;
   options.velocity = {1, 0, 0};
-  options.angular_velocity = {0, 0, -1 / radius};
+  options.angular_velocity = {0, 0, -1 / rolling_radius};
   World world(ball_on_slope(0, 0.01f, 0, options));
   for (int frame = 0; frame < 240; ++frame) ASSERT_TRUE(world.step(dt).ok());
   // Deceleration: the torque rho m g over the moment 7/5 m r^2 about the point of contact, times r.
-  const double deceleration = 5. / 7 * g * 0.01 / static_cast<double>(radius), distance = 1 / (2 * deceleration);
+  const double deceleration = 5. / 7 * g * 0.01 / static_cast<double>(rolling_radius), distance = 1 / (2 * deceleration);
   EXPECT_NEAR(world.object(0).positions()[0].x, distance, 0.01 * distance);
   EXPECT_NEAR(world.state().velocities[0].x, 0, 1e-4);
 }
@@ -56,7 +59,7 @@ TEST(Rolling, ABallStaysOnASlopeUpToItsRollingFriction) {
 TEST(Rolling, WithoutItABallRollsOn) {
   BodyOptions options;
   options.velocity = {1, 0, 0};
-  options.angular_velocity = {0, 0, -1 / radius};
+  options.angular_velocity = {0, 0, -1 / rolling_radius};
   World world(ball_on_slope(0, 0, 0, options));
   for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(dt).ok());
   EXPECT_NEAR(world.object(0).positions()[0].x, 2, 0.01);
@@ -81,13 +84,13 @@ TEST(Rolling, ASpinningBallStopsAfterTheTimeThatTheTorqueGives) {
 TEST(Rolling, IsTheSameOnAllLevels) {
   BodyOptions options;
   options.velocity = {1, 0, 0.5f};
-  options.angular_velocity = {0, 3, -1 / radius};
+  options.angular_velocity = {0, 3, -1 / rolling_radius};
   std::string first;
   for (const char* isa : {"sequential", "generic"}) {
     Scene scene = ball_on_slope(0.05, 0.01f, 0.002f, options);
     BodyOptions other = options;  // shares a block, and does not roll
-    other.position = {0, radius, 1};
-    scene.add(make_body({{Sphere{radius}}}, other));
+    other.position = {0, rolling_radius, 1};
+    scene.add(make_body({{Sphere{rolling_radius}}}, other));
     scene.settings.isa = isa;
     World world(scene);
     for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(dt).ok());

@@ -26,7 +26,7 @@ Object irregular(const std::string& name, const Vec3f& at) {
   return make_cloth(mesh, options);
 }
 
-Object hung(const Vec3f& at) {
+Object hung_at(const Vec3f& at) {
   Object cloth = sheet_at("hung", at, 24, 1);
   cloth.pins = {{0, {}}, {23, {}}};
   return cloth;
@@ -53,7 +53,7 @@ MeshCollider ground(MeshCollider::As as) {
 }
 
 /// Adds an object to a World of the scene, and expects what a World gives that has it from the start.
-void expect_the_same(const Scene& scene, const Object& added, const std::string& what) {
+void expect_same_choice(const Scene& scene, const Object& added, const std::string& what) {
   SCOPED_TRACE(what);
   Scene all = scene;
   all.add(added);
@@ -67,42 +67,42 @@ void expect_the_same(const Scene& scene, const Object& added, const std::string&
 
 TEST(AddedObject, GetsTheSweepThatItHasInAScene) {
   Scene empty, one, two;
-  one.add(hung({5, 0, 0}));
+  one.add(hung_at({5, 0, 0}));
   two = one;
   two.add(irregular("other", {-5, 0, 0}));
   for (const Scene& scene : {empty, one, two}) {
     SCOPED_TRACE(scene.objects.size());
-    expect_the_same(scene, irregular("new", {}), "meets nothing");
-    expect_the_same(scene, hung({}), "hangs");
-    expect_the_same(scene, bungee(), "is coarse and meant to stretch");
-    Object sock = hung({});
+    expect_same_choice(scene, irregular("new", {}), "meets nothing");
+    expect_same_choice(scene, hung_at({}), "hangs");
+    expect_same_choice(scene, bungee(), "is coarse and meant to stretch");
+    Object sock = hung_at({});
     sock.self_collision = true;
-    expect_the_same(scene, sock, "touches itself");
+    expect_same_choice(scene, sock, "touches itself");
     Scene with = scene;
     with.add(Collider{});
-    expect_the_same(with, irregular("new", {0, 3, 0}), "meets a plane");
+    expect_same_choice(with, irregular("new", {0, 3, 0}), "meets a plane");
     for (const auto as : {MeshCollider::As::triangles, MeshCollider::As::distance_grid, MeshCollider::As::heightfield}) {
       with = scene;
       with.add(ground(as));
-      expect_the_same(with, irregular("new", {}), "meets a mesh");
+      expect_same_choice(with, irregular("new", {}), "meets a mesh");
     }
   }
 }
 
 TEST(AddedObject, GetsTheSweepThatTheSettingsName) {
   Scene scene;
-  scene.add(hung({5, 0, 0}));
+  scene.add(hung_at({5, 0, 0}));
   scene.settings.sweep = Sweep::symmetric;
   scene.settings.substeps = 7;
   World world(scene);
-  const ObjectId id = world.add(hung({}));
+  const ObjectId id = world.add(hung_at({}));
   EXPECT_EQ(world.layout().sweeps.back(), Sweep::symmetric);
   EXPECT_EQ(world.object(id).info().substeps, 7);
 }
 
 TEST(AddedObject, GetsTheSameInAWorldMadeFromALayout) {
   Scene scene;
-  scene.add(hung({5, 0, 0}));
+  scene.add(hung_at({5, 0, 0}));
   World world(scene);
   world.step(dt);
   scene.settings = world.settings();
@@ -132,7 +132,7 @@ TEST(CoarseObject, IsNotTetheredBesideClothThatHangs) {
   Scene scene;
   scene.add(bungee());
   const double alone = longest(scene);
-  scene.add(hung({}));
+  scene.add(hung_at({}));
   EXPECT_GT(alone, 1.3);
   EXPECT_NEAR(longest(scene), alone, 0.01 * alone);
   EXPECT_EQ(chosen_sweep(scene, 0), Sweep::chains);

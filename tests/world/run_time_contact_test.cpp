@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_support;
 
-Object sheet(const std::string& name, const Vec3f& at, int n, float thickness) {
+Object thick_sheet(const std::string& name, const Vec3f& at, int n, float thickness) {
   Object object = sheet_at(name, at, n, 0.5f);
   object.collides = true;
   object.thickness = thickness;
@@ -81,12 +81,12 @@ class Life {
   World begin(const Settings& settings, bool with_pair) {
     Scene scene;
     scene.settings = settings;
-    objects_[{0, 0}] = sheet("thick", {0.1f, 0.1f, 0.1f}, 5, 0.015f);
+    objects_[{0, 0}] = thick_sheet("thick", {0.1f, 0.1f, 0.1f}, 5, 0.015f);
     meshes_[{0, 0}] = block({});
     scene.add(objects_[{0, 0}]);
     scene.add(meshes_[{0, 0}]);
     if (is_split_) {  // a World whose objects all have the same number of substeps keeps that number
-      Object& other = objects_[{1, 0}] = sheet("other", {1, 1, 1}, 5, 0.002f);
+      Object& other = objects_[{1, 0}] = thick_sheet("other", {1, 1, 1}, 5, 0.002f);
       other.sweep = Sweep::multigrid;
       other.groups = other.mask = 2;
       scene.add(other);
@@ -116,8 +116,8 @@ class Life {
       grains.self_collision = grains.collides = true;
       return grains;
     }
-    if (kind == 2) return sheet("thick", at, 5, 0.015f);
-    Object object = sheet("sheet", at, 4 + static_cast<int>(random_() % 9), 0.002f);
+    if (kind == 2) return thick_sheet("thick", at, 5, 0.015f);
+    Object object = thick_sheet("sheet", at, 4 + static_cast<int>(random_() % 9), 0.002f);
     object.self_collision = kind == 3 || kind == 4;
     if (kind == 5) object.groups = object.mask = 2;  // meets only objects of this group
     if (is_split_ && kind > 2) split(object);
@@ -139,7 +139,7 @@ class Life {
   void edit() {
     const auto at = std::next(objects_.begin(), static_cast<std::ptrdiff_t>(random_() % objects_.size()));
     Edit edit;
-    edit.object = sheet("edited", {place(), place(), place()}, 4 + static_cast<int>(random_() % 6), 0.003f);
+    edit.object = thick_sheet("edited", {place(), place(), place()}, 4 + static_cast<int>(random_() % 6), 0.003f);
     edit.from.assign(edit.object.positions.size(), -1);
     const ObjectId id(at->first.first, at->first.second);
     world_.edit(id, edit);
@@ -206,7 +206,8 @@ TEST(RunTimeContact, IsThatOfAWorldMadeFromTheStartWhereSetsHaveDifferentSubstep
 TEST(RunTimeContact, PairsClustersAgainNoMoreOftenAfterARemoval) {
   Scene scene;
   scene.settings = settings_of(10);
-  for (int i = 0; i < 6; ++i) scene.add(sheet("sheet " + std::to_string(i), {0, 2 * static_cast<float>(i), 0}, 12, 0.005f));
+  for (int i = 0; i < 6; ++i)
+    scene.add(thick_sheet("sheet " + std::to_string(i), {0, 2 * static_cast<float>(i), 0}, 12, 0.005f));
   World world(scene);
   for (int frame = 0; frame < 5; ++frame) world.step(dt);
   world.remove(ObjectId(2));

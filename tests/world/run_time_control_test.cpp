@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "pliant/error.h"
+#include "support/nonfinite.h"
 #include "support/refusal.h"
 #include "world/run_time_support.h"
 
@@ -14,8 +14,6 @@ namespace pliant {
 namespace {
 
 using namespace testing_support;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 Scene free_sheet() {
   Scene scene;
@@ -30,8 +28,6 @@ void expect_near(const Vec3<double>& found, const Vec3<double>& expected, double
   EXPECT_NEAR(found.y, expected.y, tolerance);
   EXPECT_NEAR(found.z, expected.z, tolerance);
 }
-
-double distance(const Vec3f& a, const Vec3f& b) { return std::sqrt(static_cast<double>(length_squared(a - b))); }
 
 TEST(Control, AnImpulseChangesMomentumByItself) {
   World world(free_sheet());

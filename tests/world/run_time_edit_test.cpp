@@ -24,12 +24,6 @@ std::vector<int> middle_column() {
   return path;
 }
 
-double mass_of(const Object& object) {
-  double sum = 0;
-  for (const float mass : object.masses) sum += double(mass);
-  return sum;
-}
-
 /// For each particle, the lowest particle of its connected component.
 std::vector<int> pieces_of(const Object& object) {
   std::vector<int> piece(object.positions.size());
@@ -48,7 +42,7 @@ std::vector<int> pieces_of(const Object& object) {
   return piece;
 }
 
-Scene sheet(float gravity = -9.81f) {
+Scene scene_with_sheet(float gravity = -9.81f) {
   Scene scene;
   scene.gravity = {0, gravity, 0};
   scene.add_cloth(grid_mesh(9, 9, 1, 1));
@@ -57,7 +51,7 @@ Scene sheet(float gravity = -9.81f) {
 }
 
 TEST(Cut, PartsASheetInTwoAndKeepsItsMass) {
-  const Object whole = sheet().objects[0];
+  const Object whole = scene_with_sheet().objects[0];
   const Edit edit = cut(whole, middle_column());
   EXPECT_EQ(edit.object.positions.size(), 90u) << "nine particles were split";
   EXPECT_NEAR(mass_of(edit.object), mass_of(whole), 1e-7);
@@ -76,7 +70,7 @@ TEST(Cut, PartsASheetInTwoAndKeepsItsMass) {
 }
 
 TEST(Cut, EndsInsideWithoutSplittingItsTip) {
-  const Object whole = sheet().objects[0];
+  const Object whole = scene_with_sheet().objects[0];
   const Edit edit = cut(whole, std::vector<int>{4, 13, 22, 31});
   EXPECT_EQ(edit.object.positions.size(), 84u) << "the border's and two inside, not the tip";
   const std::vector<int> pieces = pieces_of(edit.object);
@@ -85,7 +79,7 @@ TEST(Cut, EndsInsideWithoutSplittingItsTip) {
 }
 
 TEST(Cut, HoldsItsEdgesOnEitherSideByItsShare) {
-  const Object whole = sheet().objects[0];
+  const Object whole = scene_with_sheet().objects[0];
   const Edit edit = cut(whole, middle_column());
   const auto stiffness_of = [](const Object& object, int a, int b, const std::vector<int>& from) {
     double sum = 0;
@@ -110,7 +104,7 @@ TEST(Cut, HoldsItsEdgesOnEitherSideByItsShare) {
 
 TEST(Cut, BothHalvesStayTiedAndAttached) {
   Object whole = make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, {.position = {0, 1, 0}});
-  const int first = append(whole, sheet().objects[0]);
+  const int first = append(whole, scene_with_sheet().objects[0]);
   attach(whole, {first + 4}, 0);
   whole.attachments.push_back({first + 76, {0, 0, 1}});
   std::vector<int> path = middle_column();
@@ -127,7 +121,7 @@ TEST(Cut, BothHalvesStayTiedAndAttached) {
 }
 
 TEST(Cut, CopiesOfAParticleThatIsTiedToASurfaceStayTied) {
-  Object both = sheet().objects[0];
+  Object both = scene_with_sheet().objects[0];
   Object other = both;
   for (Vec3f& p : other.positions) p.y += 0.01f;
   append(both, other);
@@ -140,7 +134,7 @@ TEST(Cut, CopiesOfAParticleThatIsTiedToASurfaceStayTied) {
 }
 
 TEST(Cut, RefusesWhatIsNoEdge) {
-  const Object whole = sheet().objects[0];
+  const Object whole = scene_with_sheet().objects[0];
   EXPECT_THROW(cut(whole, std::vector<int>{0, 2}), Error);
   EXPECT_THROW(cut(whole, std::vector<int>{0, 81}), Error);
   EXPECT_THROW(remove_triangles(whole, std::vector<int>{-1}), Error);
@@ -148,7 +142,7 @@ TEST(Cut, RefusesWhatIsNoEdge) {
 }
 
 TEST(Edit, ACutKeepsMomentumAndEnergyAndTheHalvesFallApart) {
-  Scene scene = sheet();
+  Scene scene = scene_with_sheet();
   scene.pin(0, {0});
   World world(scene);
   for (int frame = 0; frame < 30; ++frame) world.step(dt);
@@ -190,7 +184,7 @@ TEST(Edit, ACutKeepsMomentumAndEnergyAndTheHalvesFallApart) {
 }
 
 TEST(Edit, ANinthOfTheTrianglesGoWithWhatTheyHeld) {
-  Scene scene = sheet();
+  Scene scene = scene_with_sheet();
   World world(scene);
   world.step(dt);
   std::vector<int> gone;
@@ -219,7 +213,7 @@ TEST(Edit, NothingChangedGivesTheBitsOfAWorldThatWasNotEdited) {
 }
 
 TEST(Edit, PinsAndMassesChangeInPlace) {
-  Scene scene = sheet();
+  Scene scene = scene_with_sheet();
   scene.pin(0, {0, 8});
   World world(scene);
   for (int frame = 0; frame < 20; ++frame) world.step(dt);
@@ -235,7 +229,7 @@ TEST(Edit, PinsAndMassesChangeInPlace) {
 
 /// A sheet whose corners and middle are attached where they are.
 Scene attached_sheet() {
-  Scene scene = sheet(0);
+  Scene scene = scene_with_sheet(0);
   Object& object = scene.objects[0];
   for (const int particle : {0, 8, 40, 72, 80})
     object.attachments.push_back({particle, object.positions[static_cast<std::size_t>(particle)]});
@@ -295,7 +289,7 @@ TEST(Edit, CopiesOfAnAttachedParticleGoToTheTargetWhereItIs) {
 }
 
 TEST(Edit, OthersKeepTheirBitsAndSurfacesMeetAsBefore) {
-  Scene scene = sheet();
+  Scene scene = scene_with_sheet();
   scene.add_cloth(grid_mesh(7, 7, 1, 1));
   for (Vec3f& p : scene.objects[1].positions) p.x += 5;
   scene.pin(1, {0});
@@ -306,7 +300,7 @@ TEST(Edit, OthersKeepTheirBitsAndSurfacesMeetAsBefore) {
     same.step(dt);
   }
   EXPECT_EQ(world.object(1).positions(), same.object(1).positions());
-  Scene landing = sheet();
+  Scene landing = scene_with_sheet();
   landing.objects[0].collides = true;
   MeshCollider floor;
   floor.mesh = box_mesh({3, 0.2f, 3});
@@ -320,7 +314,7 @@ TEST(Edit, OthersKeepTheirBitsAndSurfacesMeetAsBefore) {
 }
 
 TEST(Edit, WhatDoesNotFitIsRefusedAndChangesNothing) {
-  Scene scene = sheet();
+  Scene scene = scene_with_sheet();
   World world(scene);
   world.step(dt);
   const std::string before = world.state_hash();

@@ -13,13 +13,7 @@ namespace {
 using namespace testing_support;
 using Change = ContactEvent::Change;
 
-double mass_of(const Object& object) {
-  double sum = 0;
-  for (const float mass : object.masses) sum += double(mass);
-  return sum;
-}
-
-Collider ground(float height = 0) {
+Collider level_ground(float height = 0) {
   Collider collider;
   collider.position = {0, height, 0};
   return collider;
@@ -37,7 +31,7 @@ TEST(ContactEvents, AreNoneUnlessAskedFor) {
   Scene scene;
   scene.settings = settings_of(4);
   scene.add(particle_at({0, 0, 0}));
-  scene.add(ground());
+  scene.add(level_ground());
   World world(scene);
   world.step(dt);
   EXPECT_TRUE(world.contact_events().empty());
@@ -47,7 +41,7 @@ TEST(ContactEvents, AParticleAtRestIsPushedByItsWeight) {
   Scene scene;
   scene.settings = settings_of(10);
   scene.add(particle_at({0.3f, 0.001f, -0.2f}));
-  scene.add(ground());
+  scene.add(level_ground());
   World world(scene);
   world.record_contact_events(true);
   for (int frame = 0; frame < 20; ++frame) world.step(dt);
@@ -70,7 +64,7 @@ TEST(ContactEvents, AnImpactTakesTheMomentumThatWasThere) {
   scene.settings = settings_of(10);
   scene.add(particle_at({0, 0.1f, 0}));
   scene.objects[0].velocities = {{0, -3, 0}};
-  scene.add(ground());
+  scene.add(level_ground());
   World world(scene);
   world.record_contact_events(true);
   double impulse = 0;
@@ -101,7 +95,7 @@ TEST(ContactEvents, SheetsInAStackCarryWhatIsAboveThem) {
     object.thickness = 0.01f;
     scene.add(object);
   }
-  scene.add(ground());
+  scene.add(level_ground());
   World world(scene);
   world.record_contact_events(true);
   for (int frame = 0; frame < 60; ++frame) world.step(dt);
@@ -163,7 +157,7 @@ TEST(ContactEvents, DoNotNameWhatWasRemoved) {
   Scene scene;
   scene.settings = settings_of(4);
   scene.add(particle_at({0, 0, 0}));
-  scene.add(ground());
+  scene.add(level_ground());
   World world(scene);
   world.record_contact_events(true);
   for (int frame = 0; frame < 5; ++frame) world.step(dt);

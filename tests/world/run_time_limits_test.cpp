@@ -14,7 +14,7 @@ namespace {
 
 using namespace testing_support;
 
-Object sheet(const Vec3f& at, int n = 5) {
+Object small_sheet(const Vec3f& at, int n = 5) {
   TriangleMesh mesh = grid_mesh(n, n, 0.4f, 0.4f);
   for (Vec3f& p : mesh.positions) p += at;
   Object object = make_cloth(mesh);
@@ -41,12 +41,12 @@ TEST(RunTimeLimits, AHoleBelongsToNoBody) {
   scene.settings = settings_of(4);
   scene.settings.initial_intersections = Settings::Intersections::untangle;
   Scene made_at_once = scene;
-  scene.add(sheet({5, 0, 0}, 2));
-  scene.add(sheet({}));
+  scene.add(small_sheet({5, 0, 0}, 2));
+  scene.add(small_sheet({}));
   World world(scene);
   world.remove(ObjectId(0));
   world.add(block());  // gets the number of the removed object, but does not fit into its block
-  made_at_once.add(sheet({}));
+  made_at_once.add(small_sheet({}));
   made_at_once.add(block());
   World other(made_at_once);
   const Report found = world.step(dt), expected = other.step(dt);
@@ -60,12 +60,12 @@ TEST(RunTimeLimits, NoObjectTakesASweepThatDoesNotSuitTheAcceleration) {
   Scene scene;
   scene.settings = settings_of(4, 10);
   scene.settings.sweep_options.acceleration = SweepOptions::Acceleration::chebyshev;
-  const ObjectId there = scene.add(sheet({}));
+  const ObjectId there = scene.add(small_sheet({}));
   World world(scene);
-  Object natural = sheet({1, 0, 0});
+  Object natural = small_sheet({1, 0, 0});
   natural.sweep = Sweep::natural;
   expect_refused(world, [&] { world.add(natural); });
-  Edit edit = unchanged(sheet({}));
+  Edit edit = unchanged(small_sheet({}));
   edit.object.sweep = Sweep::natural;
   expect_refused(world, [&] { world.edit(there, edit); });
   EXPECT_EQ(world.object_count(), 1);
@@ -77,10 +77,10 @@ TEST(RunTimeLimits, ThingsThatBeganInOnePlaceOneAfterAnotherAreLaidOutAgain) {
   Scene scene;
   scene.settings = settings_of(4);
   scene.settings.initial_intersections = Settings::Intersections::refuse;
-  scene.add(sheet({}));
+  scene.add(small_sheet({}));
   World world(scene);
   for (int frame = 0; frame < 20; ++frame) world.step(dt);  // the object falls
-  Object next = sheet({});
+  Object next = small_sheet({});
   const Vec3f middle = (next.positions.front() + next.positions.back()) * 0.5f;
   for (Vec3f& p : next.positions)  // across the place where the first object began
     p = middle + Vec3f{p.x - middle.x + 0.03f, p.z - middle.z + 0.02f, p.y - middle.y + 0.01f};
@@ -98,7 +98,7 @@ TEST(RunTimeLimits, ThingsThatBeganInOnePlaceOneAfterAnotherAreLaidOutAgain) {
 TEST(RunTimeLimits, AStateWhoseChannelsDoNotFitIsRefused) {
   Scene scene;
   scene.settings = settings_of(4);
-  scene.add(sheet({}));
+  scene.add(small_sheet({}));
   World world(scene);
   State state = world.state();
   state.channels = {{"heat", 2, std::vector<float>(2 * state.positions.size(), 1.f)}};
@@ -114,7 +114,7 @@ TEST(RunTimeLimits, AStateWhoseChannelsDoNotFitIsRefused) {
 TEST(RunTimeLimits, APoseFarAwayComesBackWithItsState) {
   Scene scene;
   scene.settings = settings_of(4);
-  scene.add(sheet({}));
+  scene.add(small_sheet({}));
   const ColliderId ball = scene.add(Collider{.name = "ball", .shape = Sphere{0.1f}});
   World world(scene);
   world.collider(ball).set_pose({{1e20f, 0, 0}, {}});
@@ -126,7 +126,7 @@ TEST(RunTimeLimits, APoseFarAwayComesBackWithItsState) {
 TEST(RunTimeLimits, AnImpulseThatNoVelocityHoldsIsRefused) {
   Scene scene;
   scene.settings = settings_of(4);
-  const ObjectId object = scene.add(sheet({}));
+  const ObjectId object = scene.add(small_sheet({}));
   World world(scene);
   std::vector<Vec3f> impulses(world.object(object).positions().size());
   impulses[3] = {1e38f, 0, 0};
@@ -137,7 +137,7 @@ TEST(RunTimeLimits, AnImpulseThatNoVelocityHoldsIsRefused) {
 TEST(RunTimeLimits, ALayoutBeyondAllNumbersIsRefused) {
   Scene scene;
   scene.settings = settings_of(4);
-  scene.add(sheet({}));
+  scene.add(small_sheet({}));
   const World world(scene);
   const int most = std::numeric_limits<int>::max();
   WorldLayout layout = world.layout();

@@ -16,6 +16,12 @@ inline TriangleMesh box_mesh(const Vec3f& size) {
   return mesh;
 }
 
+inline double mass_of(const Object& object) {
+  double sum = 0;
+  for (const float mass : object.masses) sum += double(mass);
+  return sum;
+}
+
 /// The linear momentum of an object's dynamic particles [kg m/s].
 inline Vec3<double> momentum(const World& world, ObjectId object) {
   Vec3<double> sum{};

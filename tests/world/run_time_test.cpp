@@ -13,10 +13,10 @@ namespace {
 
 using namespace testing_support;
 
-Object sheet(const std::string& name, const Vec3f& at, int n = 7) { return sheet_at(name, at, n, 0.5f); }
+Object half_metre_sheet(const std::string& name, const Vec3f& at, int n = 7) { return sheet_at(name, at, n, 0.5f); }
 
 Object pinned_sheet(const std::string& name, const Vec3f& at) {
-  Object object = sheet(name, at);
+  Object object = half_metre_sheet(name, at);
   object.pins.push_back({0, {}});
   return object;
 }
@@ -90,7 +90,7 @@ TEST(RunTime, ObjectsAddedOneByOneGiveTheBitsOfAWorldMadeAtOnce) {
 TEST(RunTime, WhatIsRemovedLeavesTheOthersTheirBits) {
   Scene scene, without;
   scene.settings = without.settings = settings_of(8);
-  scene.add(sheet("goes", {3, 0, 0}));
+  scene.add(half_metre_sheet("goes", {3, 0, 0}));
   for (Scene* each : {&scene, &without}) {
     each->add(pinned_sheet("stays", {}));
     each->add(ball());
@@ -111,12 +111,12 @@ TEST(RunTime, WhatIsRemovedLeavesTheOthersTheirBits) {
 TEST(RunTime, AStaleIdIsRefusedAndNeverAnotherObject) {
   Scene scene;
   scene.settings = settings_of(4);
-  scene.add(sheet("first", {}));
+  scene.add(half_metre_sheet("first", {}));
   World world(scene);
   const ObjectId first = 0;
   world.remove(first);
   EXPECT_FALSE(world.has(first));
-  const ObjectId second = world.add(sheet("second", {}));
+  const ObjectId second = world.add(half_metre_sheet("second", {}));
   EXPECT_EQ(second.slot, first.slot) << "slots are used again";
   EXPECT_NE(second, first);
   EXPECT_TRUE(world.has(second));
@@ -145,7 +145,7 @@ TEST(RunTime, AStaleIdIsRefusedAndNeverAnotherObject) {
 TEST(RunTime, AnAddedThingTakesPartAndARemovedOneNoLonger) {
   Scene scene;
   scene.settings = settings_of(8);
-  scene.add(sheet("falls", {}));
+  scene.add(half_metre_sheet("falls", {}));
   World world(scene);
   for (int frame = 0; frame < 10; ++frame) world.step(dt);
   Collider floor;
@@ -169,7 +169,7 @@ TEST(RunTime, AddedSurfacesMeetOthers) {
     MeshCollider collider = table();
     collider.as = as;
     const MeshColliderId under = world.add(collider);
-    const ObjectId cloth = world.add(sheet("lands", {0, -0.6f, 0}));
+    const ObjectId cloth = world.add(half_metre_sheet("lands", {0, -0.6f, 0}));
     for (int frame = 0; frame < 40; ++frame) world.step(dt);
     for (const Vec3f& p : world.object(cloth).positions()) EXPECT_NEAR(p.y, -0.7f, 0.01f);
     world.remove(under);
@@ -194,14 +194,14 @@ TEST(RunTime, KeyframesOfWhatIsAddedAreAtTheWorldsTime) {
 TEST(RunTime, StatesBelongToTheObjectsOfTheirTime) {
   Scene scene;
   scene.settings = settings_of(4);
-  scene.add(sheet("a", {}));
-  scene.add(sheet("b", {1, 0, 0}));
+  scene.add(half_metre_sheet("a", {}));
+  scene.add(half_metre_sheet("b", {1, 0, 0}));
   World world(scene);
   world.step(dt);
   const State before = world.state();
   world.remove(ObjectId(0));
   EXPECT_THROW(world.restore(before), Error);
-  world.add(sheet("c", {}));
+  world.add(half_metre_sheet("c", {}));
   EXPECT_EQ(world.state().positions.size(), before.positions.size());
   EXPECT_THROW(world.restore(before), Error) << "as many particles, but another object's";
   const State after = world.state();
@@ -222,7 +222,7 @@ TEST(RunTime, WhatCannotBeSimulatedIsRefusedAndChangesNothing) {
   World world(hanging_cloth());
   world.step(dt);
   const std::string before = world.state_hash();
-  Object object = sheet("bad", {});
+  Object object = half_metre_sheet("bad", {});
   object.masses[3] = -1;
   EXPECT_THROW(world.add(object), Error);
   Collider collider;
@@ -248,14 +248,14 @@ TEST(RunTime, IntersectionsOfWhatIsAddedAreRefusedWhereTheSceneRefusesThem) {
   scene.settings = settings_of(2);
   scene.settings.initial_intersections = Settings::Intersections::refuse;
   scene.gravity = {};
-  Object flat = sheet("flat", {});
+  Object flat = half_metre_sheet("flat", {});
   flat.collides = true;
   flat.velocities.assign(flat.positions.size(), Vec3f{0, 1, 0});
   scene.add(flat);
   World world(scene);
   for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(world.step(dt).ok());  // it is 1 m higher now
   const std::string before = world.state_hash();
-  Object upright = sheet("upright", {});
+  Object upright = half_metre_sheet("upright", {});
   for (Vec3f& p : upright.positions) p = {p.x + 0.013f, p.z + 0.007f, 0.01f};
   upright.collides = true;
   const auto at_height = [&](float y) {
@@ -303,7 +303,7 @@ std::string random_life(int threads, int changes, std::size_t& largest) {
     if (adds) {
       const int kind = static_cast<int>(random() % 3);
       const float x = static_cast<float>(random() % 100) * 0.01f;
-      live.push_back(world.add(kind == 0   ? sheet("sheet", {x, 0, 0}, 3 + static_cast<int>(random() % 5))
+      live.push_back(world.add(kind == 0   ? half_metre_sheet("sheet", {x, 0, 0}, 3 + static_cast<int>(random() % 5))
                                : kind == 1 ? chain(2 + static_cast<int>(random() % 20), 0.1f)
                                            : pinned_sheet("hangs", {0, x, 0})));
     } else {

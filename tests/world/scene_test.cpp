@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "inspect/inspect_scene.h"
 #include "pliant/body.h"
 #include "pliant/error.h"
 #include "pliant/scene.h"
+#include "support/nonfinite.h"
 
 namespace pliant {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-const float nan = std::numeric_limits<float>::quiet_NaN();
+using testing_support::infinity;
+using testing_support::nan;
 
 Collider solid(const char* name, const Shape& shape, const Vec3f& position) {
   Collider collider;
@@ -58,10 +58,10 @@ std::string text_of(const std::vector<Finding>& findings) {
   return text;
 }
 
-using Change = std::function<void(Scene&)>;
+using SceneChange = std::function<void(Scene&)>;
 
 /// Expects that a scene with this change is rejected, that the message contains `words`, and that inspect() says the same.
-void expect_grave(const std::string& words, const Change& change, Scene scene = good_scene()) {
+void expect_grave(const std::string& words, const SceneChange& change, Scene scene = good_scene()) {
   change(scene);
   const std::vector<Finding> findings = inspect(scene);
   ASSERT_FALSE(findings.empty()) << "accepted what should say: " << words;
@@ -72,7 +72,7 @@ void expect_grave(const std::string& words, const Change& change, Scene scene = 
 }
 
 /// Expects that a scene with this change is accepted with a warning that contains `words`.
-void expect_doubt(const std::string& words, const Change& change, Scene scene = good_scene()) {
+void expect_doubt(const std::string& words, const SceneChange& change, Scene scene = good_scene()) {
   change(scene);
   const std::string text = text_of(inspect(scene));
   EXPECT_NE(text.find(words), std::string::npos) << text << "should say: " << words;

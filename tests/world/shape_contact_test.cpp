@@ -8,14 +8,14 @@
 #include "collision/fields/collider_pose.h"
 #include "geometry/triangle.h"
 #include "support/scenes.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
 using namespace testing_support;
 
-constexpr float dt = 1.f / 60;
-constexpr float thickness = 0.01f;
+constexpr float shape_thickness = 0.01f;
 
 /// The least signed distance of the inside of a triangle or segment to a collider [m]: sampled, more finely near the
 /// least sample.
@@ -52,7 +52,7 @@ Collider smooth(const Shape& shape) {
 Object rigid(const std::vector<Vec3f>& corners) {
   Object object = loose_particles(corners);
   object.name = "element";
-  object.thickness = thickness;
+  object.thickness = shape_thickness;
   object.damping = 1;
   ConstraintGroup sides{"distance", {0, 1}, {}, Stiffness::rigid(), {}};
   if (corners.size() == 3) {
@@ -116,18 +116,18 @@ TEST_P(ElementsAtRest, AreHeldAtTheirThickness) {
     collider.position = {0.25f, 0.5f, -0.125f};
     scene.add(collider);
     std::vector<Vec3f> corners = GetParam().corners;
-    for (Vec3f& p : corners) p = p + collider.position + Vec3f{0, GetParam().top + thickness + 0.02f, 0};
+    for (Vec3f& p : corners) p = p + collider.position + Vec3f{0, GetParam().top + shape_thickness + 0.02f, 0};
     scene.add(rigid(corners));
     World world(scene, settings_of(substeps, 4));
     for (int frame = 0; frame < 20; ++frame) {
       const Report report = world.step(dt);
       ASSERT_TRUE(report.ok());
-      EXPECT_GT(nearest(collider, 0, world.object(0).positions()), thickness - 2e-4)
+      EXPECT_GT(nearest(collider, 0, world.object(0).positions()), shape_thickness - 2e-4)
           << substeps << " substeps, frame " << frame;
       EXPECT_TRUE(frame < 10 || report.contacts > 0) << "frame " << frame;
     }
     // By now it is sliding off a corner, but its distance is still that at which it was placed.
-    EXPECT_NEAR(nearest(collider, 0, world.object(0).positions()), thickness, 1e-3) << substeps << " substeps";
+    EXPECT_NEAR(nearest(collider, 0, world.object(0).positions()), shape_thickness, 1e-3) << substeps << " substeps";
   }
 }
 
@@ -170,7 +170,7 @@ TEST(ShapeContacts, AreCarriedByWhatMoves) {
   World world(scene, settings_of(10));
   for (int frame = 0; frame < 30; ++frame) {
     world.step(dt);
-    EXPECT_GT(nearest(box, world.state().time, world.object(0).positions()), thickness - 1e-4) << "frame " << frame;
+    EXPECT_GT(nearest(box, world.state().time, world.object(0).positions()), shape_thickness - 1e-4) << "frame " << frame;
   }
   for (const Vec3f& v : world.object(0).velocities()) EXPECT_NEAR(v.y, 1, 0.05f);
 }
@@ -233,7 +233,7 @@ TEST(ShapeContacts, StopShots) {
     scene.add(element);
     World world(scene, settings_of(20));
     for (int frame = 0; frame < 40; ++frame) world.step(1.f / 240);
-    through += nearest(collider, 0, world.object(0).positions()) < 0.5 * thickness ? 1 : 0;
+    through += nearest(collider, 0, world.object(0).positions()) < 0.5 * shape_thickness ? 1 : 0;
     ++shots;
   }
   EXPECT_EQ(through, 0) << "of " << shots;
@@ -252,7 +252,7 @@ TEST(ShapeContacts, HoldCoarseClothOnASmallSphere) {
     TriangleMesh mesh = grid_mesh(8, 8, 1, 1);
     for (Vec3f& p : mesh.positions) p = {p.x, p.y + 0.06f, p.z};
     Object cloth = make_cloth(mesh, options);
-    cloth.thickness = thickness;
+    cloth.thickness = shape_thickness;
     cloth.velocities.assign(cloth.positions.size(), {0, -speed, 0});
     scene.add(cloth);
     World world(scene, settings_of(20));
@@ -263,7 +263,7 @@ TEST(ShapeContacts, HoldCoarseClothOnASmallSphere) {
         ASSERT_GT(nearest(sphere, 0,
                           {x[static_cast<std::size_t>(t[0])], x[static_cast<std::size_t>(t[1])],
                            x[static_cast<std::size_t>(t[2])]}),
-                  0.25 * thickness)
+                  0.25 * shape_thickness)
             << "frame " << frame << " at " << speed << " m/s";
     }
   }

@@ -42,24 +42,24 @@ Scene crowd(const std::vector<int>& members, int threads) {
   return scene;
 }
 
-const std::vector<int> all{0, 1, 2, 3, 4, 5};
+const std::vector<int> all_objects{0, 1, 2, 3, 4, 5};
 
 TEST(SideBySide, GetTheBitsThatEachGetsAloneOnAnyThreads) {
   std::vector<World> alone;
-  for (const int i : all) alone.emplace_back(crowd({i}, 1));
+  for (const int i : all_objects) alone.emplace_back(crowd({i}, 1));
   for (const int threads : {1, 2, 3, 8}) {
-    World world(crowd(all, threads));
+    World world(crowd(all_objects, threads));
     int fewest = 1000, most = 0;
     for (int frame = 0; frame < 30; ++frame) {
       world.step(dt);
-      for (const int i : all) {
+      for (const int i : all_objects) {
         const float own = world.state().substeps[static_cast<std::size_t>(i)];
         fewest = std::min(fewest, static_cast<int>(own));
         most = std::max(most, static_cast<int>(own));
       }
     }
     EXPECT_GT(most, 2 * fewest) << "or all have the same substeps, and this shows little";
-    for (const int i : all) {
+    for (const int i : all_objects) {
       if (threads == 1)
         for (int frame = 0; frame < 30; ++frame) alone[static_cast<std::size_t>(i)].step(dt);
       SCOPED_TRACE(std::to_string(threads) + " threads, cloth " + std::to_string(i));
@@ -69,9 +69,9 @@ TEST(SideBySide, GetTheBitsThatEachGetsAloneOnAnyThreads) {
 }
 
 TEST(SideBySide, AddUpInTheReport) {
-  World world(crowd(all, 2));
+  World world(crowd(all_objects, 2));
   std::vector<World> alone;
-  for (const int i : all) alone.emplace_back(crowd({i}, 1));
+  for (const int i : all_objects) alone.emplace_back(crowd({i}, 1));
   std::int64_t touching = 0;
   for (int frame = 0; frame < 30; ++frame) {
     const Report report = world.step(dt);
@@ -98,7 +98,7 @@ TEST(SideBySide, StopTogetherAtAQuarter) {
   for (const int threads : {1, 4}) {
     std::atomic<bool> stop{false};
     std::atomic<float> at{std::numeric_limits<float>::infinity()};
-    Scene scene = crowd(all, threads);
+    Scene scene = crowd(all_objects, threads);
     ForceField field([&](const Vec3f&, const Vec3f&, float, float time) {
       if (time >= at) stop = true;
       return Vec3f{};
@@ -128,7 +128,7 @@ TEST(SideBySide, StopTogetherAtAQuarter) {
 /// Two sets get velocities that are not finite: the first in the order of objects is named, and the State is finite.
 TEST(SideBySide, NameTheFirstThatFails) {
   for (const int threads : {1, 4}) {
-    World world(crowd(all, threads));
+    World world(crowd(all_objects, threads));
     for (int frame = 0; frame < 5; ++frame) world.step(dt);
     for (const int i : {4, 2}) {
       std::vector<Vec3f> velocities = world.object(i).velocities();
@@ -138,7 +138,7 @@ TEST(SideBySide, NameTheFirstThatFails) {
     const Report report = world.step(dt);
     ASSERT_FALSE(report.ok());
     EXPECT_EQ(report.nonfinite->object, "cloth 2");
-    for (const int i : all)
+    for (const int i : all_objects)
       for (const Vec3f& p : world.object(i).positions()) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z)) << i;
   }
 }

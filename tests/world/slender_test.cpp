@@ -26,7 +26,7 @@ std::vector<SolidShape> shapes_of(float radius) {
   return {Box{{0.5f, radius, radius}}, Capsule{radius, 0.5f}, Cylinder{radius, 0.5f}};
 }
 
-Scene scene_of(Object object, float friction) {
+Scene slender_scene(Object object, float friction) {
   object.static_friction = object.kinetic_friction = friction;
   Scene scene;
   scene.colliders.emplace_back();
@@ -40,7 +40,7 @@ Scene scene_of(Object object, float friction) {
 TEST(SlenderBody, SpinsOnWithoutFriction) {
   for (const float radius : {0.02f, 0.01f, 0.005f, 0.002f})
     for (const SolidShape& shape : shapes_of(radius)) {
-      World world(scene_of(stick(shape, radius, 8), 0));
+      World world(slender_scene(stick(shape, radius, 8), 0));
       float highest = 0;
       for (int frame = 0; frame < 240; ++frame) {
         ASSERT_TRUE(world.step(1.f / 60).ok());
@@ -63,7 +63,7 @@ TEST(SlenderBody, IsNotThrownByFriction) {
   for (const float radius : {0.02f, 0.005f, 1e-3f, 2e-4f, 5e-5f, 1e-5f})
     for (const SolidShape& shape : shapes_of(radius))
       for (const float speed : {0.f, 2.f}) {
-        World world(scene_of(stick(shape, radius, speed), 0.4f));
+        World world(slender_scene(stick(shape, radius, speed), 0.4f));
         float highest = 0;
         for (int frame = 0; frame < 240; ++frame) {
           ASSERT_TRUE(world.step(1.f / 60).ok());
@@ -83,7 +83,7 @@ TEST(SlenderBody, LiesOnItsLongerSide) {
     BodyOptions options;
     options.position = {0, 0.01f, 0};
     const SolidShape shape = is_coin ? Cylinder{0.5f, 1e-3f} : Cylinder{1e-3f, 0.5f};
-    World world(scene_of(make_body({{shape, {}, is_coin ? Quatf{} : Quatf{0, 0, half, half}}}, options), 0.4f));
+    World world(slender_scene(make_body({{shape, {}, is_coin ? Quatf{} : Quatf{0, 0, half, half}}}, options), 0.4f));
     for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
     EXPECT_NEAR(world.object(0).positions()[0].y, 1e-3f, 2e-4f) << is_coin;
   }

@@ -210,32 +210,28 @@ TEST(SolidField, MovesAndIsMaskedAsTrianglesAre) {
   EXPECT_EQ(world.object(1).positions()[0].y, 1.f);
 }
 
-std::string refusal(const MeshCollider& collider) {
+std::string field_refusal(const MeshCollider& collider) {
   Scene scene;
   scene.add(collider);
-  try {
-    World world(scene);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of(scene);
 }
 
 TEST(SolidField, IsRefusedWhereTheMeshIsNone) {
   MeshCollider open = ball(2, 1);
   open.mesh.triangles.pop_back();
-  EXPECT_NE(refusal(open).find("object 'ball', edge"), std::string::npos) << refusal(open);
-  EXPECT_NE(refusal(open).find("so the mesh is not closed"), std::string::npos);
+  EXPECT_NE(field_refusal(open).find("object 'ball', edge"), std::string::npos) << field_refusal(open);
+  EXPECT_NE(field_refusal(open).find("so the mesh is not closed"), std::string::npos);
   MeshCollider bent = ramp();
   bent.mesh.positions[20].x += 0.1f;
-  EXPECT_NE(refusal(bent).find("object 'ramp', vertex 20: its x and z are not on the regular grid"), std::string::npos)
-      << refusal(bent);
+  EXPECT_NE(field_refusal(bent).find("object 'ramp', vertex 20: its x and z are not on the regular grid"),
+            std::string::npos)
+      << field_refusal(bent);
   MeshCollider alive = ball(1, 1);
   alive.frames = {{0, alive.mesh.positions}};
-  EXPECT_NE(refusal(alive).find("which cannot deform"), std::string::npos);
+  EXPECT_NE(field_refusal(alive).find("which cannot deform"), std::string::npos);
   MeshCollider broken = ball(1, 1);
   broken.field = std::make_shared<DistanceField>();
-  EXPECT_NE(refusal(broken).find("incomplete"), std::string::npos);
+  EXPECT_NE(field_refusal(broken).find("incomplete"), std::string::npos);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "pliant/error.h"
+#include "support/nonfinite.h"
 #include "support/refusal.h"
 #include "world/world_support.h"
 
@@ -12,9 +13,6 @@ namespace pliant {
 namespace {
 
 using namespace testing_support;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // ------------------------------------------------------------------------------------------------ snapshots
 

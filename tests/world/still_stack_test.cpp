@@ -11,7 +11,7 @@
 namespace pliant {
 namespace {
 
-constexpr int frames = 1200;
+constexpr int stack_frames = 1200;
 
 /// Rows of cubes, each with `less` fewer than the one below.
 Scene stack(int base, int rows, int less, float side) {
@@ -41,9 +41,9 @@ struct Stillness {
 Stillness stillness_of(const Scene& scene) {
   World world(scene);
   Stillness found;
-  for (int frame = 0; frame < frames; ++frame) {
+  for (int frame = 0; frame < stack_frames; ++frame) {
     EXPECT_TRUE(world.step(1.f / 60).ok());
-    if (frame < frames - 60) continue;
+    if (frame < stack_frames - 60) continue;
     for (const Vec3f& v : world.object(0).velocities())
       found.speed = std::max(found.speed, std::sqrt(static_cast<double>(length_squared(v))));
   }

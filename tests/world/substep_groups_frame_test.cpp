@@ -17,7 +17,7 @@ TEST(SubstepGroups, AddUpInTheReport) {
   Scene scene = scene_of({flag(), sock()});
   World world(scene), one(scene_of({flag()})), other(scene_of({sock()}));
   std::int64_t contacts = 0, among_surfaces = 0;
-  for (int frame = 0; frame < frames; ++frame) {
+  for (int frame = 0; frame < group_frames; ++frame) {
     const Report report = world.step(dt), a = one.step(dt), b = other.step(dt);
     ASSERT_EQ(report.contacts, a.contacts + b.contacts);
     ASSERT_EQ(report.pairs.candidates, b.pairs.candidates);
@@ -151,7 +151,7 @@ TEST(SubstepGroups, TellTheirContactsAsEvents) {
   World world(scene_of({flag(), sock()})), one(scene_of({flag()})), other(scene_of({sock()}));
   std::size_t most = 0;
   for (World* each : {&world, &one, &other}) each->record_contact_events(true);
-  for (int frame = 0; frame < frames; ++frame) {
+  for (int frame = 0; frame < group_frames; ++frame) {
     for (World* each : {&world, &one, &other}) each->step(dt);
     ASSERT_EQ(events_of(world, 0), events_of(one, 0)) << frame;
     ASSERT_EQ(events_of(world, 1), events_of(other, 0)) << frame;

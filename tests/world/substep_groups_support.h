@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/run.h"
 #include "world/world_support.h"
 
 namespace pliant::testing_support {
@@ -70,7 +71,7 @@ void expect_equal_bits(const std::vector<T>& a, const std::vector<T>& b) {
   EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(T)), 0);
 }
 
-inline constexpr int frames = 40;
+inline constexpr int group_frames = 40;
 
 /// Expects that object `o` of one World has the positions and velocities of object `other` of another World.
 inline void expect_the_same(const World& world, ObjectId o, const World& alone, ObjectId other) {
@@ -79,21 +80,17 @@ inline void expect_the_same(const World& world, ObjectId o, const World& alone, 
   expect_equal_bits(world.object(o).orientations(), alone.object(other).orientations());
 }
 
-inline void run(World& world, int count = frames) {
-  for (int frame = 0; frame < count; ++frame) ASSERT_TRUE(world.step(dt).ok());
-}
-
 /// Simulates all of `sets` together, and expects that each set gets the bits that it gets alone.
 inline void expect_each_set_as_alone(const std::vector<std::vector<Object>>& sets) {
   Scene scene = scene_with_floor();
   for (const std::vector<Object>& set : sets)
     for (const Object& object : set) scene.add(object);
   World together(scene);
-  run(together);
+  run(together, group_frames);
   int o = 0;
   for (const std::vector<Object>& set : sets) {
     World alone(scene_of(set));
-    run(alone);
+    run(alone, group_frames);
     for (int i = 0; i < static_cast<int>(set.size()); ++i, ++o) {
       SCOPED_TRACE(set[static_cast<std::size_t>(i)].name);
       EXPECT_EQ(together.object(o).info().substeps, alone.object(i).info().substeps);

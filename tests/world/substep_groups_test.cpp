@@ -139,10 +139,10 @@ TEST(SubstepGroups, KeepObjectsOfConvertedStiffnessAtTheirNumber) {
 TEST(SubstepGroups, GiveTheSameBitsOnThreadsAndInScalarForm) {
   Scene scene = scene_of({flag(), sock()});
   World world(scene);
-  run(world);
+  run(world, group_frames);
   const auto hash_with = [&](const Settings& settings) {
     World other(scene, settings);
-    run(other);
+    run(other, group_frames);
     return other.state_hash();
   };
   for (const int threads : {1, 3}) {
@@ -164,8 +164,8 @@ TEST(SubstepGroups, GiveTheSameBitsUnfused) {
   World world(scene);
   scene.settings.separate_phases = true;
   World apart(scene);
-  run(world);
-  run(apart);
+  run(world, group_frames);
+  run(apart, group_frames);
   EXPECT_EQ(apart.state_hash(), world.state_hash());
 }
 
@@ -203,7 +203,7 @@ TEST(SubstepGroups, ArePlannedAsTheyAreThenMade) {
 
 TEST(SubstepGroups, AreFoundAgainWhenObjectsComeAndGo) {
   World alone(scene_of({flag()})), world(scene_of({flag(), sock()}));
-  run(alone);
+  run(alone, group_frames);
   run(world, 10);
   world.remove(ObjectId(1));
   run(world, 10);  // one group from now on
@@ -211,7 +211,7 @@ TEST(SubstepGroups, AreFoundAgainWhenObjectsComeAndGo) {
   const ObjectId next = world.add(sock());
   EXPECT_EQ(world.object(next).info().substeps, 20) << "before the next step, too";
   EXPECT_EQ(world.step(dt).substeps, 20);
-  run(world, frames - 22);
+  run(world, group_frames - 22);
   expect_the_same(world, 0, alone, 0);
 }
 

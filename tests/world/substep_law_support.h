@@ -1,6 +1,7 @@
 // Scenes that tests of the substep law and of the limit of overstretch share.
 #pragma once
 
+#include "support/run.h"
 #include "world/run_time_support.h"
 
 namespace pliant::testing_support {
@@ -32,10 +33,6 @@ inline Scene hung(float apart = 0) {
   cloth.pins = {{0, {}}, {19, apart != 0 ? straight({apart, 0, 0}, 1) : Motion{}}};
   scene.add(cloth);
   return scene;
-}
-
-inline void run(World& world, int frames) {
-  for (int frame = 0; frame < frames; ++frame) ASSERT_TRUE(world.step(dt).ok());
 }
 
 }  // namespace pliant::testing_support

@@ -16,7 +16,7 @@ using namespace testing_support;
 /// A sheet folded over itself in a half circle, dropped on a floor.
 Scene folded_cloth() {
   TriangleMesh mesh = sheet(24, 0.5f, 0);
-  constexpr float pi = 3.14159265f, radius = 0.03f, flat = 0.25f - pi / 2 * radius;
+  constexpr float radius = 0.03f, flat = 0.25f - pi / 2 * radius;
   for (Vec3f& p : mesh.positions) {
     const float along = p.x + 0.25f, angle = std::clamp((along - flat) / radius, 0.f, pi);
     const float back = std::max(0.f, along - flat - pi * radius);
@@ -72,17 +72,18 @@ Scene cloth_on_a_mesh() {
   return scene;
 }
 
-struct Named {
+struct NamedScene {
   const char* name;
   Scene (*make)();
   int frames;
 };
-void PrintTo(const Named& named, std::ostream* out) { *out << named.name; }
+void PrintTo(const NamedScene& named, std::ostream* out) { *out << named.name; }
 
-class Surfaces : public testing::TestWithParam<Named> {};
+class Surfaces : public testing::TestWithParam<NamedScene> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, Surfaces,
-                         testing::Values(Named{"folded", folded_cloth, 50}, Named{"layers", layers, 50},
-                                         Named{"twisted", twisted_cloth, 96}, Named{"on_a_mesh", cloth_on_a_mesh, 60}),
+                         testing::Values(NamedScene{"folded", folded_cloth, 50}, NamedScene{"layers", layers, 50},
+                                         NamedScene{"twisted", twisted_cloth, 96},
+                                         NamedScene{"on_a_mesh", cloth_on_a_mesh, 60}),
                          [](const auto& named) { return named.param.name; });
 
 TEST_P(Surfaces, CrossNothing) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "collision/untangle/intersections.h"
@@ -21,6 +22,12 @@ inline Object cloth(const TriangleMesh& mesh, float thickness = 0.002f) {
   return object;
 }
 
+inline Object named_cloth(const TriangleMesh& mesh, const std::string& name) {
+  Object object = cloth(mesh);
+  object.name = name;
+  return object;
+}
+
 /// A level sheet of n x n vertices.
 inline TriangleMesh sheet(int n, float size, float height) {
   TriangleMesh mesh = grid_mesh(n, n, size, size);
@@ -32,12 +39,6 @@ inline Scene scene_of(int substeps) {
   Scene scene;
   scene.settings = settings_of(substeps);
   return scene;
-}
-
-inline Collider floor_at(float height) {
-  Collider floor;
-  floor.position = {0, height, 0};
-  return floor;
 }
 
 /// Finds the crossings among those objects of a World whose masks let them meet, and moving mesh colliders.

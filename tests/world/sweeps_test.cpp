@@ -27,7 +27,7 @@ SweepOptions chebyshev() {
   return options;
 }
 
-Error refusal(const Scene& scene) {
+Error scene_refusal(const Scene& scene) {
   try {
     const World world(scene);
   } catch (const Error& error) {
@@ -37,13 +37,13 @@ Error refusal(const Scene& scene) {
 }
 
 TEST(WorldSweeps, ChebyshevOverNaturalOrderIsRefusedWithTheReason) {
-  const Error error = refusal(hanging_chain(Sweep::natural, chebyshev()));
+  const Error error = scene_refusal(hanging_chain(Sweep::natural, chebyshev()));
   const std::string text = error.what();
   EXPECT_NE(text.find("natural order"), std::string::npos) << text;
   EXPECT_NE(text.find("without bound"), std::string::npos) << text;
   EXPECT_NE(error.advice().find("symmetric"), std::string::npos);
   for (Sweep sweep : {Sweep::tiled, Sweep::sequential, Sweep::symmetric, Sweep::jacobi}) {
-    EXPECT_STREQ(refusal(hanging_chain(sweep, chebyshev())).what(), Error({}, "").what());
+    EXPECT_STREQ(scene_refusal(hanging_chain(sweep, chebyshev())).what(), Error({}, "").what());
   }
 }
 
@@ -94,17 +94,19 @@ TEST(WorldSweeps, OptionsOutOfRangeAreRefusedByName) {
   for (float relaxation : {0.f, -1.f, 2.f, std::numeric_limits<float>::quiet_NaN()}) {
     SweepOptions options;
     options.relaxation = relaxation;
-    EXPECT_NE(std::string(refusal(hanging_chain(Sweep::tiled, options)).what()).find("relaxation"), std::string::npos);
+    EXPECT_NE(std::string(scene_refusal(hanging_chain(Sweep::tiled, options)).what()).find("relaxation"),
+              std::string::npos);
   }
   for (float radius : {-0.1f, 1.f, std::numeric_limits<float>::quiet_NaN()}) {
     SweepOptions options = chebyshev();
     options.spectral_radius = radius;
-    EXPECT_NE(std::string(refusal(hanging_chain(Sweep::tiled, options)).what()).find("spectral_radius"), std::string::npos);
+    EXPECT_NE(std::string(scene_refusal(hanging_chain(Sweep::tiled, options)).what()).find("spectral_radius"),
+              std::string::npos);
   }
   for (int plain : {0, 1, 10001}) {
     SweepOptions options = chebyshev();
     options.plain_iterations = plain;
-    EXPECT_NE(std::string(refusal(hanging_chain(Sweep::tiled, options)).what()).find("plain_iterations"),
+    EXPECT_NE(std::string(scene_refusal(hanging_chain(Sweep::tiled, options)).what()).find("plain_iterations"),
               std::string::npos);
   }
 }
@@ -174,7 +176,7 @@ TEST(WorldSweeps, AToleranceThatCannotBeIsRefusedAndOneThatDoesNothingDoubted) {
   Scene scene = hanging_chain(Sweep::tiled);
   for (float tolerance : {-1e-6f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     scene.settings.tolerance = tolerance;
-    EXPECT_NE(std::string(refusal(scene).what()).find("tolerance"), std::string::npos) << tolerance;
+    EXPECT_NE(std::string(scene_refusal(scene).what()).find("tolerance"), std::string::npos) << tolerance;
   }
   const auto doubts = [&] {
     int count = 0;

@@ -9,11 +9,12 @@
 #include "model/tied_bodies.h"
 #include "pliant/body.h"
 #include "pliant/world.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float dt = 1.f / 60;
+using testing_support::dt;
 
 /// A slender body of 50 g along x, with 72 particles of 10 g about it that are tied to it. All turn about z by `spin` [rad/s].
 Object pincushion(float spin) {

@@ -6,11 +6,12 @@
 
 #include "pliant/body.h"
 #include "pliant/world.h"
+#include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float pi = 3.14159265f;
+using testing_support::pi;
 
 Object box_at(const Vec3f& position, const Vec3f& velocity = {}, const Vec3f& angular_velocity = {}) {
   BodyOptions options;
@@ -48,11 +49,11 @@ Scene table(float speed, int seconds) {
   return scene;
 }
 
-void run(World& world, int seconds) {
+void run_seconds(World& world, int seconds) {
   for (int frame = 0; frame < 60 * seconds; ++frame) EXPECT_TRUE(world.step(1.f / 60).ok());
 }
 
-double radius(const World& world, int object) {
+double distance_from_axis(const World& world, int object) {
   const Vec3f x = world.object(object).positions()[0];
   return std::hypot(static_cast<double>(x.x), static_cast<double>(x.z));
 }
@@ -61,8 +62,8 @@ double radius_after(float speed, int seconds) {
   Scene scene = table(speed, seconds);
   scene.add(rider(speed));
   World world(scene);
-  run(world, seconds);
-  return radius(world, 0);
+  run_seconds(world, seconds);
+  return distance_from_axis(world, 0);
 }
 
 /// Friction of 1 holds it up to 3.1 rad/s.
@@ -83,9 +84,9 @@ TEST(Turntable, CarriesABoxRoundBesideASleeper) {
   scene.add(box_at({5, 0.2f, 0}));
   scene.settings.sleep.on = true;
   World world(scene);
-  run(world, 5);
+  run_seconds(world, 5);
   EXPECT_TRUE(world.object(1).body_is_asleep(0));
-  EXPECT_NEAR(radius(world, 0), 1, 1e-3);
+  EXPECT_NEAR(distance_from_axis(world, 0), 1, 1e-3);
 }
 
 TEST(Turntable, MayBeAFixedBody) {
@@ -100,8 +101,8 @@ TEST(Turntable, MayBeAFixedBody) {
   scene.add(rider(speed));
   scene.add(disc);
   World world(scene);
-  run(world, 5);
-  EXPECT_NEAR(radius(world, 0), 1, 1e-3);
+  run_seconds(world, 5);
+  EXPECT_NEAR(distance_from_axis(world, 0), 1, 1e-3);
 }
 
 // A body lies on rollers that turn about their own axes, so their surfaces do not move: it goes on by radius times spin.
@@ -121,9 +122,9 @@ TEST(Turntable, ARollerMovesABoxByItsSurface) {
   box.static_friction = box.kinetic_friction = 1;
   scene.add(box);
   World world(scene);
-  run(world, 1);
+  run_seconds(world, 1);
   const float before = world.object(0).positions()[0].z;
-  run(world, 1);
+  run_seconds(world, 1);
   EXPECT_NEAR(world.object(0).positions()[0].z - before, radius * spin, 2e-3f);
   EXPECT_NEAR(world.object(0).positions()[0].y, 0.05f, 1e-3f);
 }

@@ -20,24 +20,18 @@ using validate::sweep_ways;
 using validate::SweepWay;
 using Intersections = Settings::Intersections;
 
-Object cloth(const TriangleMesh& mesh, const std::string& name) {
-  Object object = testing_support::cloth(mesh);
-  object.name = name;
-  return object;
-}
-
 /// A fixed level sheet, and one that stands across it, most of it above.
 Scene crossed(Intersections what) {
   Scene scene;
   scene.gravity = {};
   scene.settings = settings_of(10);
   scene.settings.initial_intersections = what;
-  Object flat = cloth(grid_mesh(10, 10, 0.4f, 0.4f), "flat");
+  Object flat = named_cloth(grid_mesh(10, 10, 0.4f, 0.4f), "flat");
   flat.masses.assign(100, std::numeric_limits<float>::infinity());
   scene.add(flat);
   TriangleMesh upright = grid_mesh(9, 9, 0.31f, 0.31f);
   for (Vec3f& p : upright.positions) p = {p.x + 0.007f, p.z + 0.1f, 0.012f};
-  scene.add(cloth(upright, "upright"));
+  scene.add(named_cloth(upright, "upright"));
   return scene;
 }
 
@@ -52,7 +46,7 @@ Scene pierced(Intersections what) {
   ball.mesh = sphere_mesh(2);
   for (Vec3f& p : ball.mesh.positions) p = p * 0.1f + Vec3f{0, -0.02f, 0};
   scene.add(ball);
-  Object sheet = cloth(grid_mesh(16, 16, 0.4f, 0.4f), "sheet");
+  Object sheet = named_cloth(grid_mesh(16, 16, 0.4f, 0.4f), "sheet");
   scene.add(sheet);
   return scene;
 }
@@ -223,16 +217,6 @@ TEST(Untangle, MayBeRefused) {
   EXPECT_NO_THROW(World{apart});
 }
 
-/// The Error for which making a World of the scene fails; empty if it succeeds.
-std::string refusal_of(const Scene& scene) {
-  try {
-    World world(scene);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 /// A ball of triangles of radius half a metre about the origin, with a small sheet and two particles in it, and one
 /// outside.
 Scene shut_up(MeshCollider::As as) {
@@ -246,7 +230,7 @@ Scene shut_up(MeshCollider::As as) {
   ball.as = as;
   if (as == MeshCollider::As::distance_grid) ball.field = measure_distances(ball.mesh, 0.1f);
   scene.add(ball);
-  scene.add(cloth(sheet(4, 0.2f, 0.03f), "sheet"));
+  scene.add(named_cloth(sheet(4, 0.2f, 0.03f), "sheet"));
   Object grains = loose_particles({{0, 2, 0}, {0.1f, 0.2f, 0.05f}, {0, -0.3f, 0}});
   grains.name = "grains";
   scene.add(grains);
@@ -273,15 +257,15 @@ TEST(Untangle, RefusesWhatIsShutUpInACollider) {
 TEST(Untangle, RefusesWhatIsShutUpInClosedClothAndNotWhatIsInAnOpenOne) {
   Scene scene;
   scene.settings.initial_intersections = Intersections::refuse;
-  scene.add(cloth(sheet(4, 0.2f, 0.03f), "sheet"));
-  scene.add(cloth(sphere_mesh(2), "balloon"));
+  scene.add(named_cloth(sheet(4, 0.2f, 0.03f), "sheet"));
+  scene.add(named_cloth(sphere_mesh(2), "balloon"));
   EXPECT_NE(refusal_of(scene).find("object 'sheet', particle 0 and 15 more: is inside of closed object 'balloon'"),
             std::string::npos)
       << refusal_of(scene);
   Scene open = scene;
   TriangleMesh torn = sphere_mesh(2);
   torn.triangles.pop_back();
-  open.objects[1] = cloth(torn, "balloon");
+  open.objects[1] = named_cloth(torn, "balloon");
   EXPECT_EQ(refusal_of(open), "");
   for (Vec3f& p : scene.objects[0].positions) p.x += 1.2f;
   EXPECT_EQ(refusal_of(scene), "") << "beside it";
@@ -326,12 +310,12 @@ Scene nested_skirts(bool as_one) {
   std::vector<int> hip;
   for (int k = 0; k < 64; ++k) hip.push_back(k);
   if (as_one) {
-    scene.pin(scene.add(cloth(both(inner, outer), "skirts")), hip);
+    scene.pin(scene.add(named_cloth(both(inner, outer), "skirts")), hip);
     for (int& k : hip) k += static_cast<int>(inner.positions.size());
     scene.pin(0, hip);
   } else {
-    scene.pin(scene.add(cloth(inner, "inner")), hip);
-    scene.pin(scene.add(cloth(outer, "outer")), hip);
+    scene.pin(scene.add(named_cloth(inner, "inner")), hip);
+    scene.pin(scene.add(named_cloth(outer, "outer")), hip);
   }
   return scene;
 }

@@ -1,14 +1,17 @@
 // What the tests of a World share.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "pliant/error.h"
 #include "support/scenes.h"
 
 namespace pliant::testing_support {
 
 inline constexpr float dt = 1.f / 60;
+inline constexpr float pi = 3.14159265f;
 
 inline bool is_finite(const State& state) {
   for (const auto* records : {&state.positions, &state.remainders, &state.velocities}) {
@@ -17,6 +20,23 @@ inline bool is_finite(const State& state) {
     }
   }
   return std::isfinite(state.time);
+}
+
+/// The message of the Error for which making a World of a scene fails; empty if it succeeds.
+inline std::string refusal_of(const Scene& scene) {
+  try {
+    const World world(scene);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The speed of the fastest particle or body [m/s].
+inline float fastest(const World& world) {
+  float speed = 0;
+  for (const Record& v : world.state().velocities) speed = std::max(speed, std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z));
+  return speed;
 }
 
 /// A scene of cloth that hangs by two corners over a moving ball.
@@ -32,6 +52,14 @@ inline Scene hanging_cloth() {
   scene.settings = settings_of(8);
   return scene;
 }
+
+inline Collider floor_at(float height) {
+  Collider floor;
+  floor.position = {0, height, 0};
+  return floor;
+}
+
+inline double distance(const Vec3f& a, const Vec3f& b) { return std::sqrt(static_cast<double>(length_squared(a - b))); }
 
 /// A level sheet of n x n vertices with its middle at a given position [m].
 inline Object sheet_at(const std::string& name, const Vec3f& at, int n, float size, const ClothOptions& like = {}) {

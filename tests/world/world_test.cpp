@@ -6,15 +6,13 @@
 
 #include "pliant/error.h"
 #include "pliant/world.h"
+#include "support/nonfinite.h"
 #include "world/world_support.h"
 
 namespace pliant {
 namespace {
 
 using namespace testing_support;
-
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 // ------------------------------------------------------------------------------------------------ steps that are none
 
