@@ -9,15 +9,15 @@
 
 #include "apps/bench/cloth.h"
 #include "apps/bench/quality.h"
+#include "apps/bench/timing.h"
 #include "pliant/error.h"
 
 namespace pliant::bench {
 namespace {
 
-constexpr float frame_time = 1.f / 60;
 constexpr Steps small_steps{10, 1}, bullets_best{1, 10};
 constexpr int frames_of_phases = 20;
-constexpr int smallest = 2, largest = 4096;
+constexpr int smallest_size = 2, largest_size = 4096;
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -153,9 +153,9 @@ void check(const Options& options) {
     throw Error({}, "there is no workload '" + options.workload + "'",
                 "choose one of " + names + ", contact, W3, W3-ball, W3-cloth");
   for (int size : options.sizes)
-    if (size < smallest || size > largest)
+    if (size < smallest_size || size > largest_size)
       throw Error({}, "a cloth of " + std::to_string(size) + " x " + std::to_string(size) + " cannot be measured",
-                  "choose a size in " + std::to_string(smallest) + ".." + std::to_string(largest));
+                  "choose a size in " + std::to_string(smallest_size) + ".." + std::to_string(largest_size));
   if (options.frames < 1 || options.warm_up < 0) throw Error({}, "there are no frames to measure", "measure at least 1");
   if (options.against_bullet && !has_bullet())
     throw Error({}, "this program was built without Bullet", "install libbullet-dev and configure again");

@@ -8,12 +8,11 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
 
+#include "apps/bench/bullet_vector.h"
 #include "apps/bench/cloth.h"
 
 namespace pliant::bench {
 namespace {
-
-btVector3 to_bullet(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
 class BulletCloth final : public Engine {
  public:

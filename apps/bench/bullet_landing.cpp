@@ -7,12 +7,11 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
 
+#include "apps/bench/bullet_vector.h"
 #include "apps/bench/landing.h"
 
 namespace pliant::bench {
 namespace {
-
-btVector3 to_bullet(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
 class BulletLanding final : public LandingEngine {
  public:

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "apps/bench/bullet_vector.h"
 #include "apps/bench/piles.h"
 
 namespace pliant::bench {
@@ -10,11 +11,10 @@ namespace {
 
 constexpr float density = 1000;
 
-btVector3 to_bullet(const Vec3f& v) { return {v.x, v.y, v.z}; }
 Vec3f from_bullet(const btVector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
-btTransform to_bullet(const Vec3f& position, const Quatf& q) {
+btTransform to_transform(const Vec3f& position, const Quatf& q) {
   return btTransform(btQuaternion(q.x, q.y, q.z, q.w), to_bullet(position));
 }
 
@@ -46,11 +46,11 @@ class BulletPile final : public PileEngine {
     world_.setGravity(btVector3(0, btScalar(-9.81), 0));
     for (const PileBody& body : pile.bodies)
       add(std::visit(MakeShape{}, body.shape), density * std::visit(Volume{}, body.shape),
-          to_bullet(body.position, body.rotation), pile.friction);
+          to_transform(body.position, body.rotation), pile.friction);
     bodies_ = added_.size();
     for (const PilePlane& plane : pile.planes)
       add(std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)), 0,
-          to_bullet(plane.position, plane.rotation), pile.friction);
+          to_transform(plane.position, plane.rotation), pile.friction);
     if (!pile.bowl.triangles.empty()) add_bowl(pile);
   }
 

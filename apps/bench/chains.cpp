@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "apps/bench/timing.h"
 #include "pliant/body.h"
 #include "pliant/error.h"
 #include "pliant/joint.h"
@@ -12,7 +13,7 @@
 namespace pliant::bench {
 namespace {
 
-constexpr float frame_time = 1.f / 60, half_link = 0.25f, end_mass = 100;
+constexpr float half_link = 0.25f, end_mass = 100;
 
 double processor_ms() {
   std::timespec now{};

@@ -12,11 +12,10 @@ namespace pliant::bench {
 
 namespace {
 
-constexpr float frame_time = 1.f / 60;
-constexpr int width = 8, measured = 60;  // particles across; frames of the last second
+constexpr int column_width = 8, measured_frames = 60;  // particles across; frames of the last second
 
 Scene column(float depth, float spacing, int substeps, int iterations) {
-  const float side = static_cast<float>(width) * spacing;
+  const float side = static_cast<float>(column_width) * spacing;
   Scene scene;
   scene.settings.threads = 1;
   scene.settings.substeps = substeps;
@@ -48,7 +47,7 @@ void add_speeds(const World& world, ColumnRow& row) {
   const std::vector<Vec3f> velocities = world.object(0).velocities();
   for (const Vec3f& v : velocities) {
     const auto speed = static_cast<double>(std::hypot(v.x, v.y, v.z));
-    row.speed += speed / (static_cast<double>(velocities.size()) * measured);
+    row.speed += speed / (static_cast<double>(velocities.size()) * measured_frames);
     row.fastest = std::max(row.fastest, speed);
   }
 }
@@ -63,8 +62,8 @@ ColumnRow measure(ColumnRow row, int frames) {
     const Report report = world.step(frame_time);
     times.push_back(processor_ms() - before);
     row.substeps = report.substeps;
-    if (frame < frames - measured) continue;
-    row.mean += report.compression.mean / measured;
+    if (frame < frames - measured_frames) continue;
+    row.mean += report.compression.mean / measured_frames;
     row.largest = std::max(row.largest, report.compression.largest);
     add_speeds(world, row);
   }
@@ -98,7 +97,7 @@ std::vector<ColumnRow> choices(int depth, double spacing, const ColumnOptions& o
 std::vector<ColumnRow> measure_columns(const ColumnOptions& options) {
   constexpr int deepest = 10000;
   constexpr double fewest_layers = 8, most_layers = 100;
-  if (options.frames <= measured) throw Error({}, "the last second is measured", "give at least 61 frames");
+  if (options.frames <= measured_frames) throw Error({}, "the last second is measured", "give at least 61 frames");
   std::vector<ColumnRow> rows;
   for (const int depth : options.depths) {
     if (depth < 1 || depth > deepest) throw Error({}, "a column of " + std::to_string(depth) + " cm", "give 1 to 10000");

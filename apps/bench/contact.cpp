@@ -12,12 +12,12 @@
 namespace pliant::bench {
 namespace {
 
-constexpr float edge = 0.01f, frame_time = 1.f / 60;
+constexpr float edge_length = 0.01f;
 constexpr int largest_cloth = 100;
 
 /// Adds a cloth over a ball, both displaced horizontally by `beside`.
 void add_drape(Scene& scene, int size, const Vec3f& beside, bool self_collision) {
-  const float width = edge * static_cast<float>(size - 1);
+  const float width = edge_length * static_cast<float>(size - 1);
   TriangleMesh mesh = grid_mesh(size, size, width, width);
   for (Vec3f& p : mesh.positions) p = p + beside + Vec3f{0, 0.42f * width, 0};
   ClothOptions options;
@@ -38,7 +38,7 @@ Scene drapes(int size, bool self_collision) {
   scene.settings.substeps = 20;
   scene.settings.sweep = Sweep::tiled;
   const int along = size % largest_cloth == 0 ? size / largest_cloth : 1, each = size / along;
-  const float apart = 2 * edge * static_cast<float>(each);
+  const float apart = 2 * edge_length * static_cast<float>(each);
   for (int i = 0; i < along * along; ++i)
     add_drape(scene, each, {apart * static_cast<float>(i % along), 0, apart * static_cast<float>(i / along)},
               self_collision);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "apps/bench/timing.h"
 #include "pliant/body.h"
 #include "pliant/error.h"
 #include "pliant/queries.h"
@@ -15,7 +16,7 @@
 namespace pliant::bench {
 namespace {
 
-constexpr float frame_time = 1.f / 60, side = 2;
+constexpr float cloth_side = 2;
 
 SolidShape shape_of(int number) {
   switch (number % 6) {
@@ -151,7 +152,7 @@ std::vector<CoveredRow> measure(int size, const CoveredOptions& options) {
 
 Covered make_covered(int size, int bodies) {
   Covered out;
-  out.cloth = make_cloth(grid_mesh(size, size, side, side), {.name = "cloth", .material = fabric("cotton")});
+  out.cloth = make_cloth(grid_mesh(size, size, cloth_side, cloth_side), {.name = "cloth", .material = fabric("cotton")});
   for (Vec3f& p : out.cloth.positions) p.y = 0.9f;
   out.cloth.thickness = 0.004f;
   out.cloth.collides = out.cloth.self_collision = true;

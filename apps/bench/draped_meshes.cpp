@@ -10,13 +10,13 @@ namespace pliant::bench {
 
 namespace {
 
-constexpr int side = 100;           ///< particles along a side of the sheet
-constexpr float width = 1;          ///< of the sheet [m]
-constexpr float body = 0.5f;        ///< longest extent of the mesh [m]
-constexpr float gap = 0.02f;        ///< between mesh and sheet at the start [m]
-constexpr float thickness = 2e-3f;  ///< of the sheet, a fifth of its edges [m]
-constexpr float air = 1;            ///< rate at which air slows the sheet [1/s]
-constexpr int frames = 240;
+constexpr int sheet_side = 100;           ///< particles along a side of the sheet
+constexpr float sheet_width = 1;          ///< of the sheet [m]
+constexpr float mesh_extent = 0.5f;       ///< longest extent of the mesh [m]
+constexpr float start_gap = 0.02f;        ///< between mesh and sheet at the start [m]
+constexpr float sheet_thickness = 2e-3f;  ///< of the sheet, a fifth of its edges [m]
+constexpr float sheet_damping = 1;        ///< rate at which air slows the sheet [1/s]
+constexpr int drape_frames = 240;
 
 /// The mesh, scaled, with its lowest vertex on the ground and its box centred above the origin. `top` is its height [m].
 TriangleMesh placed(TriangleMesh mesh, float& top) {
@@ -26,7 +26,7 @@ TriangleMesh placed(TriangleMesh mesh, float& top) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const Vec3f size = high - low;
-  const float scale = body / std::max({size.x, size.y, size.z});
+  const float scale = mesh_extent / std::max({size.x, size.y, size.z});
   const Vec3f foot{(low.x + high.x) / 2, low.y, (low.z + high.z) / 2};
   for (Vec3f& p : mesh.positions) p = (p - foot) * scale;
   top = size.y * scale;
@@ -42,21 +42,21 @@ bool is_mesh(const std::filesystem::path& path) {
 
 Scene draped_mesh(const TriangleMesh& mesh) {
   Scene scene;
-  scene.frames = frames;
+  scene.frames = drape_frames;
   float top = 0;
   MeshCollider collider;
   collider.mesh = placed(mesh, top);
   scene.add(std::move(collider));
   scene.add(Collider{});
-  TriangleMesh grid = grid_mesh(side, side, width, width);
-  for (Vec3f& p : grid.positions) p.y = top + gap;
+  TriangleMesh grid = grid_mesh(sheet_side, sheet_side, sheet_width, sheet_width);
+  for (Vec3f& p : grid.positions) p.y = top + start_gap;
   ClothOptions options;
   options.material = fabric("cotton");
   Object sheet = make_cloth(grid, options);
   sheet.name = "sheet";
-  sheet.thickness = thickness;
+  sheet.thickness = sheet_thickness;
   sheet.self_collision = true;
-  sheet.damping = air;
+  sheet.damping = sheet_damping;
   scene.add(std::move(sheet));
   return scene;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/timing.h"
 #include "pliant/error.h"
 #include "pliant/queries.h"
 #include "pliant/world.h"
@@ -14,12 +15,12 @@
 namespace pliant::bench {
 namespace {
 
-constexpr float frame_time = 1.f / 60, width = 1, thickness_of_edge = 0.1f;
+constexpr float cloth_width = 1, thickness_of_edge = 0.1f;
 constexpr float damping =
     6;  // rate of damping [1/s]; without it Bullet's positions become infinite within 20 frames at N = 64
 
 Object cloth_at(int size, float height, float degrees, const std::string& name) {
-  TriangleMesh mesh = grid_mesh(size, size, width, width);
+  TriangleMesh mesh = grid_mesh(size, size, cloth_width, cloth_width);
   const float angle = degrees * 3.14159265f / 180, c = std::cos(angle), s = std::sin(angle);
   for (Vec3f& p : mesh.positions) p = {c * p.x + s * p.z, p.y + height, c * p.z - s * p.x};
   ClothOptions options;
@@ -28,7 +29,7 @@ Object cloth_at(int size, float height, float degrees, const std::string& name) 
   options.stretch = Stiffness::rigid();
   options.bending_model = ClothOptions::Bending::none;
   Object object = make_cloth(mesh, options);
-  object.thickness = thickness_of_edge * width / static_cast<float>(size - 1);
+  object.thickness = thickness_of_edge * cloth_width / static_cast<float>(size - 1);
   object.self_collision = object.collides = true;
   object.damping = damping;
   return object;
@@ -60,7 +61,7 @@ class PliantLanding final : public LandingEngine {
   World world_;
 };
 
-double quantile(std::vector<double> values, double q) {
+double inclusive_quantile(std::vector<double> values, double q) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
@@ -92,7 +93,7 @@ void measure_stretch(const Landing& landing, const LandingEngine& engine, Landin
   for (const double ratio : ratios) sum += ratio;
   if (!std::isfinite(sum)) return;
   row.stretch_mean = sum / static_cast<double>(ratios.size());
-  row.stretch_p99 = quantile(ratios, 0.99);
+  row.stretch_p99 = inclusive_quantile(ratios, 0.99);
 }
 
 /// Simulates frames until all are done or the time limit is reached. Returns the time of each frame [ms].
@@ -120,8 +121,8 @@ LandingRow measure(const Landing& landing, const LandingOptions& options, const 
   row.frames = static_cast<int>(times.size());
   row.in_time = row.frames == options.frames;
   for (const double time : times) row.mean_ms += time / row.frames;
-  row.median_ms = quantile(times, 0.5);
-  row.largest_ms = quantile(times, 1);
+  row.median_ms = inclusive_quantile(times, 0.5);
+  row.largest_ms = inclusive_quantile(times, 1);
   measure_stretch(landing, engine, row);
   if (std::isfinite(row.stretch_mean)) row.crossings = crossings_of(landing, engine);
   return row;

@@ -15,19 +15,19 @@ namespace pliant::bench {
 
 namespace {
 
-constexpr float spacing = 0.05f, step_time = 0.005f, frame_time = 1.f / 60;
+constexpr float splash_spacing = 0.05f, step_time = 0.005f;
 constexpr int most_for_plain_loop = 400000;
 
 /// A block about 1.26 times as high as it is wide.
 Scene splash(int particles, bool has_stray) {
   const auto across = static_cast<float>(std::lround(std::cbrt(particles / 1.26)));
-  const Vec3f size = spacing * Vec3f{across, std::round(static_cast<float>(particles) / (across * across)), across};
+  const Vec3f size = splash_spacing * Vec3f{across, std::round(static_cast<float>(particles) / (across * across)), across};
   Scene scene;
   scene.settings.threads = 1;
   scene.settings.substeps = 5;
-  std::vector<Vec3f> places = fill_box({}, size, spacing);
+  std::vector<Vec3f> places = fill_box({}, size, splash_spacing);
   if (has_stray) places[places.size() / 2] = {0.5f, 1000, 0.5f};
-  scene.add(make_liquid(places, {.fluid = {.spacing = spacing}}));
+  scene.add(make_liquid(places, {.fluid = {.spacing = splash_spacing}}));
   const auto add = [&](const Vec3f& at, const Vec3f& axis, float degrees) {
     Collider plane;
     plane.position = at;
@@ -86,7 +86,7 @@ class Splash {
     std::vector<double> times;
     for (int repeat = 0; repeat < 9; ++repeat) {
       const double before = processor_ms();
-      liquid_surface(places, {.spacing = spacing, .threads = 1});
+      liquid_surface(places, {.spacing = splash_spacing, .threads = 1});
       times.push_back(processor_ms() - before);
     }
     row_.surface = median(times) / median(times_);

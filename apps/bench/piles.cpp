@@ -7,14 +7,13 @@
 #include <ctime>
 
 #include "apps/bench/bench.h"
+#include "apps/bench/timing.h"
 #include "pliant/body.h"
 #include "pliant/error.h"
 #include "pliant/world.h"
 
 namespace pliant::bench {
 namespace {
-
-constexpr float frame_time = 1.f / 60;
 
 Quatf turned_about_x(float angle) { return {std::sin(angle / 2), 0, 0, std::cos(angle / 2)}; }
 Quatf turned_about_y(float angle) { return {0, std::sin(angle / 2), 0, std::cos(angle / 2)}; }

@@ -12,8 +12,8 @@ namespace pliant::bench {
 
 namespace {
 
-constexpr float frame_time = 1.f / 60, cell = 0.02f;
-constexpr const char *plain = "plain loop", *pliant_row = "pliant", *two = "two threads";
+constexpr float cell = 0.02f;
+constexpr const char *plain_loop_row = "plain loop", *pliant_row = "pliant", *two_threads_row = "two threads";
 
 TetrahedralMesh bar_of(int cells) {
   const int across = std::max(1, cells / 4);
@@ -96,7 +96,7 @@ class Bar {
 
   /// Compares the times with those of the same frames.
   SoftBodyRow row(const Bar& other) {
-    const bool is_parallel = row_.engine == two;
+    const bool is_parallel = row_.engine == two_threads_row;
     const std::vector<double>&mine = is_parallel ? wall_times_ : times_,
           &theirs = is_parallel ? other.wall_times_ : other.times_;
     row_.median_ms = median(mine);
@@ -120,8 +120,8 @@ class Bar {
   }
 
   static Scene for_engine(Scene scene, const char* engine) {
-    if (engine == plain) scene.settings.isa = "sequential";
-    if (engine == two) scene.settings.threads = 2;
+    if (engine == plain_loop_row) scene.settings.isa = "sequential";
+    if (engine == two_threads_row) scene.settings.threads = 2;
     return scene;
   }
 
@@ -136,7 +136,7 @@ void measure(const Case& of, int cells, const SoftBodyBenchOptions& options, std
   const TetrahedralMesh mesh = bar_of(cells);
   const Scene scene = scene_of(mesh, of);
   std::vector<Bar> bars;
-  for (const char* engine : {plain, pliant_row, two}) bars.emplace_back(scene, mesh, engine);
+  for (const char* engine : {plain_loop_row, pliant_row, two_threads_row}) bars.emplace_back(scene, mesh, engine);
   for (int frame = 0; frame < options.frames; ++frame)
     for (Bar& bar : bars) bar.step();
   for (Bar& bar : bars) {
@@ -144,7 +144,7 @@ void measure(const Case& of, int cells, const SoftBodyBenchOptions& options, std
       throw Error({}, "the plain loop, the lanes and two threads do not give the same bits", "report this as a bug");
     bar.row().cells = cells;
     bar.row().material = of.material;
-    rows.push_back(bar.row(bar.row().engine == two ? bars[1] : bars[0]));
+    rows.push_back(bar.row(bar.row().engine == two_threads_row ? bars[1] : bars[0]));
     if (options.on_row) options.on_row(rows.back());
   }
 }

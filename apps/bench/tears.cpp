@@ -11,8 +11,6 @@ namespace pliant::bench {
 
 namespace {
 
-constexpr float frame_time = 1.f / 60;
-
 Object block(int cells) { return make_soft_body(box_tetrahedra({1, 1, 1}, {cells, cells, cells})); }
 
 Object hanging_cloth(int cells) {

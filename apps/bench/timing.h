@@ -1,4 +1,4 @@
-// Clocks and the median of what they measured.
+// The length of a frame, clocks, and the median of what they measured.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +8,8 @@
 #include <vector>
 
 namespace pliant::bench {
+
+inline constexpr float frame_time = 1.f / 60;  ///< [s]
 
 /// Processor time of all threads of the process [ms].
 inline double processor_ms() { return 1000. * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
