@@ -9,8 +9,6 @@ namespace pliant::compare {
 
 namespace {
 
-double percent(double ratio) { return 100 * (ratio - 1); }
-
 plot::Chart panel(const std::string& title, const std::string& x, const std::string& y) {
   plot::Chart chart;
   chart.title = title;
@@ -34,7 +32,7 @@ plot::Series line(const Curve& curve, int colour, const X& x, const Y& y) {
 }
 
 double iterations_of(const Sample& sample) { return sample.iterations; }
-double milliseconds_of(const Sample& sample) { return sample.milliseconds; }
+double milliseconds_of_sample(const Sample& sample) { return sample.milliseconds; }
 double largest_of(const Sample& sample) { return percent(sample.stretch.largest); }
 double p99_of(const Sample& sample) { return percent(sample.stretch.p99); }
 
@@ -99,9 +97,9 @@ std::vector<plot::Chart> to_charts(const Result& result) {
   return {residual_panel(result, "iterations", count, iteration),
           residual_panel(result, "time", time, milliseconds_at),
           stretch_panel(result, "Largest stretch, by iterations", count, iterations_of, largest_of),
-          stretch_panel(result, "Largest stretch, by time", time, milliseconds_of, largest_of),
+          stretch_panel(result, "Largest stretch, by time", time, milliseconds_of_sample, largest_of),
           stretch_panel(result, "Stretch that 1 edge in 100 exceeds, by iterations", count, iterations_of, p99_of),
-          stretch_panel(result, "Stretch that 1 edge in 100 exceeds, by time", time, milliseconds_of, p99_of)};
+          stretch_panel(result, "Stretch that 1 edge in 100 exceeds, by time", time, milliseconds_of_sample, p99_of)};
 }
 
 }  // namespace pliant::compare

@@ -92,6 +92,9 @@ Result run(const Scene& scene, const Options& options);
 /// colliders.
 void take_state(World& to, World& from, std::size_t collider_particles = 0);
 
+/// By how much a ratio exceeds 1, in percent.
+inline double percent(double ratio) { return 100 * (ratio - 1); }
+
 /// Six panels: residual, largest stretch and its 99th percentile, each over iterations and over milliseconds.
 std::vector<plot::Chart> to_charts(const Result& result);
 std::string to_table(const Result& result);

@@ -14,8 +14,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double slow = 0.05;  ///< speed below which a scene counts as almost at rest [m/s]
 
-double percent(double ratio) { return 100 * (ratio - 1); }
-
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
   char text[320];
