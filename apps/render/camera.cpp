@@ -9,7 +9,6 @@
 namespace pliant::render {
 
 namespace {
-constexpr float degree = 3.14159265f / 180;
 constexpr float used_share = 0.86f;  // share of the picture's width and height that the scene fills
 
 /// The extreme lines of sight in one direction of the picture. A point (x, z) is visible if |x - eye_x| <= (eye_z - z)

@@ -6,7 +6,6 @@
 namespace pliant::render {
 
 Eye make_eye(const Camera& camera, int width, int height, const Extent& extent) {
-  constexpr float degree = 3.14159265f / 180;
   Eye eye{.camera = camera, .frame = view_frame(camera.target - camera.eye), .view_projection = {}};
   eye.half_height = std::tan(std::clamp(camera.field_of_view, 5.f, 120.f) * degree / 2);
   eye.half_width = eye.half_height * static_cast<float>(width) / static_cast<float>(height);

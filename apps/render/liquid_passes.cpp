@@ -4,7 +4,7 @@ namespace pliant::render {
 
 namespace {
 
-constexpr int shadow_size = 1024;
+constexpr int liquid_shadow_size = 1024;
 
 /// Makes what is drawn add to what the framebuffer holds, from 0 on.
 void begin_sums() {
@@ -26,7 +26,7 @@ float clarity_of(const Range& range, float size) { return range.clarity > 0 ? ra
 }  // namespace
 
 LiquidPasses::LiquidPasses(int width, int height) : width_(width), height_(height) {
-  Texture shadow = make_texture(GL_RGBA32F, shadow_size, shadow_size, GL_RGBA, GL_FLOAT, GL_LINEAR);
+  Texture shadow = make_texture(GL_RGBA32F, liquid_shadow_size, liquid_shadow_size, GL_RGBA, GL_FLOAT, GL_LINEAR);
   for (const GLenum direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})  // no liquid outside: the border is zero
     glTexParameteri(GL_TEXTURE_2D, direction, GL_CLAMP_TO_BORDER);
   shadow_ = colour_target(std::move(shadow));
@@ -36,7 +36,7 @@ LiquidPasses::LiquidPasses(int width, int height) : width_(width), height_(heigh
 
 void LiquidPasses::draw_shadows(const SceneBuffers& scene, const Sun& sun, float size, const OpaquePicture& opaque) const {
   glBindFramebuffer(GL_FRAMEBUFFER, shadow_.framebuffer.get());
-  glViewport(0, 0, shadow_size, shadow_size);
+  glViewport(0, 0, liquid_shadow_size, liquid_shadow_size);
   begin_sums();
   glActiveTexture(GL_TEXTURE2);
   glBindTexture(GL_TEXTURE_2D, opaque.shadow);
@@ -45,7 +45,7 @@ void LiquidPasses::draw_shadows(const SceneBuffers& scene, const Sun& sun, float
   of_shadows_.set("view_projection", sun.clip);
   of_shadows_.set("opaque", 2);
   of_shadows_.set("depth", sun.depth);
-  of_shadows_.set("texels", static_cast<float>(shadow_size));
+  of_shadows_.set("texels", static_cast<float>(liquid_shadow_size));
   for (const Range& range : scene.ranges()) {
     if (range.material != Material::liquid) continue;
     const Vec3f absorption = Vec3f{1.9f, 1.9f, 1.9f} - range.colour * 1.3f;

@@ -8,6 +8,8 @@
 
 namespace pliant::render {
 
+inline constexpr float degree = 3.14159265f / 180;  ///< [rad]
+
 inline float length(const Vec3f& v) { return std::sqrt(length_squared(v)); }
 
 /// The unit vector v / |v|; `otherwise` if v is zero.

@@ -22,15 +22,7 @@ namespace pliant::render {
 
 namespace {
 
-constexpr int shadow_size = 2048;
-
-struct Programs {
-  Program depth{depth_vertex, depth_fragment};
-  Program occlusion{screen_vertex, occlusion_fragment};
-  Program blur{screen_vertex, blur_fragment};
-  Program sky{screen_vertex, std::string(light_functions) + sky_fragment};
-  Program surface{surface_vertex, std::string(light_functions) + surface_fragment};
-};
+constexpr int shadow_map_size = 2048;
 
 Matrix to_texture(const Matrix& clip) {
   const Matrix halve{{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
@@ -66,6 +58,14 @@ float grid_spacing(float radius) {
 
 /// Over fifteen members: the OpenGL objects that the passes of a picture use.
 struct Renderer::Implementation {
+  struct Programs {
+    Program depth{depth_vertex, depth_fragment};
+    Program occlusion{screen_vertex, occlusion_fragment};
+    Program blur{screen_vertex, blur_fragment};
+    Program sky{screen_vertex, std::string(light_functions) + sky_fragment};
+    Program surface{surface_vertex, std::string(light_functions) + surface_fragment};
+  };
+
   Implementation(int w, int h);
   std::vector<std::uint8_t> draw(const RenderScene& scene);
 
@@ -97,7 +97,7 @@ Renderer::Implementation::Implementation(int w, int h)
   glGenVertexArrays(1, &name);
   nothing = VertexArray(name);
   shadow.texture =
-      make_texture(GL_DEPTH_COMPONENT24, shadow_size, shadow_size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR);
+      make_texture(GL_DEPTH_COMPONENT24, shadow_map_size, shadow_map_size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   GLuint sampler = 0;
   glGenSamplers(1, &sampler);
@@ -122,7 +122,7 @@ void Renderer::Implementation::draw_ranges(bool ground) const {
 
 void Renderer::Implementation::draw_shadows(const Matrix& clip) const {
   glBindFramebuffer(GL_FRAMEBUFFER, shadow.framebuffer.get());
-  glViewport(0, 0, shadow_size, shadow_size);
+  glViewport(0, 0, shadow_map_size, shadow_map_size);
   glClear(GL_DEPTH_BUFFER_BIT);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5f, 2.f);
@@ -207,11 +207,11 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("spacing", grid_spacing(size));
   program.set("picture", static_cast<float>(width), static_cast<float>(height));
   program.set("widest", 18.f);
-  program.set("softness", sun.softness * shadow_size);
+  program.set("softness", sun.softness * shadow_map_size);
   program.set("spiral", spiral(16));
   // If the centre of a pixel is outside the triangle that is visible in it, its position is up to a pixel away from the
   // surface.
-  program.set("bias", std::max(5 * size / shadow_size, 2 * pixel));
+  program.set("bias", std::max(5 * size / shadow_map_size, 2 * pixel));
   for (const Range& range : buffers.ranges()) {
     if (range.material == Material::liquid) continue;
     program.set("albedo", range.colour);
