@@ -43,17 +43,17 @@ void note(Audit& audit, std::size_t found, int frame) {
 // ---------------------------------------------------------------- ropes
 
 /// The box that a link sweeps.
-struct Box {
+struct SurfaceBox {
   Vec3d low, high;
 
-  bool is_near(const Box& other, double reach) const {
+  bool is_near(const SurfaceBox& other, double reach) const {
     return low.x - reach <= other.high.x && other.low.x - reach <= high.x && low.y - reach <= other.high.y &&
            other.low.y - reach <= high.y && low.z - reach <= other.high.z && other.low.z - reach <= high.z;
   }
 };
 
-Box path_of(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, std::size_t link) {
-  Box box{to_double(from[link]), to_double(from[link])};
+SurfaceBox path_of(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, std::size_t link) {
+  SurfaceBox box{to_double(from[link]), to_double(from[link])};
   for (const Vec3f& corner : {from[link + 1], to[link], to[link + 1]}) {
     const Vec3d p = to_double(corner);
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
@@ -89,7 +89,7 @@ class Links {
  private:
   static constexpr double reach = 0.01;  // distances up to this one are measured [m]
   std::vector<Vec3f> from_;
-  std::vector<Box> paths_;
+  std::vector<SurfaceBox> paths_;
   double least_ = 0;
 };
 

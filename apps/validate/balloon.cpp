@@ -6,8 +6,6 @@
 namespace pliant::validate {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 struct Balloon {
   double volume = 0, roundness = 1;  // ratios: volume to rest volume, smallest to largest radius
 };

@@ -12,9 +12,6 @@
 namespace pliant::validate {
 namespace {
 
-constexpr double g = 9.81, pi = 3.14159265358979323846;
-constexpr float frame_time = 1.f / 60;
-
 double length_of(const Vec3f& v) { return std::sqrt(static_cast<double>(length_squared(v))); }
 
 BodyOptions at(const Vec3f& position, const Vec3f& velocity = {}) {
@@ -28,7 +25,8 @@ BodyOptions at(const Vec3f& position, const Vec3f& velocity = {}) {
 Scene with_ground(double friction, double restitution = 0, double degrees = 0) {
   Scene scene;
   const double angle = degrees * pi / 180;
-  scene.gravity = {static_cast<float>(g * std::sin(angle)), static_cast<float>(-g * std::cos(angle)), 0};
+  scene.gravity = {static_cast<float>(standard_gravity * std::sin(angle)),
+                   static_cast<float>(-standard_gravity * std::cos(angle)), 0};
   scene.settings.threads = 1;
   Collider ground;
   ground.static_friction = ground.kinetic_friction = static_cast<float>(friction);
@@ -120,7 +118,7 @@ Vec3f pushed(const SolidShape& shape, bool is_on_mesh) {
   return world.object(0).positions()[0];
 }
 
-void mesh_rows(Result& result) {
+void body_mesh_rows(Result& result) {
   const std::vector<std::pair<std::string, SolidShape>> solids{{"box", Box{}}, {"ball", Sphere{}}};
   for (const auto& [name, shape] : solids)
     result.rows.push_back(at_most("bodies: engine, " + name + " on a flat mesh, from where it would be on a plane", 1e-3,
@@ -128,7 +126,7 @@ void mesh_rows(Result& result) {
                                   "3 m/s, friction 0.1, after 4 m, edges every 0.3 m"));
 }
 
-void friction_rows(Result& result) {
+void body_friction_rows(Result& result) {
   double slips = 0;
   for (double degrees = 30; degrees < 32 && slips == 0; degrees += 0.05)
     if (std::fabs(static_cast<double>(slid(degrees, 0, 300).x)) > 0.02) slips = degrees;
@@ -137,11 +135,11 @@ void friction_rows(Result& result) {
                           "friction 0.6; moves by 2 cm within 5 s"));
   rows.push_back(at_most("bodies: engine, creep of a box on an incline of 29 degrees", 1e-3,
                          std::fabs(static_cast<double>(slid(29, 0, 600).x)), "m", "friction 0.6, 10 s"));
-  const double a = g * (std::sin(40 * pi / 180) - 0.6 * std::cos(40 * pi / 180));
+  const double a = standard_gravity * (std::sin(40 * pi / 180) - 0.6 * std::cos(40 * pi / 180));
   rows.push_back(relative("bodies: engine, way of a box on an incline of 40 degrees", a * 2,
                           static_cast<double>(slid(40, 0, 120).x), 1e-2, "m",
                           "friction 0.6, 2 s: (g sin - mu g cos) t^2 / 2"));
-  rows.push_back(relative("bodies: engine, stopping distance of a box", 9 / (2 * 0.6 * g),
+  rows.push_back(relative("bodies: engine, stopping distance of a box", 9 / (2 * 0.6 * standard_gravity),
                           static_cast<double>(slid(0, 3, 120).x), 1e-2, "m", "3 m/s, friction 0.6: v^2 / (2 mu g)"));
 }
 
@@ -161,7 +159,7 @@ double bounce(const SolidShape& shape, double restitution, int substeps) {
                v = static_cast<double>(world.object(0).velocities()[0].y);
     if (has_bounced && v < 0) break;
     has_bounced = has_bounced || v > 0;
-    if (has_bounced) height = std::max(height, y - 0.5 + v * v / (2 * g));
+    if (has_bounced) height = std::max(height, y - 0.5 + v * v / (2 * standard_gravity));
   }
   return height;
 }
@@ -187,7 +185,7 @@ std::vector<double> after_impact(const std::vector<double>& densities, double re
   return speeds;
 }
 
-void impact_rows(Result& result) {
+void body_impact_rows(Result& result) {
   auto& rows = result.rows;
   for (const double e : {1., 0.8, 0.5}) {
     const std::string what = ", restitution " + brief(e), note = "falls by 2 m; ";
@@ -265,8 +263,8 @@ Row stack_row(const std::string& what, const std::vector<float>& sizes, const st
 
 void rest_rows(Result& result) {
   auto& rows = result.rows;
-  rows.push_back(
-      relative("bodies: engine, force under a box at rest", 1000 * g, resting_force(), 1e-3, "N", "1000 kg, after 2 s"));
+  rows.push_back(relative("bodies: engine, force under a box at rest", 1000 * standard_gravity, resting_force(), 1e-3, "N",
+                          "1000 kg, after 2 s"));
   rows.push_back(stack_row("box on one a hundredth as heavy", {1, 1}, {1000, 1e5f}, 0));
   rows.push_back(stack_row("box on one a thousandth as heavy", {1, 1}, {1000, 1e6f}, 32));
   std::vector<float> ten(11, 1000.f);
@@ -286,9 +284,9 @@ void rest_rows(Result& result) {
 
 void body_rows(Result& result, bool) {
   tumbling_rows(result);
-  friction_rows(result);
-  mesh_rows(result);
-  impact_rows(result);
+  body_friction_rows(result);
+  body_mesh_rows(result);
+  body_impact_rows(result);
   rest_rows(result);
 }
 

@@ -11,13 +11,11 @@ namespace {
 
 using reference::Solver;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // ---- twenty particles of 1 kg, the first fixed: the top constraint carries nineteen
 
-constexpr int links = 19;
+constexpr int chain_links = 19;
 constexpr float link_length = 0.1f;
-constexpr double frame = 1.0 / 60;
+constexpr double chain_frame = 1.0 / 60;
 
 Solver hanging_reference(int count, double length, double last_mass, double compliance) {
   Solver solver;
@@ -28,28 +26,29 @@ Solver hanging_reference(int count, double length, double last_mass, double comp
 }
 
 double reference_force(int iterations) {
-  Solver solver = hanging_reference(links + 1, static_cast<double>(link_length), 1, 1e-8);
+  Solver solver = hanging_reference(chain_links + 1, static_cast<double>(link_length), 1, 1e-8);
   solver.iterations = iterations;
   std::vector<double> forces;
   for (int i = 0; i < 900; ++i) {
-    solver.step(frame);
-    if (i >= 600) forces.push_back(-solver.multiplier(0) / (frame * frame));
+    solver.step(chain_frame);
+    if (i >= 600) forces.push_back(-solver.multiplier(0) / (chain_frame * chain_frame));
   }
-  return farthest(10 * links, forces);
+  return farthest(10 * chain_links, forces);
 }
 
 double engine_force(int iterations) {
-  Scene scene = scene_with(hanging_line(links + 1, link_length, 1, 1, Stiffness::compliance(1e-8f)), 10, 1, iterations);
+  Scene scene =
+      scene_with(hanging_line(chain_links + 1, link_length, 1, 1, Stiffness::compliance(1e-8f)), 10, 1, iterations);
   scene.settings.record_multipliers = true;
   World world(scene);
   std::vector<double> forces;
   for (int i = 0; i < 900; ++i) {
-    world.step(static_cast<float>(frame));
+    world.step(static_cast<float>(chain_frame));
     if (i < 600) continue;
     const std::vector<float> multipliers = world.object(0).multipliers("distance");
-    forces.push_back(multipliers.empty() ? infinity : -static_cast<double>(multipliers[0]) / (frame * frame));
+    forces.push_back(multipliers.empty() ? infinity : -static_cast<double>(multipliers[0]) / (chain_frame * chain_frame));
   }
-  return farthest(10 * links, forces);
+  return farthest(10 * chain_links, forces);
 }
 
 void force_rows(Result& result) {

@@ -13,8 +13,6 @@
 namespace pliant::validate {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, g = 9.81;
-
 // ------------------------------------------------------------------------------------------------ continuous tests
 
 /// Makes vertex-triangle or edge-edge pairs in linear motion that cross at a time within it, or miss.
@@ -137,7 +135,7 @@ double slide(double degrees, bool filter) {
 }
 
 void slope_rows(Result& result, bool filter) {
-  const double angle = 40 * pi / 180, way = 0.5 * g * (std::sin(angle) - 0.5 * std::cos(angle));
+  const double angle = 40 * pi / 180, way = 0.5 * standard_gravity * (std::sin(angle) - 0.5 * std::cos(angle));
   result.rows.push_back(at_most("collision: engine, creep on triangles at 25.6 degrees" + with(filter), 0.002,
                                 slide(25.6, filter), "m", "friction 0.5 holds to 26.57 degrees"));
   result.rows.push_back(relative("collision: engine, slide on triangles at 40 degrees" + with(filter), way,
@@ -157,7 +155,7 @@ double apex(float restitution, bool filter) {
   for (int frame = 0; frame < 60; ++frame) {
     world.step(1.f / 60);
     const double y = double(world.object(0).positions()[4].y) - 0.002, v = double(world.object(0).velocities()[4].y);
-    if (v > 0.1) return y + v * v / (2 * g);
+    if (v > 0.1) return y + v * v / (2 * standard_gravity);
   }
   return 0;
 }

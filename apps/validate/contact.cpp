@@ -7,20 +7,19 @@
 namespace pliant::validate {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, g = 9.81;
-constexpr float thickness = 0.01f;
-constexpr int substeps = 20, bounce_substeps = 100;
+constexpr float contact_thickness = 0.01f;
+constexpr int sliding_substeps = 20, bounce_substeps = 100;
 
 // A particle in contact with a plane that is tilted by `degrees` about the z-axis; both have the given friction.
 Scene on_plane(double degrees, double friction, const Vec3f& velocity) {
   const double angle = degrees * pi / 180;
-  const float away = thickness;
+  const float away = contact_thickness;
   Object object =
       particles({{static_cast<float>(-std::sin(angle)) * away, static_cast<float>(std::cos(angle)) * away, 0}}, {0.5f});
   object.velocities = {velocity};
-  object.thickness = thickness;
+  object.thickness = contact_thickness;
   object.static_friction = object.kinetic_friction = static_cast<float>(friction);
-  Scene scene = scene_with(object, g, substeps, 1);
+  Scene scene = scene_with(object, standard_gravity, sliding_substeps, 1);
   Collider plane;
   plane.rotation = rotation({0, 0, 1}, static_cast<float>(degrees));
   plane.static_friction = plane.kinetic_friction = static_cast<float>(friction);
@@ -48,7 +47,7 @@ double slip_angle(double friction) {
 
 double stopping_distance(double friction, double speed) {
   World world(on_plane(0, friction, {static_cast<float>(speed), 0, 0}));
-  const double time = 1.5 * speed / (friction * g) + 0.2;
+  const double time = 1.5 * speed / (friction * standard_gravity) + 0.2;
   for (int i = 0; i * (1.0 / 60) < time; ++i) world.step(1.f / 60);
   return static_cast<double>(world.object(0).positions()[0].x);
 }
@@ -58,8 +57,9 @@ void friction_rows(Result& result) {
     const std::string with = ", friction " + brief(friction);
     result.rows.push_back(absolute("contact: engine, slip angle" + with, std::atan(friction) * 180 / pi,
                                    slip_angle(friction), 1, "degrees", "tan(theta) = mu; bisection, 20 substeps"));
-    result.rows.push_back(relative("contact: engine, stopping distance from 2 m/s" + with, 4 / (2 * friction * g),
-                                   stopping_distance(friction, 2), 0.01, "m", "v^2 / (2 mu g), 20 substeps"));
+    result.rows.push_back(relative("contact: engine, stopping distance from 2 m/s" + with,
+                                   4 / (2 * friction * standard_gravity), stopping_distance(friction, 2), 0.01, "m",
+                                   "v^2 / (2 mu g), 20 substeps"));
   }
 }
 
@@ -71,10 +71,10 @@ struct Bounce {
 // Drops a particle from 1 m above contact. The apex is computed from position and velocity, because it may be between
 // frames.
 Bounce drop(double restitution) {
-  Object object = particles({{0, 1 + thickness, 0}}, {1});
-  object.thickness = thickness;
+  Object object = particles({{0, 1 + contact_thickness, 0}}, {1});
+  object.thickness = contact_thickness;
   object.restitution = static_cast<float>(restitution);
-  Scene scene = scene_with(object, g, bounce_substeps, 1);
+  Scene scene = scene_with(object, standard_gravity, bounce_substeps, 1);
   scene.add(Collider{});
   World world(scene);
   Bounce bounce;
@@ -82,9 +82,9 @@ Bounce drop(double restitution) {
   bool counted = false;
   for (int i = 0; i < 180; ++i) {
     world.step(1.f / 60);
-    const double y = static_cast<double>(world.object(0).positions()[0].y - thickness),
+    const double y = static_cast<double>(world.object(0).positions()[0].y - contact_thickness),
                  v = static_cast<double>(world.object(0).velocities()[0].y);
-    if (v > 0.1 && !counted) bounce.apex = y + v * v / (2 * g);
+    if (v > 0.1 && !counted) bounce.apex = y + v * v / (2 * standard_gravity);
     if (v > 0.1) counted = true;
     bounce.curve.x.push_back((i + 1) / 60.0);
     bounce.curve.y.push_back(y);

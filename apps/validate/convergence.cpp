@@ -13,17 +13,16 @@
 namespace pliant::validate {
 namespace {
 
-constexpr int links = 100;
+constexpr int string_links = 100;
 constexpr unsigned seed = 5394;
-const double pi = std::acos(-1.0);
-const double jacobi_radius = std::cos(pi / (links + 1));
+const double jacobi_radius = std::cos(pi / (string_links + 1));
 const double gauss_seidel_radius = jacobi_radius * jacobi_radius;
 
 /// Positions along the chain: distance one plus a random displacement each.
 std::vector<double> start() {
   Random random(seed);
   std::vector<double> x;
-  for (int i = 0; i <= links; ++i) x.push_back(i + 0.1 * random.uniform(-1, 1));
+  for (int i = 0; i <= string_links; ++i) x.push_back(i + 0.1 * random.uniform(-1, 1));
   return x;
 }
 
@@ -44,32 +43,32 @@ void project(Places& x, int link, double relaxation = 1) {
 
 double residual(const Places& x) {
   double sum = 0;
-  for (int i = 0; i < links; ++i) sum += error_of(x, i) * error_of(x, i);
-  return std::sqrt(sum / links);
+  for (int i = 0; i < string_links; ++i) sum += error_of(x, i) * error_of(x, i);
+  return std::sqrt(sum / string_links);
 }
 
 void jacobi(Places& x) {
   Places moved = x;
-  for (int i = 0; i < links; ++i) {
+  for (int i = 0; i < string_links; ++i) {
     moved[static_cast<std::size_t>(i)] += error_of(x, i) / 2;
     moved[static_cast<std::size_t>(i) + 1] -= error_of(x, i) / 2;
   }
   x = moved;
 }
 void natural(Places& x) {
-  for (int i = 0; i < links; ++i) project(x, i);
+  for (int i = 0; i < string_links; ++i) project(x, i);
 }
 void red_black(Places& x) {
-  for (int i = 0; i < links; i += 2) project(x, i);
-  for (int i = 1; i < links; i += 2) project(x, i);
+  for (int i = 0; i < string_links; i += 2) project(x, i);
+  for (int i = 1; i < string_links; i += 2) project(x, i);
 }
 void symmetric(Places& x) {
   natural(x);
-  for (int i = links; i-- > 0;) project(x, i);
+  for (int i = string_links; i-- > 0;) project(x, i);
 }
 void over_relaxed(Places& x) {
-  const double best = 2 / (1 + std::sin(pi / (links + 1)));
-  for (int i = 0; i < links; ++i) project(x, i, best);
+  const double best = 2 / (1 + std::sin(pi / (string_links + 1)));
+  for (int i = 0; i < string_links; ++i) project(x, i, best);
 }
 
 using Sweeper = void (*)(Places&);
@@ -146,9 +145,9 @@ Scene chain_scene(Sweep sweep, const SweepOptions& options, int iterations) {
   std::vector<Vec3f> positions;
   std::vector<int> pairs;
   for (double x : start()) positions.push_back({static_cast<float>(x), 0, 0});
-  for (int i = 0; i < links; ++i) pairs.insert(pairs.end(), {i, i + 1});
-  Object object = particles(positions, std::vector<float>(links + 1, 1.f));
-  connect(object, pairs, std::vector<float>(links, 1.f), Stiffness::rigid());
+  for (int i = 0; i < string_links; ++i) pairs.insert(pairs.end(), {i, i + 1});
+  Object object = particles(positions, std::vector<float>(string_links + 1, 1.f));
+  connect(object, pairs, std::vector<float>(string_links, 1.f), Stiffness::rigid());
   Scene scene = scene_with(object, 0, 1, iterations);
   scene.settings.sweep = sweep;
   scene.settings.sweep_options = options;
@@ -184,7 +183,7 @@ double refusals() {
 
 void engine_rows(Result& result) {
   SweepOptions over;
-  over.relaxation = static_cast<float>(2 / (1 + std::sin(pi / (links + 1))));
+  over.relaxation = static_cast<float>(2 / (1 + std::sin(pi / (string_links + 1))));
   const auto add = [&](const std::string& name, double expected, double measured) {
     result.rows.push_back(relative("convergence: engine, " + name, expected, measured, 0.1, "sweeps",
                                    "the same chain, float; its two colours are red and black"));

@@ -12,10 +12,9 @@
 namespace pliant::validate {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double radius = 0.15, clamped = 0.09;  ///< of the specimen and of the supporting disc [m]
-constexpr int frames = 360;
-constexpr float air = 2;  ///< rate at which air slows the cloth [1/s]
+constexpr double specimen_radius = 0.15, disc_radius = 0.09;  ///< of the specimen and of the supporting disc [m]
+constexpr int drape_frames = 360;
+constexpr float air_damping = 2;  ///< rate at which air slows the cloth [1/s]
 
 /// A disc of `rings` rings, of which the k-th has 6 k vertices. With a multiple of 5 rings one lies on the rim of the
 /// support. Irregular: each vertex between the rims is displaced at random, by up to 0.3 of the distance of two rings.
@@ -24,7 +23,7 @@ TriangleMesh disc_mesh(int rings, bool irregular) {
   Random random(7);
   const auto first = [](int ring) { return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1); };
   const auto vertex = [&](int ring, int i) { return ring == 0 ? 0 : first(ring) + i % (6 * ring); };
-  const double step = radius / rings;
+  const double step = specimen_radius / rings;
   for (int ring = 1; ring <= rings; ++ring)
     for (int i = 0; i < 6 * ring; ++i) {
       double r = step * ring, turn = 2 * pi * i / (6 * ring);
@@ -100,7 +99,7 @@ int folds_of(const std::vector<Vec3f>& positions, int rings) {
 
 /// The share of the overhanging ring that the shadow of the specimen covers [%].
 double coefficient_of(const std::vector<Vec3f>& positions, const TriangleMesh& mesh) {
-  const double held = pi * clamped * clamped, whole = pi * radius * radius;
+  const double held = pi * disc_radius * disc_radius, whole = pi * specimen_radius * specimen_radius;
   return 100 * (shadow_of(positions, mesh.triangles) - held) / (whole - held);
 }
 
@@ -115,17 +114,17 @@ Drape drape(const Fabric& fabric, int rings, bool irregular) {
   options.material = fabric;
   const TriangleMesh mesh = disc_mesh(rings, irregular);
   Object object = make_cloth(mesh, options);
-  object.damping = air;
+  object.damping = air_damping;
   object.self_collision = true;
   Scene scene;
   scene.settings.threads = 1;
   scene.add(std::move(object));
   std::vector<int> held;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    if (length(mesh.positions[i]) < clamped + 1e-4) held.push_back(static_cast<int>(i));
+    if (length(mesh.positions[i]) < disc_radius + 1e-4) held.push_back(static_cast<int>(i));
   scene.pin(0, held);
   World world(scene);
-  for (int frame = 0; frame < frames; ++frame) world.step(scene.frame_time);
+  for (int frame = 0; frame < drape_frames; ++frame) world.step(scene.frame_time);
   const std::vector<Vec3f> positions = world.object(0).positions();
   return {coefficient_of(positions, mesh), folds_of(positions, rings)};
 }

@@ -9,8 +9,8 @@
 namespace pliant::validate {
 namespace {
 
-constexpr int frames = 600;
-constexpr float link = 0.01f;
+constexpr int heavy_chain_frames = 600;
+constexpr float heavy_link = 0.01f;
 
 struct Case {
   int links;
@@ -20,7 +20,7 @@ struct Case {
 };
 
 Object chain_of(const Case& of) {
-  Object line = hanging_line(of.links + 1, link, 1, of.load, Stiffness::rigid());
+  Object line = hanging_line(of.links + 1, heavy_link, 1, of.load, Stiffness::rigid());
   const float across = of.slope == 0 ? 0.f : 0.70710678f, down = of.slope == 0 ? 1.f : 0.70710678f;
   for (Vec3f& p : line.positions) p = {-p.y * across, p.y * down, 0};
   return line;
@@ -31,9 +31,9 @@ double error_of(const Case& of, Sweep sweep) {
   Scene scene = scene_with(chain_of(of), 10, of.substeps, of.iterations);
   scene.settings.sweep = sweep;
   World world(scene);
-  const double length = static_cast<double>(link) * of.links;
+  const double length = static_cast<double>(heavy_link) * of.links;
   double worst = 0;
-  for (int frame = 0; frame < frames; ++frame) {
+  for (int frame = 0; frame < heavy_chain_frames; ++frame) {
     if (!world.step(1.f / 60).ok()) return std::numeric_limits<double>::infinity();
     const Vec3f end = world.object(0).positions().back();
     worst = std::max(worst, std::fabs(std::sqrt(static_cast<double>(length_squared(end))) - length) / length);

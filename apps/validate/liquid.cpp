@@ -11,7 +11,7 @@
 namespace pliant::validate {
 namespace {
 
-constexpr float g = 9.81f, frame_time = 1.f / 60;
+constexpr float gravity_in_float = 9.81f;
 constexpr const char* source = "J. C. Martin and W. J. Moyce, Phil. Trans. R. Soc. A 244 (1952), 312-324, n^2 = 2";
 
 /// Points of a measured curve.
@@ -48,7 +48,7 @@ void add_tank(Scene& scene, const Vec3f& size) {
 
 Scene tank_scene(const Vec3f& filled, float spacing, float tank_length) {
   Scene scene;
-  scene.gravity = {0, -g, 0};
+  scene.gravity = {0, -gravity_in_float, 0};
   scene.frame_time = frame_time;
   scene.settings.threads = 1;
   scene.add(make_liquid(fill_box({}, filled, spacing), {.name = "water", .fluid = {.spacing = spacing}}));
@@ -113,7 +113,7 @@ void dam_rows(Result& result, int across, plot::Chart& fronts, plot::Chart& heig
   Gauges gauges({{"front", FrontGauge{{1, 0, 0}, 0.99f}}, {"height", HeightGauge{{0, 0, 0}, {cell, 4 * a, 6 * spacing}}}},
                 scene, world);
   std::vector<double> front, height;
-  const double unit = std::sqrt(static_cast<double>(a) / (2 * static_cast<double>(g)));
+  const double unit = std::sqrt(static_cast<double>(a) / (2 * static_cast<double>(gravity_in_float)));
   const int frames = static_cast<int>(measured_front.back().first * unit / static_cast<double>(frame_time)) + 2;
   double compression = 0;
   for (int i = 0; i <= frames; ++i) {
@@ -181,7 +181,7 @@ void column_rows(Result& result) {
     curve.x.push_back(world.state().time);
     curve.y.push_back(height_of(world) / static_cast<double>(height));
   }
-  const double weight = 1000 * static_cast<double>(height * side * side * g);
+  const double weight = 1000 * static_cast<double>(height * side * side * gravity_in_float);
   const std::string how = "2 m of 640 particles at rest for 60 s, default substeps";
   result.rows.push_back(at_most("liquids: column, mean compression", 0.01, compression.mean, "", how));
   result.rows.push_back(at_most("liquids: column, largest compression", 0.05, compression.largest, "", how));
@@ -193,14 +193,14 @@ void column_rows(Result& result) {
 }
 
 /// Linear and angular momentum over the mass of a particle.
-struct Momentum {
+struct LiquidMomentum {
   Vec3d linear{}, angular{};
   double size = 0;          ///< sum of |v|
   double angular_size = 0;  ///< sum of |x| |v|
 };
 
-Momentum momentum_of(const World& world) {
-  Momentum sum;
+LiquidMomentum momentum_of(const World& world) {
+  LiquidMomentum sum;
   const std::vector<Vec3f> places = world.object(0).positions(), velocities = world.object(0).velocities();
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Vec3d v = to_double(velocities[i]), x = to_double(places[i]);
@@ -225,9 +225,9 @@ void momentum_rows_of_liquid(Result& result) {
   scene.settings.threads = 1;
   scene.add(liquid);
   World world(scene);
-  const Momentum before = momentum_of(world);
+  const LiquidMomentum before = momentum_of(world);
   for (int i = 0; i < 60; ++i) world.step(frame_time);
-  const Momentum after = momentum_of(world);
+  const LiquidMomentum after = momentum_of(world);
   const std::string how = "two blocks that meet at 4 m/s, 60 frames";
   result.rows.push_back(absolute("liquids: linear momentum", 0, length(after.linear - before.linear) / before.size, 1e-6,
                                  "", how + "; change over the sum of the magnitudes of m v"));

@@ -12,7 +12,6 @@
 namespace pliant::validate {
 namespace {
 
-constexpr float pi = 3.14159265f;
 constexpr float thickness_of_edge = 0.1f;  // thickness over edge length, as docs/guide/contact.md recommends
 
 /// Self-colliding cotton, for a sheet with edges of length `edge`.
@@ -54,10 +53,11 @@ std::vector<int> border(const Object& sheet, int end, float Vec3f::*axis) {
 Scene folded_scene(int side) {
   constexpr float edge = 0.01f;
   TriangleMesh mesh = square(side, edge);
-  const float half = 0.5f * edge * static_cast<float>(side - 1), radius = 0.06f * half, flat = half - pi / 2 * radius;
+  const float half = 0.5f * edge * static_cast<float>(side - 1), radius = 0.06f * half,
+              flat = half - std::numbers::pi_v<float> / 2 * radius;
   for (Vec3f& p : mesh.positions) {
-    const float along = p.x + half, angle = std::clamp((along - flat) / radius, 0.f, pi);
-    const float back = std::max(0.f, along - flat - pi * radius);
+    const float along = p.x + half, angle = std::clamp((along - flat) / radius, 0.f, std::numbers::pi_v<float>);
+    const float back = std::max(0.f, along - flat - std::numbers::pi_v<float> * radius);
     p.x = std::min(along, flat) + radius * std::sin(angle) - back;
     p.y = 0.2f + radius * (1 - std::cos(angle));
   }
@@ -73,7 +73,7 @@ Scene layered_scene(int side) {
   Scene scene = scene_of(20);
   for (int layer = 0; layer < 10; ++layer) {
     TriangleMesh mesh = square(side, edge);
-    const double angle = layer * 9 * double(pi) / 180;
+    const double angle = layer * 9 * double(std::numbers::pi_v<float>) / 180;
     const float c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
     for (Vec3f& p : mesh.positions) p = {c * p.x + s * p.z, 0.44f + 0.015f * static_cast<float>(layer), c * p.z - s * p.x};
     scene.add(sheet_of(mesh, edge, "layer_" + std::to_string(layer + 1)));
@@ -153,7 +153,7 @@ std::vector<Vec3f> resampled(const std::vector<Vec3d>& line, double apart) {
 
 /// A trefoil knot that is cut at the tip of a lobe, with its ends led outward [m].
 std::vector<Vec3f> open_trefoil(double size, double link) {
-  constexpr double turn = 2 * double(pi), gap = 0.12, leg = 8;
+  constexpr double turn = 2 * double(std::numbers::pi_v<float>), gap = 0.12, leg = 8;
   constexpr int pieces = 2000;
   const auto at = [](double t) {
     return Vec3d{std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t), -std::sin(3 * t)};

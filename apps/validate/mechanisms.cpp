@@ -14,7 +14,7 @@
 namespace pliant::validate {
 namespace {
 
-constexpr double g = 9.81, pi = 3.14159265358979323846, frame_time = 1. / 60;
+constexpr double mechanism_frame = 1. / 60;
 
 /// Substeps of a frame: steps of 1/480 to 1/2400 s.
 constexpr std::array<int, 3> all_substeps{8, 20, 40};
@@ -34,7 +34,7 @@ Vec3d axis_of(const Quatf& rotation, const Vec3d& axis) {
 /// A World of one object with gravity along -y.
 World world_of(const Object& object, int substeps) {
   Scene scene;
-  scene.gravity = {0, static_cast<float>(-g), 0};
+  scene.gravity = {0, static_cast<float>(-standard_gravity), 0};
   scene.settings.threads = 1;
   scene.settings.substeps = substeps;
   scene.add(object);
@@ -45,7 +45,7 @@ double energy(const World& world) { return world.measure().kinetic_energy() + wo
 
 // ------------------------------------------------------------------------------------------------ compound pendulum
 
-constexpr double rod = 1, thickness = 0.1;
+constexpr double rod = 1, rod_thickness = 0.1;
 
 /// A rod on a hinge at its upper end, an angle from hanging.
 Object pendulum(double angle) {
@@ -53,7 +53,7 @@ Object pendulum(double angle) {
   options.position = to_float({rod / 2 * std::sin(angle), -rod / 2 * std::cos(angle), 0});
   options.rotation = rotation_about({0, 0, 1}, angle);
   options.mass = 2;
-  const float half = static_cast<float>(thickness / 2);
+  const float half = static_cast<float>(rod_thickness / 2);
   Object object = make_body({{Box{{half, static_cast<float>(rod / 2), half}}}}, options);
   add_joint(object, HingeJoint{.b = 0, .anchor = {0, 0, 0}, .axis = {0, 0, 1}});
   return object;
@@ -61,14 +61,14 @@ Object pendulum(double angle) {
 
 /// 2 pi sqrt(I / (m g l)) over the arithmetic-geometric mean of 1 and cos(amplitude / 2) [s].
 double pendulum_period(double amplitude) {
-  const double inertia = (rod * rod + thickness * thickness) / 12 + rod * rod / 4;  // for each kilogram
+  const double inertia = (rod * rod + rod_thickness * rod_thickness) / 12 + rod * rod / 4;  // for each kilogram
   double a = 1, b = std::cos(amplitude / 2);
   for (int i = 0; i < 40; ++i) {
     const double mean = (a + b) / 2;
     b = std::sqrt(a * b);
     a = mean;
   }
-  return 2 * pi * std::sqrt(inertia / (g * rod / 2)) / a;
+  return 2 * pi * std::sqrt(inertia / (standard_gravity * rod / 2)) / a;
 }
 
 /// What a pendulum does in 10 s: its mean period [s], and how its energy where it turns back differs at most from that of the start,
@@ -79,16 +79,16 @@ struct Swing {
 
 Swing swing(double amplitude, int substeps) {
   World world = world_of(pendulum(amplitude), substeps);
-  const double start = energy(world), scale = 2 * g * rod / 2 * (1 - std::cos(amplitude));
+  const double start = energy(world), scale = 2 * standard_gravity * rod / 2 * (1 - std::cos(amplitude));
   Swing result;
   std::vector<double> passages, energies;
   struct Moment {
     double x, spin, energy;
   } before{std::sin(amplitude), 0, start};
   for (int frame = 1; frame <= 600; ++frame) {
-    world.step(static_cast<float>(frame_time));
+    world.step(static_cast<float>(mechanism_frame));
     const Moment now{world.object(0).positions()[0].x, world.object(0).angular_velocities()[0].z, energy(world)};
-    if ((now.x < 0) != (before.x < 0)) passages.push_back((frame - now.x / (now.x - before.x)) * frame_time);
+    if ((now.x < 0) != (before.x < 0)) passages.push_back((frame - now.x / (now.x - before.x)) * mechanism_frame);
     if (frame > 1 && (now.spin < 0) != (before.spin < 0)) {
       const double turns = before.spin / (before.spin - now.spin);
       energies.push_back((before.energy + (now.energy - before.energy) * turns - start) / scale);
@@ -124,7 +124,7 @@ struct Top {
 
   /// The slower of both regular precessions [rad/s]: I3 w3 W - I1 W^2 cos(tilt) = m g l, of which m g l / (I3 w3) is the limit.
   double precession() const {
-    const double l = axial * spin, c = transverse * std::cos(tilt), moment = mass * g * arm;
+    const double l = axial * spin, c = transverse * std::cos(tilt), moment = mass * standard_gravity * arm;
     return 2 * moment / (l + std::sqrt(l * l - 4 * c * moment));
   }
 };
@@ -151,14 +151,14 @@ std::pair<double, double> precess(const Top& top, int substeps) {
   World world = world_of(object_of(top), substeps);
   double angle = 0, before = 0, nutation = 0;
   for (int frame = 0; frame < 240; ++frame) {
-    world.step(static_cast<float>(frame_time));
+    world.step(static_cast<float>(mechanism_frame));
     const Vec3d x = to_double(world.object(0).positions()[0]);
     const double now = std::atan2(-x.z, x.x);
     angle += std::remainder(now - before, 2 * pi);
     before = now;
     nutation = std::max(nutation, std::fabs(std::atan2(std::hypot(x.x, x.z), x.y) - top.tilt));
   }
-  return {angle / (240 * frame_time), nutation};
+  return {angle / (240 * mechanism_frame), nutation};
 }
 
 void top_rows(Result& result, int substeps) {
@@ -166,7 +166,7 @@ void top_rows(Result& result, int substeps) {
     const Top top{degrees * pi / 180, 60};
     const auto [rate, nutation] = precess(top, substeps);
     const std::string what = " of a top at " + brief(degrees) + " degrees, " + brief(substeps) + " substeps";
-    const double simple = Top::mass * g * Top::arm / (Top::axial * top.spin);
+    const double simple = Top::mass * standard_gravity * Top::arm / (Top::axial * top.spin);
     result.rows.push_back(relative("mechanisms: engine, precession" + what, top.precession(), rate, 5e-3, "rad/s",
                                    "60 rad/s, mean of 4 s; m g l / (I3 w3) is " + brief(simple)));
     result.rows.push_back(
@@ -177,7 +177,7 @@ void top_rows(Result& result, int substeps) {
 // ------------------------------------------------------------------------------------------------ four-bar linkage
 
 /// Ground, crank, coupler and rocker [m]; the crank is the shortest, so it can turn all the way (Grashof).
-constexpr double ground = 2, crank = 0.5, coupler = 1.8, rocker = 1.5;
+constexpr double ground_link = 2, crank_link = 0.5, coupler_link = 1.8, rocker_link = 1.5;
 
 /// Where the pins of crank and rocker are while the crank has an angle: the closed form of Freudenstein's equation. The
 /// linkage is open, so the rocker's pin is above the coupler.
@@ -186,10 +186,11 @@ struct Pins {
 };
 
 Pins pins_at(double angle) {
-  const Vec3d pin{crank * std::cos(angle), crank * std::sin(angle), 0}, pivot{ground, 0, 0}, d = pivot - pin;
-  const double distance = length(d), along = (coupler * coupler - rocker * rocker + distance * distance) / (2 * distance);
+  const Vec3d pin{crank_link * std::cos(angle), crank_link * std::sin(angle), 0}, pivot{ground_link, 0, 0}, d = pivot - pin;
+  const double distance = length(d),
+               along = (coupler_link * coupler_link - rocker_link * rocker_link + distance * distance) / (2 * distance);
   const Vec3d u = d * (1 / distance), across{-u.y, u.x, 0};
-  return {pin, pin + u * along + across * std::sqrt(coupler * coupler - along * along)};
+  return {pin, pin + u * along + across * std::sqrt(coupler_link * coupler_link - along * along)};
 }
 
 int add_bar(Object& object, const Vec3d& from, const Vec3d& to) {
@@ -206,13 +207,13 @@ Object linkage() {
   const Pins pins = pins_at(1);
   Object object;
   const int first = add_bar(object, {}, pins.crank), middle = add_bar(object, pins.crank, pins.rocker),
-            last = add_bar(object, pins.rocker, {ground, 0, 0});
+            last = add_bar(object, pins.rocker, {ground_link, 0, 0});
   HingeJoint driven{.b = first, .anchor = {0, 0, 0}};
   driven.motor = JointMotor{.kind = JointMotor::Kind::speed, .target = 3, .most = 500};
   add_joint(object, driven);
   add_joint(object, HingeJoint{.a = first, .b = middle, .anchor = to_float(pins.crank)});
   add_joint(object, HingeJoint{.a = middle, .b = last, .anchor = to_float(pins.rocker)});
-  add_joint(object, HingeJoint{.b = last, .anchor = {static_cast<float>(ground), 0, 0}});
+  add_joint(object, HingeJoint{.b = last, .anchor = {static_cast<float>(ground_link), 0, 0}});
   return object;
 }
 
@@ -222,7 +223,7 @@ double coupler_error(int substeps) {
   World world = world_of(object, substeps);
   double error = 0;
   for (int frame = 0; frame < 300; ++frame) {
-    world.step(static_cast<float>(frame_time));
+    world.step(static_cast<float>(mechanism_frame));
     const Vec3d along = axis_of(world.object(0).orientations()[0], axis_of(object.bodies[0].axes, {1, 0, 0}));
     const Pins pins = pins_at(std::atan2(along.y, along.x));
     error = std::max(error, length(to_double(world.object(0).positions()[1]) - (pins.crank + pins.rocker) * 0.5));
@@ -237,7 +238,7 @@ void mechanism_rows(Result& result, bool) {
   for (const int substeps : all_substeps) top_rows(result, substeps);
   for (const int substeps : all_substeps)
     result.rows.push_back(absolute("mechanisms: engine, coupler of a four-bar linkage, " + brief(substeps) + " substeps", 0,
-                                   coupler_error(substeps), 1e-3 * ground, "m",
+                                   coupler_error(substeps), 1e-3 * ground_link, "m",
                                    "farthest from Freudenstein's equation in 5 s; 1e-3 of the ground link of 2 m"));
 }
 

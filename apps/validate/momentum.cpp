@@ -15,8 +15,6 @@ namespace {
 
 using reference::Solver;
 
-double length(const Vec3d& v) { return std::sqrt(length_squared(v)); }
-
 // ---- one constraint at a time
 
 struct Worst {

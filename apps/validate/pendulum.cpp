@@ -10,8 +10,6 @@
 namespace pliant::validate {
 namespace {
 
-constexpr double pi = 3.14159265358979323846, g = 9.81;
-
 // The arithmetic-geometric mean gives the complete elliptic integral: T / T0 = 1 / agm(1, cos(amplitude / 2)).
 double exact_period_ratio(double amplitude) {
   double a = 1, b = std::cos(amplitude / 2);
@@ -33,7 +31,7 @@ Vec3d bob_at(double angle) { return {std::sin(angle), -std::cos(angle), 0}; }
 class ReferencePendulum {
  public:
   ReferencePendulum(double angle, int substeps) {
-    solver_.gravity = {0, -g, 0};
+    solver_.gravity = {0, -standard_gravity, 0};
     solver_.substeps = substeps;
     solver_.add({0, 0, 0}, std::numeric_limits<double>::infinity());
     solver_.add(bob_at(angle), 1);
@@ -51,7 +49,7 @@ Scene pendulum_scene(double angle, int substeps) {
   Object object = particles({{0, 0, 0}, {static_cast<float>(x.x), static_cast<float>(x.y), 0}},
                             {std::numeric_limits<float>::infinity(), 1});
   connect(object, {0, 1}, {1}, Stiffness::rigid());
-  return scene_with(object, g, substeps, 1);
+  return scene_with(object, standard_gravity, substeps, 1);
 }
 
 class EnginePendulum {
@@ -88,7 +86,7 @@ double period(double amplitude, int substeps, double dt) {
 void period_rows(Result& result) {
   constexpr int substeps = 50;
   constexpr double dt = 1.0 / 600;
-  const double t0 = 2 * pi * std::sqrt(1 / g);
+  const double t0 = 2 * pi * std::sqrt(1 / standard_gravity);
   plot::Series exact{"elliptic integral", {}, {}, plot::Series::Style::line},
       engine{"engine", {}, {}, plot::Series::Style::points};
   for (int degrees = 0; degrees <= 160; degrees += 2) {
@@ -116,12 +114,12 @@ struct Energy {
 template <class Pendulum>
 Energy follow(double amplitude, int substeps, double dt, int frames) {
   Pendulum pendulum(amplitude, substeps);
-  const double start = g * (1 - std::cos(amplitude));
+  const double start = standard_gravity * (1 - std::cos(amplitude));
   Energy energy;
   for (int i = 0; i < frames; ++i) {
     pendulum.step(dt);
     const Bob bob = pendulum.bob();
-    energy.last = (g * (1 + bob.position.y) + length_squared(bob.velocity) / 2) / start;
+    energy.last = (standard_gravity * (1 + bob.position.y) + length_squared(bob.velocity) / 2) / start;
     energy.highest = std::isfinite(energy.last) ? std::max(energy.highest, energy.last) : energy.last;
     energy.curve.x.push_back((i + 1) * dt);
     energy.curve.y.push_back(energy.last);

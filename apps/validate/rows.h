@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,10 @@
 #include "pliant/world.h"
 
 namespace pliant::validate {
+
+inline constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
+inline constexpr double standard_gravity = 9.81;  ///< [m/s^2]
+inline constexpr float frame_time = 1.f / 60;     ///< [s]
 
 inline double length(const Vec3d& v) { return std::sqrt(length_squared(v)); }
 inline float length(const Vec3f& v) { return std::sqrt(length_squared(v)); }

@@ -12,8 +12,6 @@ namespace {
 using reference::Hardness;
 using reference::Solver;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // A spring along the x-axis from a particle fixed at the origin, without gravity.
 struct Spring {
   double mass = 2, stiffness = 300, damping = 0, rest_length = 1, start = 1.25, h = 1.0 / 60;

@@ -12,7 +12,7 @@ namespace {
 constexpr int first_swing = 60;  // number of frames of the first swing
 constexpr double speed_limit = 20;
 
-struct Swing {
+struct SheetSwing {
   double fastest = 0;      // largest speed after the first swing [m/s]
   double energy_gain = 0;  // largest energy above the initial one [J]
   bool finite = true;
@@ -40,10 +40,10 @@ double fastest_of(const std::vector<Vec3f>& velocities) {
   return std::sqrt(static_cast<double>(fastest));
 }
 
-Swing swing(int side, int frames) {
+SheetSwing swing(int side, int frames) {
   World world(w1(side));
   const double start = world.measure().kinetic_energy() + world.measure().potential_energy();
-  Swing result;
+  SheetSwing result;
   result.energy.name = brief(side) + " x " + brief(side);
   for (int i = 0; i < frames && result.finite; ++i) {
     const Report report = world.step(1.f / 60);
@@ -67,7 +67,7 @@ void steadiness_rows(Result& result, bool slow) {
   const int frames = slow ? 3000 : 300;
   plot::Chart chart{"Energy of the inextensible hanging cloth", "time [s]", "energy [J]", false, false, {}};
   for (int side : slow ? std::vector<int>{64, 128, 256, 512} : std::vector<int>{64, 128}) {
-    const Swing swung = swing(side, frames);
+    const SheetSwing swung = swing(side, frames);
     const std::string name = "steadiness: engine, " + brief(side) + " x " + brief(side) + ", ";
     const std::string note = brief(frames) + " frames, compliance 0, 10 substeps of 1 iteration";
     result.rows.push_back(

@@ -8,8 +8,7 @@
 namespace pliant::validate {
 namespace {
 
-constexpr double g = 9.81;
-constexpr double density = 0.5,
+constexpr double cloth_density = 0.5,
                  membrane = 25;  // units [kg/m^2] and [N/m]; the sheet stretches by about a tenth under its own weight
 
 struct Run {
@@ -30,7 +29,7 @@ bool at_bottom(const Vec3f& x) { return x.y < -0.4999f; }
 // The mean sag of the lower edge at rest [m].
 double sinking(const Run& run) {
   ClothOptions options;
-  options.material.area_density = static_cast<float>(density);
+  options.material.area_density = static_cast<float>(cloth_density);
   options.material.stretch_stiffness = static_cast<float>(membrane);
   options.bending_model = ClothOptions::Bending::none;
   Object object = make_cloth(upright(run.side), options);
@@ -38,7 +37,7 @@ double sinking(const Run& run) {
   for (std::size_t i = 0; i < object.positions.size(); ++i)
     if (at_top(object.positions[i])) object.pins.push_back({static_cast<int>(i), {}});
   const std::vector<Vec3f> start = object.positions;
-  World world(scene_with(std::move(object), g, run.substeps, run.iterations));
+  World world(scene_with(std::move(object), standard_gravity, run.substeps, run.iterations));
   for (int i = 0; i * run.dt < 4; ++i) world.step(static_cast<float>(run.dt));
   const std::vector<Vec3f> end = world.object(0).positions();
   double sum = 0;

@@ -12,11 +12,9 @@
 namespace pliant::validate {
 namespace {
 
-constexpr double g = 10, pi = 3.14159265358979323846;
+constexpr double sweep_gravity = 10;
 
-double length(const Vec3d& a) { return std::sqrt(length_squared(a)); }
-
-World world_of(const SweepWay& way, Object object, int substeps, int iterations, double gravity = g) {
+World world_of(const SweepWay& way, Object object, int substeps, int iterations, double gravity = sweep_gravity) {
   Scene scene = scene_with(std::move(object), gravity, substeps, iterations);
   scene.settings.sweep = way.sweep;
   scene.settings.sweep_options = way.options;
@@ -92,13 +90,13 @@ double period(const SweepWay& way) {
   for (int i = 1; i < 120; ++i) {
     world.step(1.f / 120);
     const double x = static_cast<double>(world.object(0).positions()[1].x);
-    if (x < 0) return 4 * (i - x / (x - before)) / 120 / (2 * pi * std::sqrt(1 / g));
+    if (x < 0) return 4 * (i - x / (x - before)) / 120 / (2 * pi * std::sqrt(1 / sweep_gravity));
     before = x;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-Object flying_sheet() {
+Object flying_cloth() {
   Random random(7);
   TriangleMesh mesh = grid_mesh(7, 7, 1, 1);
   for (Vec3f& x : mesh.positions) x.y += static_cast<float>(random.uniform(-0.1, 0.1));
@@ -133,7 +131,7 @@ Momenta momenta_of(const World& world, const std::vector<float>& masses) {
 }
 
 double momentum_change(const SweepWay& way, bool angular) {
-  const Object object = flying_sheet();
+  const Object object = flying_cloth();
   World world = world_of(way, object, 10, 4, 0);
   const Momenta before = momenta_of(world, object.masses);
   step(world, 30);
@@ -152,7 +150,7 @@ double stopping_distance(const SweepWay& way) {
   for (Vec3f& x : object.positions) x.y = object.thickness;
   object.velocities.assign(object.positions.size(), {2, 0, 0});
   object.static_friction = object.kinetic_friction = 0.5f;
-  Scene scene = scene_with(std::move(object), g, 20, 4);
+  Scene scene = scene_with(std::move(object), sweep_gravity, 20, 4);
   Collider floor;
   floor.static_friction = floor.kinetic_friction = 0.5f;
   scene.add(floor);
@@ -218,7 +216,7 @@ Row no_more(std::string name, double bound, double measured, double, std::string
   return at_most(std::move(name), bound, measured, std::move(unit), std::move(note));
 }
 
-const Answer answers[] = {
+const Answer known_answers[] = {
     {"static stretch, 2 kg on 100 N/m", static_stretch, {false, true}, 0.2, 1e-4, relative, "m", "10 x 20"},
     {"force at the top of 20 particles",
      top_force,
@@ -273,7 +271,7 @@ void add_row(const SweepWay& way, const Answer& answer, Result& result) {
 
 void sweep_rows(Result& result, bool) {
   for (const SweepWay& way : sweep_ways())
-    for (const Answer& answer : answers) add_row(way, answer, result);
+    for (const Answer& answer : known_answers) add_row(way, answer, result);
 }
 
 }  // namespace pliant::validate

@@ -9,8 +9,8 @@
 namespace pliant::validate {
 namespace {
 
-constexpr double g = 9.81, density = 1000;
-constexpr float spacing = 0.01f, frame_time = 1.f / 60, depth = 16 * spacing;
+constexpr double liquid_density = 1000;
+constexpr float liquid_spacing = 0.01f, liquid_depth = 16 * liquid_spacing;
 
 enum class Wall { holds, slips };
 
@@ -28,7 +28,8 @@ Scene sheet(const Vec3f& size, float viscosity, int substeps) {
   scene.frame_time = frame_time;
   scene.settings.threads = 1;
   scene.settings.substeps = substeps;
-  scene.add(make_liquid(fill_box({}, size, spacing), {.fluid = {.spacing = spacing, .viscosity = viscosity}}));
+  scene.add(
+      make_liquid(fill_box({}, size, liquid_spacing), {.fluid = {.spacing = liquid_spacing, .viscosity = viscosity}}));
   add_wall(scene, {}, {1, 0, 0}, 90, Wall::slips);
   add_wall(scene, {0, 0, size.z}, {1, 0, 0}, -90, Wall::slips);
   return scene;
@@ -66,9 +67,9 @@ double mean_in_the_middle(const Flow& flow, float Vec3f::*along, const Value& va
 }
 
 void plates_rows(Result& result, float viscosity, int substeps) {
-  constexpr float width = 12 * spacing;
-  Scene scene = sheet({width, 3 * width, depth}, viscosity, substeps);
-  scene.gravity = {0, static_cast<float>(-g), 0};
+  constexpr float width = 12 * liquid_spacing;
+  Scene scene = sheet({width, 3 * width, liquid_depth}, viscosity, substeps);
+  scene.gravity = {0, static_cast<float>(-standard_gravity), 0};
   add_wall(scene, {}, {0, 0, 1}, -90, Wall::holds);
   add_wall(scene, {width, 0, 0}, {0, 0, 1}, 90, Wall::holds);
   World world(scene);
@@ -76,7 +77,8 @@ void plates_rows(Result& result, float viscosity, int substeps) {
   const Flow flow = next_frame(world);
   const auto down = [](const Vec3d& v) { return -v.y; };
   const double mean = mean_in_the_middle(flow, &Vec3f::y, down, [](const Vec3f&) { return true; });
-  const double expected = density * g * static_cast<double>(width * width) / (12 * static_cast<double>(viscosity));
+  const double expected =
+      liquid_density * standard_gravity * static_cast<double>(width * width) / (12 * static_cast<double>(viscosity));
   result.rows.push_back(relative("liquids: falls between two plates, " + brief(static_cast<double>(viscosity)) + " Pa s, " +
                                      std::to_string(substeps) + " substeps",
                                  expected, mean, 0.15, "m/s",
