@@ -113,7 +113,7 @@ TEST(PartTetrahedra, TheHalvesKeepMomentumAndFlyApart) {
 
 TEST(PartTetrahedra, PinsAndFibresFollow) {
   SoftBodyOptions options;
-  options.fibres = Fibres{};
+  options.fibres.emplace();
   Object whole = make_soft_body(box_tetrahedra({0.4f, 0.2f, 0.2f}, {4, 2, 2}), options);
   int middle = -1;
   for (int i = 0; i < static_cast<int>(whole.positions.size()); ++i)
