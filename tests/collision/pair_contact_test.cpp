@@ -28,13 +28,13 @@ Record random_record(Random& random, float range, float w = 0) {
 
 Vec3d place(const Record& r) { return {double(r.x), double(r.y), double(r.z)}; }
 
-struct Four {
+struct FourParticles {
   std::vector<Record> positions, displacements, remainders, velocities;
   PairStencil pair{{0, 1, 2, 3}, 1};
 };
 
-Four random_four(Random& random, bool free) {
-  Four four;
+FourParticles random_four(Random& random, bool free) {
+  FourParticles four;
   four.pair.first_side = random() % 2 == 0 ? 1 : 2;
   for (int i = 0; i < 4; ++i) {
     const bool fixed = !free && random() % 3 == 0;
@@ -46,7 +46,7 @@ Four random_four(Random& random, bool free) {
   return four;
 }
 
-Contact contact_of(const Four& four, const PairMaterial& material, float h = 1) {
+Contact contact_of(const FourParticles& four, const PairMaterial& material, float h = 1) {
   PairBatch batch;
   pair_distances(&four.pair, 1, four.positions.data(), batch);
   Contact contact = make_contact(four.pair, batch, 0, material, h);
@@ -54,7 +54,7 @@ Contact contact_of(const Four& four, const PairMaterial& material, float h = 1) 
   return contact;
 }
 
-Vec3d momentum(const Four& four, const std::vector<Record>& of) {
+Vec3d momentum(const FourParticles& four, const std::vector<Record>& of) {
   Vec3d sum{};
   for (int i = 0; i < 4; ++i)
     if (four.positions[i].w > 0) sum += place(of[i]) * (1. / double(four.positions[i].w));
@@ -62,7 +62,7 @@ Vec3d momentum(const Four& four, const std::vector<Record>& of) {
 }
 
 /// Angular momentum about the origin, at the substep's start, where weights are measured.
-Vec3d angular_momentum(const Four& four, const std::vector<Record>& of) {
+Vec3d angular_momentum(const FourParticles& four, const std::vector<Record>& of) {
   Vec3d sum{};
   for (int i = 0; i < 4; ++i)
     if (four.positions[i].w > 0) sum += cross(place(four.positions[i]), place(of[i])) * (1. / double(four.positions[i].w));
@@ -145,7 +145,7 @@ TEST(PairContact, KeepsMomentum) {
   Random random(92);
   int pushed = 0;
   for (int i = 0; i < 20000; ++i) {
-    Four four = random_four(random, true);
+    FourParticles four = random_four(random, true);
     Contact contact = contact_of(four, {0.5f, 0.6f, 0.4f});
     // Normal corrections act through the closest points, so they have no moment. Friction acts tangentially at points
     // that are a gap apart, so its moment is that of the gap.
@@ -170,9 +170,9 @@ TEST(PairContact, KeepsMomentum) {
 TEST(PairContact, ReachesTheThicknessAndMovesNothingFixed) {
   Random random(93);
   for (int i = 0; i < 20000; ++i) {
-    Four four = random_four(random, false);
+    FourParticles four = random_four(random, false);
     Contact contact = contact_of(four, {0.5f, 0, 0});
-    const Four before = four;
+    const FourParticles before = four;
     project_contact(contact, four.displacements.data());
     double relative = double(contact.gap);
     bool movable = false;
@@ -198,7 +198,7 @@ TEST(PairContact, ReachesTheThicknessAndMovesNothingFixed) {
 
 /// A vertex of 1 kg falls at 3 m/s on a triangle of three others: 1 / (1 + 1 / 9 * 3) = 3 / 4 of the momentum stays.
 TEST(PairContact, LeavesNoApproachOfAnImpact) {
-  Four four;
+  FourParticles four;
   four.positions = {{0, 0.01f, 0, 1}, {-1, 0, -1, 1}, {1, 0, -1, 1}, {0, 0, 2, 1}};
   four.velocities = {{0, -3, 0, 0}, {}, {}, {}};
   four.remainders.assign(4, Record{});
@@ -217,7 +217,7 @@ TEST(PairContact, LeavesNoApproachOfAnImpact) {
 }
 
 TEST(PairContact, SeparatesWhatOverlapsNoFasterThanTheCap) {
-  Four four;
+  FourParticles four;
   four.positions = {{0.1f, 0.001f, 0.1f, 1}, {-1, 0, -1, 1}, {1, 0, -1, 1}, {0, 0, 1, 1}};
   four.remainders.assign(4, Record{});
   const float h = 1.f / 1200;
@@ -233,7 +233,7 @@ double slide(float degrees, float static_friction, float kinetic_friction) {
   const auto record = [](const Vec3d& v, float w) {
     return Record{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), w};
   };
-  Four four;
+  FourParticles four;
   four.positions = {record(normal * 0.01, 1), record(down * -20. + Vec3d{0, 0, 20}, 0),
                     record(down * 20. + Vec3d{0, 0, 20}, 0), record(Vec3d{0, 0, -40}, 0)};
   four.remainders.assign(4, Record{});

@@ -26,13 +26,13 @@ using testing_support::weightless;
 constexpr double g = 9.81;
 constexpr float spacing = 0.01f;
 
-enum class Wall { holds, slips };
+enum class WallKind { holds, slips };
 
-Collider wall(const Vec3f& at, const Vec3f& axis, float degrees, Wall kind) {
+Collider wall(const Vec3f& at, const Vec3f& axis, float degrees, WallKind kind) {
   Collider plane;
   plane.position = at;
   plane.rotation = rotation(axis, degrees);
-  plane.static_friction = plane.kinetic_friction = kind == Wall::slips ? 0 : 0.4f;
+  plane.static_friction = plane.kinetic_friction = kind == WallKind::slips ? 0 : 0.4f;
   return plane;
 }
 
@@ -41,14 +41,14 @@ Object block(const Vec3f& low, const Vec3f& high, float viscosity, const std::st
 }
 
 /// Liquid that falls between two plates, with planes of symmetry in front and behind.
-Scene channel(float width, float viscosity, int substeps, Wall plates = Wall::holds) {
+Scene channel(float width, float viscosity, int substeps, WallKind plates = WallKind::holds) {
   const float depth = 16 * spacing;
   Scene scene = weightless(block({}, {width, 3 * width, depth}, viscosity), substeps);
   scene.gravity = {0, static_cast<float>(-g), 0};
   scene.add(wall({}, {0, 0, 1}, -90, plates));
   scene.add(wall({width, 0, 0}, {0, 0, 1}, 90, plates));
-  scene.add(wall({}, {1, 0, 0}, 90, Wall::slips));
-  scene.add(wall({0, 0, depth}, {1, 0, 0}, -90, Wall::slips));
+  scene.add(wall({}, {1, 0, 0}, 90, WallKind::slips));
+  scene.add(wall({0, 0, depth}, {1, 0, 0}, -90, WallKind::slips));
   return scene;
 }
 
@@ -85,7 +85,7 @@ TEST(Viscosity, LetsLiquidFallBetweenPlatesAsPoiseuilleSays) {
 }
 
 TEST(Viscosity, LetsLiquidSlipAlongWallsWithoutFriction) {
-  World world(channel(12 * spacing, 100, 10, Wall::slips));
+  World world(channel(12 * spacing, 100, 10, WallKind::slips));
   EXPECT_NEAR(fall(world), g * 12.5 / 60, 0.02);
 }
 
@@ -195,7 +195,7 @@ Scene mixed() {
   Scene scene = weightless(block({}, {0.06f, 0.1f, 0.06f}, 10, "honey"), 10);
   scene.gravity = {0, static_cast<float>(-g), 0};
   scene.add(block({0.06f, 0, 0}, {0.09f, 0.06f, 0.06f}, 0.1f, "oil"));
-  scene.add(wall({0, -0.01f, 0}, {0, 0, 1}, 0, Wall::holds));
+  scene.add(wall({0, -0.01f, 0}, {0, 0, 1}, 0, WallKind::holds));
   Solid ball;
   ball.shape = Sphere{0.02f};
   ball.density = 700;

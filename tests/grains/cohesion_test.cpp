@@ -20,26 +20,28 @@
 namespace pliant {
 namespace {
 
-using testing_support::diameter;
+using testing_support::grain_diameter;
+using testing_support::grain_radius;
 using testing_support::gravity;
-using testing_support::radius;
 
 constexpr double pi = 3.14159265358979;
 
 /// The tensile stress at which a contact bears a force: Rumpf's, with 0.6 of the volume filled and six contacts a grain.
 float stress_of(double force) {
-  return static_cast<float>(force * 0.6 * 6 / (pi * static_cast<double>(diameter) * static_cast<double>(diameter)));
+  return static_cast<float>(force * 0.6 * 6 /
+                            (pi * static_cast<double>(grain_diameter) * static_cast<double>(grain_diameter)));
 }
 
 double weight_of_grain() {
-  return static_cast<double>(make_grains({{}}, {.grains = {.radius = radius}}).masses[0]) * static_cast<double>(gravity);
+  return static_cast<double>(make_grains({{}}, {.grains = {.radius = grain_radius}}).masses[0]) *
+         static_cast<double>(gravity);
 }
 
 /// How far a grain is from a fixed one that it hangs on, after a load has slowly grown to `force` [N] [m].
 float gap_under(double force, float cohesion, float cohesion_of_other, int substeps) {
   Scene scene;
-  scene.add(make_grains({{0, 0, 0}}, {.name = "fixed", .grains = {.radius = radius, .cohesion = cohesion}}));
-  scene.add(make_grains({{0, -diameter, 0}}, {.grains = {.radius = radius, .cohesion = cohesion_of_other}}));
+  scene.add(make_grains({{0, 0, 0}}, {.name = "fixed", .grains = {.radius = grain_radius, .cohesion = cohesion}}));
+  scene.add(make_grains({{0, -grain_diameter, 0}}, {.grains = {.radius = grain_radius, .cohesion = cohesion_of_other}}));
   scene.objects[0].masses[0] = INFINITY;
   scene.gravity = {};
   scene.settings.threads = 1;
@@ -50,38 +52,38 @@ float gap_under(double force, float cohesion, float cohesion_of_other, int subst
     world.object(ObjectId{1}).set_forces(std::vector<Vec3f>{load});
     EXPECT_TRUE(world.step(1.f / 60).ok());
   }
-  return -diameter - world.object(ObjectId{1}).positions()[0].y;
+  return -grain_diameter - world.object(ObjectId{1}).positions()[0].y;
 }
 
 TEST(Cohesion, HoldsAKnownWeightAndPartsAboveIt) {
   for (const double weights : {1., 4.})
     for (const int substeps : {30, 60}) {
       const double pull = weights * weight_of_grain();
-      EXPECT_LT(gap_under(0.97 * pull, stress_of(pull), stress_of(pull), substeps), 0.1f * diameter) << pull;
-      EXPECT_GT(gap_under(1.03 * pull, stress_of(pull), stress_of(pull), substeps), diameter) << pull;
+      EXPECT_LT(gap_under(0.97 * pull, stress_of(pull), stress_of(pull), substeps), 0.1f * grain_diameter) << pull;
+      EXPECT_GT(gap_under(1.03 * pull, stress_of(pull), stress_of(pull), substeps), grain_diameter) << pull;
     }
 }
 
 TEST(Cohesion, OfTwoKindsIsTheLesser) {
   const double pull = weight_of_grain();
-  EXPECT_LT(gap_under(0.97 * pull, stress_of(pull), stress_of(3 * pull), 60), 0.1f * diameter);
-  EXPECT_GT(gap_under(1.03 * pull, stress_of(pull), stress_of(3 * pull), 60), diameter);
-  EXPECT_GT(gap_under(0.05 * pull, 0, stress_of(3 * pull), 60), diameter);
+  EXPECT_LT(gap_under(0.97 * pull, stress_of(pull), stress_of(3 * pull), 60), 0.1f * grain_diameter);
+  EXPECT_GT(gap_under(1.03 * pull, stress_of(pull), stress_of(3 * pull), 60), grain_diameter);
+  EXPECT_GT(gap_under(0.05 * pull, 0, stress_of(3 * pull), 60), grain_diameter);
 }
 
 /// A block of sand, 6 diameters wide, in a mould of planes that withdraws after half a second.
 Scene block_of_sand(const std::string& kind, float cohesion) {
-  constexpr float width = 6 * diameter, r = 0.70710678f;
+  constexpr float width = 6 * grain_diameter, r = 0.70710678f;
   const GrainKind& of = grain_kind(kind);
-  std::vector<Vec3f> places = fill_box({0, 0, 0}, {width, 12 * diameter, width}, 1.3f * diameter);
+  std::vector<Vec3f> places = fill_box({0, 0, 0}, {width, 12 * grain_diameter, width}, 1.3f * grain_diameter);
   std::uint32_t seed = 1;
   const auto next = [&] {
     seed = seed * 1664525u + 1013904223u;
-    return (static_cast<float>(seed >> 8) / static_cast<float>(1 << 24) - 0.5f) * 0.28f * diameter;
+    return (static_cast<float>(seed >> 8) / static_cast<float>(1 << 24) - 0.5f) * 0.28f * grain_diameter;
   };
   for (Vec3f& p : places) p = {p.x + next(), p.y + next(), p.z + next()};  // in no order, which would stand
   Scene scene;
-  scene.add(make_grains(places, {.grains = {radius, of.density, of.friction, cohesion}}));
+  scene.add(make_grains(places, {.grains = {grain_radius, of.density, of.friction, cohesion}}));
   const auto add_wall = [&](const Vec3f& at, const Quatf& rotation, const Vec3f& way) {
     Collider wall;
     wall.position = at;

@@ -17,9 +17,9 @@
 namespace pliant {
 namespace {
 
-using testing_support::diameter;
+using testing_support::grain_diameter;
+using testing_support::grain_radius;
 using testing_support::gravity;
-using testing_support::radius;
 using testing_support::run;
 
 Solid box(const Vec3f& half_extents, const Vec3f& at, float density = 1000) {
@@ -43,7 +43,8 @@ std::vector<Solid> tray(float half_width, float height) {
 }
 
 Object sand(const Vec3f& low, const Vec3f& high, const Vec3f& velocity = {}) {
-  return make_grains(fill_box(low, high, 1.05f * diameter), {.grains = {.radius = radius}, .velocity = velocity});
+  return make_grains(fill_box(low, high, 1.05f * grain_diameter),
+                     {.grains = {.radius = grain_radius}, .velocity = velocity});
 }
 
 double mass_of(const Object& object) {
@@ -88,7 +89,7 @@ double sinking(float density) {
   run(world, 60);
   const auto at_rest = world.object(1).positions();
   float top = 0;
-  for (const Vec3f& p : at_rest) top = std::max(top, p.y + radius);
+  for (const Vec3f& p : at_rest) top = std::max(top, p.y + grain_radius);
   const ObjectId cube =
       world.add(make_body({box({half, half, half}, {}, density)}, {.name = "cube", .position = {0, top + half, 0}}));
   run(world, 90);
@@ -97,8 +98,8 @@ double sinking(float density) {
 
 // Grains at rest bear a body by friction, so it lies on them, light or heavy: it does not sink until it displaces its weight.
 TEST(GrainContact, BearsLightAndHeavyBodies) {
-  EXPECT_LT(sinking(200), 0.5 * static_cast<double>(diameter));
-  EXPECT_LT(sinking(7800), 1.5 * static_cast<double>(diameter));  // of iron, three times as dense as a grain
+  EXPECT_LT(sinking(200), 0.5 * static_cast<double>(grain_diameter));
+  EXPECT_LT(sinking(7800), 1.5 * static_cast<double>(grain_diameter));  // of iron, three times as dense as a grain
 }
 
 /// Cloth that is held by two sides.

@@ -3,7 +3,7 @@
 
 namespace pliant::testing_support {
 
-inline constexpr float radius = 0.01f, diameter = 2 * radius;  // [m]
-inline constexpr float gravity = 9.81f;                        // [m/s^2]
+inline constexpr float grain_radius = 0.01f, grain_diameter = 2 * grain_radius;  // [m]
+inline constexpr float gravity = 9.81f;                                          // [m/s^2]
 
 }  // namespace pliant::testing_support

@@ -19,8 +19,8 @@
 namespace pliant {
 namespace {
 
-using testing_support::diameter;
-using testing_support::radius;
+using testing_support::grain_diameter;
+using testing_support::grain_radius;
 
 /// Steps a World, and returns the last report.
 Report advance(World& world, int frames) {
@@ -40,13 +40,13 @@ Collider wall(const Vec3f& at, const Quatf& rotation, float friction) {
 /// A block of grains between planes without friction, free along x on one side, on ground that no grain slides on. Rows are shifted, so
 /// that no column stands.
 Scene block(const Vec3f& size, float friction) {
-  std::vector<Vec3f> places = fill_box({0, 0, 0}, size, 1.07f * diameter);
+  std::vector<Vec3f> places = fill_box({0, 0, 0}, size, 1.07f * grain_diameter);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto part = [&](std::size_t prime) { return 0.05f * diameter * static_cast<float>(i * prime % 101) / 101; };
+    const auto part = [&](std::size_t prime) { return 0.05f * grain_diameter * static_cast<float>(i * prime % 101) / 101; };
     places[i] = places[i] + Vec3f{part(37), part(59), part(83)};
   }
   Scene scene;
-  scene.add(make_grains(places, {.grains = {.radius = radius, .friction = friction}}));
+  scene.add(make_grains(places, {.grains = {.radius = grain_radius, .friction = friction}}));
   const float r = std::sqrt(0.5f);
   scene.add(wall({0, 0, 0}, {0, 0, 0, 1}, 1000));
   scene.add(wall({0, 0, 0}, {0, 0, -r, r}, 0));
@@ -58,11 +58,11 @@ Scene block(const Vec3f& size, float friction) {
 
 /// Places that fill a box loosely, in no order: a lattice of 1.3 diameters, each place moved by up to 0.14 along each axis.
 std::vector<Vec3f> shaken(const Vec3f& size) {
-  std::vector<Vec3f> places = fill_box({0, 0, 0}, size, 1.3f * diameter);
+  std::vector<Vec3f> places = fill_box({0, 0, 0}, size, 1.3f * grain_diameter);
   std::uint32_t seed = 1;
   const auto next = [&] {
     seed = seed * 1664525u + 1013904223u;
-    return (static_cast<float>(seed >> 8) / static_cast<float>(1 << 24) - 0.5f) * 0.28f * diameter;
+    return (static_cast<float>(seed >> 8) / static_cast<float>(1 << 24) - 0.5f) * 0.28f * grain_diameter;
   };
   for (Vec3f& p : places) p = {p.x + next(), p.y + next(), p.z + next()};
   return places;
@@ -71,8 +71,9 @@ std::vector<Vec3f> shaken(const Vec3f& size) {
 TEST(Grains, KeepTheirMomentumWhenTheyCollide) {
   Scene scene;
   scene.gravity = {};
-  scene.add(make_grains({{0, 0, 0}}, {.grains = {.radius = radius}, .velocity = {1, 0, 0}}));
-  scene.add(make_grains({{0.1f, 0.005f, 0}}, {.name = "other", .grains = {.radius = 2 * radius}, .velocity = {0, 0, 0}}));
+  scene.add(make_grains({{0, 0, 0}}, {.grains = {.radius = grain_radius}, .velocity = {1, 0, 0}}));
+  scene.add(
+      make_grains({{0.1f, 0.005f, 0}}, {.name = "other", .grains = {.radius = 2 * grain_radius}, .velocity = {0, 0, 0}}));
   World world(scene);
   advance(world, 30);
   const Vec3f a = world.object(0).velocities()[0], b = world.object(1).velocities()[0];
@@ -91,7 +92,7 @@ double slip_on_sphere(float friction, double degrees) {
   scene.add(sphere);
   const double angle = degrees * 3.14159265 / 180, distance = 1.01 - 1e-5;
   const Vec3f start{static_cast<float>(distance * std::sin(angle)), static_cast<float>(distance * std::cos(angle)), 0};
-  scene.add(make_grains({start}, {.grains = {.radius = radius, .friction = friction}}));
+  scene.add(make_grains({start}, {.grains = {.radius = grain_radius, .friction = friction}}));
   scene.settings.substeps = 20;
   World world(scene);
   advance(world, 60);
@@ -114,7 +115,7 @@ std::vector<GrainContact> pairs_within(const State& state, float share) {
     for (int b = a + 1; b < count; ++b) {
       const Record &p = state.positions[static_cast<std::size_t>(a)], &q = state.positions[static_cast<std::size_t>(b)];
       const Vec3f d{p.x - q.x, p.y - q.y, p.z - q.z};
-      if (length_squared(d) < share * share * diameter * diameter) pairs.push_back({a, b, {}});
+      if (length_squared(d) < share * share * grain_diameter * grain_diameter) pairs.push_back({a, b, {}});
     }
   return pairs;
 }
@@ -135,7 +136,7 @@ std::vector<GrainContact> pairs_that_press(const State& state, float h, double l
     for (int b = a + 1; b < count; ++b) {
       const Vec3d between = place(a) - place(b), moves = move(a) - move(b);
       const double distance = std::sqrt(between.x * between.x + between.y * between.y + between.z * between.z);
-      const double gap = distance - 2 * static_cast<double>(radius);
+      const double gap = distance - 2 * static_cast<double>(grain_radius);
       const double along = (between.x * moves.x + between.y * moves.y + between.z * moves.z) / distance;
       const double push =
           -static_cast<double>(grain_formulas::stiffness) * gap - static_cast<double>(grain_formulas::damping) * along;
@@ -179,7 +180,7 @@ TEST(Grains, DoNotOverlapMuchWhereTheyLie) {
 double slope_of(const std::vector<Vec3f>& grains) {
   std::map<std::pair<int, int>, double> tops;  // by column along x, and along z of twice the width
   for (const Vec3f& p : grains) {
-    double& top = tops[{static_cast<int>(p.x / diameter), static_cast<int>(p.z / (2 * diameter))}];
+    double& top = tops[{static_cast<int>(p.x / grain_diameter), static_cast<int>(p.z / (2 * grain_diameter))}];
     top = std::max(top, static_cast<double>(p.y));
   }
   std::map<int, std::pair<double, int>> sums;
@@ -187,7 +188,7 @@ double slope_of(const std::vector<Vec3f>& grains) {
   double highest = 0, n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const auto& [column, sum] : sums) highest = std::max(highest, sum.first / sum.second);
   for (const auto& [column, sum] : sums) {
-    const double at = (column + 0.5) * static_cast<double>(diameter), height = sum.first / sum.second;
+    const double at = (column + 0.5) * static_cast<double>(grain_diameter), height = sum.first / sum.second;
     if (height < 0.2 * highest || height > 0.8 * highest) continue;
     n += 1;
     x += at;
@@ -275,16 +276,16 @@ TEST(Grains, OfAnotherGroupDoNotMeetThem) {
   const auto gap = [](std::uint32_t mask) {
     Scene scene;
     scene.gravity = {};
-    scene.add(make_grains({{0, 0, 0}}, {.grains = {.radius = radius}}));
-    Object other = make_grains({{0.5f * radius, 0, 0}}, {.name = "other", .grains = {.radius = radius}});
+    scene.add(make_grains({{0, 0, 0}}, {.grains = {.radius = grain_radius}}));
+    Object other = make_grains({{0.5f * grain_radius, 0, 0}}, {.name = "other", .grains = {.radius = grain_radius}});
     other.mask = mask;
     scene.add(other);
     World world(scene);
     advance(world, 30);
     return world.object(1).positions()[0].x - world.object(0).positions()[0].x;
   };
-  EXPECT_GT(gap(~0u), 1.9f * radius);
-  EXPECT_EQ(gap(0), 0.5f * radius);
+  EXPECT_GT(gap(~0u), 1.9f * grain_radius);
+  EXPECT_EQ(gap(0), 0.5f * grain_radius);
 }
 
 TEST(Grains, NameWhatIsOutOfRange) {
@@ -313,10 +314,10 @@ TEST(Grains, NameWhatIsOutOfRange) {
 /// The overlap of the lowest two of grains that stand on one another [m].
 double lowest_overlap(int grains, float mass_scaling, int substeps) {
   std::vector<Vec3f> places;
-  for (int i = 0; i < grains; ++i) places.push_back({0, radius + static_cast<float>(i) * diameter, 0});
+  for (int i = 0; i < grains; ++i) places.push_back({0, grain_radius + static_cast<float>(i) * grain_diameter, 0});
   Scene scene;
   GrainsOptions options;
-  options.grains = {.radius = radius, .mass_scaling = mass_scaling};
+  options.grains = {.radius = grain_radius, .mass_scaling = mass_scaling};
   Object column = make_grains(places, options);
   column.damping = 20;
   scene.add(std::move(column));
@@ -326,7 +327,7 @@ double lowest_overlap(int grains, float mass_scaling, int substeps) {
   World world(scene);
   advance(world, 600);
   const std::vector<Vec3f> at = world.object(0).positions();
-  return static_cast<double>(diameter - (at[1].y - at[0].y));
+  return static_cast<double>(grain_diameter - (at[1].y - at[0].y));
 }
 
 /// A contact yields by twice g h^2 over the stiffness for each grain that lies on it. With mass scaling, r being the ratio of the masses of
@@ -335,7 +336,7 @@ TEST(Grains, OfAHighPileYieldLittleWithMassScaling) {
   constexpr int grains = 31, substeps = 40;
   const double h = 1. / 60 / substeps, of_one = 9.81 * h * h / static_cast<double>(grain_formulas::stiffness);
   const double plain = lowest_overlap(grains, 0, substeps), scaled = lowest_overlap(grains, 10, substeps);
-  const double r = std::exp(-10 * static_cast<double>(diameter));
+  const double r = std::exp(-10 * static_cast<double>(grain_diameter));
   EXPECT_NEAR(plain, 2 * (grains - 1) * of_one, 0.02 * plain);
   EXPECT_NEAR(scaled, (1 + r) * (1 - std::pow(r, grains - 1)) / (1 - r) * of_one, 0.02 * scaled);
   EXPECT_LT(scaled, 0.4 * plain);
@@ -344,8 +345,8 @@ TEST(Grains, OfAHighPileYieldLittleWithMassScaling) {
 TEST(Grains, NeedFewerSubstepsWithMassScaling) {
   const auto substeps = [](float mass_scaling) {
     Scene scene;
-    scene.add(make_grains(fill_box({0, 0, 0}, {0.06f, 2, 0.06f}, diameter),
-                          {.grains = {.radius = radius, .mass_scaling = mass_scaling}}));
+    scene.add(make_grains(fill_box({0, 0, 0}, {0.06f, 2, 0.06f}, grain_diameter),
+                          {.grains = {.radius = grain_radius, .mass_scaling = mass_scaling}}));
     return chosen_substeps(scene)[0];
   };
   EXPECT_LT(substeps(10), substeps(0) / 2);

@@ -18,8 +18,8 @@
 namespace pliant {
 namespace {
 
-using testing_support::diameter;
-using testing_support::radius;
+using testing_support::grain_diameter;
+using testing_support::grain_radius;
 using testing_support::run;
 
 Collider ground() {
@@ -30,13 +30,14 @@ Collider ground() {
 
 /// A block of 5 x 6 x 5 grains a little above the ground.
 Scene heap(bool sleeps) {
-  std::vector<Vec3f> places = fill_box({0, 0, 0}, {5.4f * diameter, 6.4f * diameter, 5.4f * diameter}, 1.05f * diameter);
+  std::vector<Vec3f> places =
+      fill_box({0, 0, 0}, {5.4f * grain_diameter, 6.4f * grain_diameter, 5.4f * grain_diameter}, 1.05f * grain_diameter);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto part = [&](std::size_t prime) { return 0.05f * diameter * static_cast<float>(i * prime % 101) / 101; };
+    const auto part = [&](std::size_t prime) { return 0.05f * grain_diameter * static_cast<float>(i * prime % 101) / 101; };
     places[i] = places[i] + Vec3f{part(37), part(59), part(83)};
   }
   Scene scene;
-  scene.add(make_grains(places, {.grains = {.radius = radius}}));
+  scene.add(make_grains(places, {.grains = {.radius = grain_radius}}));
   scene.add(ground());
   scene.settings.sleep.on = sleeps;
   scene.settings.threads = 1;
@@ -97,7 +98,7 @@ TEST(SleepingGrains, HaveTheHeapOfThoseThatDoNot) {
     for (const Vec3f& x : world.object(0).positions()) sum += static_cast<double>(x.y);
     return sum / static_cast<double>(world.object(0).positions().size());
   };
-  EXPECT_NEAR(height(with), height(without), 0.05 * static_cast<double>(diameter));
+  EXPECT_NEAR(height(with), height(without), 0.05 * static_cast<double>(grain_diameter));
 }
 
 TEST(SleepingGrains, WakeUnderWhatFallsOnThem) {
@@ -105,7 +106,7 @@ TEST(SleepingGrains, WakeUnderWhatFallsOnThem) {
   World world(scene);
   run(world, 400);
   ASSERT_EQ(sleepers(world), world.object(0).positions().size());
-  world.add(box({2.7f * diameter, 0.4f, 2.7f * diameter}));
+  world.add(box({2.7f * grain_diameter, 0.4f, 2.7f * grain_diameter}));
   EXPECT_EQ(sleepers(world), 0u);  // what is added may lie on them
   run(world, 12);
   const std::vector<Vec3f> before = world.object(0).positions();
@@ -113,7 +114,7 @@ TEST(SleepingGrains, WakeUnderWhatFallsOnThem) {
   const std::vector<Vec3f> after = world.object(0).positions();
   float farthest = 0;
   for (std::size_t i = 0; i < before.size(); ++i) farthest = std::max(farthest, length_squared(after[i] - before[i]));
-  EXPECT_GT(farthest, radius * radius);
+  EXPECT_GT(farthest, grain_radius * grain_radius);
   run(world, 500);
   EXPECT_GT(sleepers(world), world.object(0).positions().size() * 9 / 10);
 }
@@ -121,7 +122,7 @@ TEST(SleepingGrains, WakeUnderWhatFallsOnThem) {
 /// A ball that was there from the start, and arrives when all sleep.
 TEST(SleepingGrains, WakeBeforeTheyAreHit) {
   Scene scene = heap(true);
-  scene.add(ball({-24, 0.04f, 2.7f * diameter}, {4, 0, 0}));
+  scene.add(ball({-24, 0.04f, 2.7f * grain_diameter}, {4, 0, 0}));
   World world(scene);
   run(world, 330);
   ASSERT_EQ(sleepers(world), world.object(0).positions().size());
@@ -130,7 +131,7 @@ TEST(SleepingGrains, WakeBeforeTheyAreHit) {
   const std::vector<Vec3f> after = world.object(0).positions();
   float farthest = 0;
   for (std::size_t i = 0; i < before.size(); ++i) farthest = std::max(farthest, length_squared(after[i] - before[i]));
-  EXPECT_GT(farthest, diameter * diameter);
+  EXPECT_GT(farthest, grain_diameter * grain_diameter);
 }
 
 TEST(SleepingGrains, FallWhenTheirGroundGoes) {
@@ -146,7 +147,7 @@ TEST(SleepingGrains, WakeWhenTheyAreTold) {
   World world(heap(true));
   run(world, 400);
   std::vector<Vec3f> impulses(world.object(0).positions().size());
-  const float mass = 4.f / 3 * 3.14159265f * radius * radius * radius * 2650;
+  const float mass = 4.f / 3 * 3.14159265f * grain_radius * grain_radius * grain_radius * 2650;
   for (Vec3f& impulse : impulses) impulse = {0, 2 * mass, 0};
   world.object(0).add_impulses(impulses);
   for (const Vec3f& v : world.object(0).velocities()) EXPECT_NEAR(v.y, 2, 0.01);
@@ -155,13 +156,14 @@ TEST(SleepingGrains, WakeWhenTheyAreTold) {
 /// A drain opens at the foot of a column, whose grains then fall into it one after another.
 TEST(SleepingGrains, FallWhereADrainTakesOthers) {
   Scene scene = heap(true);
-  scene.objects[0].flow.drains = {
-      {.name = "sink", .shape = Box{{0.02f, 0.015f, 0.02f}}, .position = {2.7f * diameter, -1, 2.7f * diameter}}};
+  scene.objects[0].flow.drains = {{.name = "sink",
+                                   .shape = Box{{0.02f, 0.015f, 0.02f}},
+                                   .position = {2.7f * grain_diameter, -1, 2.7f * grain_diameter}}};
   World world(scene);
   run(world, 400);
   ASSERT_EQ(sleepers(world), world.object(0).positions().size());
   Edit edit = unchanged(scene.objects[0]);
-  edit.object.flow.drains[0].position = {2.7f * diameter, 0.01f, 2.7f * diameter};
+  edit.object.flow.drains[0].position = {2.7f * grain_diameter, 0.01f, 2.7f * grain_diameter};
   world.edit(ObjectId(0), edit);
   run(world, 300);
   EXPECT_EQ(world.object(0).present().size(), scene.objects[0].positions.size() - 6);
@@ -219,7 +221,7 @@ TEST(SleepingGrains, AreNotOfClusters) {
 TEST(SleepingGrains, FollowASlowPlatform) {
   Scene scene = heap(true);
   BodyOptions options;
-  options.position = {2.7f * diameter, -0.05f, 2.7f * diameter};
+  options.position = {2.7f * grain_diameter, -0.05f, 2.7f * grain_diameter};
   options.mass = INFINITY;
   Object platform = make_body({{.shape = Box{{0.2f, 0.05f, 0.2f}}}}, options);
   platform.static_friction = platform.kinetic_friction = 1;

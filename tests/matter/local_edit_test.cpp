@@ -24,15 +24,13 @@
 namespace pliant {
 namespace {
 
-using Random = std::mt19937;
-
-int below(Random& random, std::size_t most) { return static_cast<int>(random() % most); }
-float between(Random& random, float low, float high) {
+int below(std::mt19937& random, std::size_t most) { return static_cast<int>(random() % most); }
+float between(std::mt19937& random, float low, float high) {
   return low + (high - low) * static_cast<float>(random() % 10001) / 10000;
 }
 
 /// A block of uneven tetrahedra, some of them mirrored. With damping they are in several groups, in another order than the surface.
-Object uneven_block(Random& random, float damping = 0) {
+Object uneven_block(std::mt19937& random, float damping = 0) {
   TetrahedralMesh mesh = box_tetrahedra({1, 1, 1}, {2 + below(random, 4), 2 + below(random, 4), 2 + below(random, 4)});
   for (Vec3f& p : mesh.positions)
     for (float* x : {&p.x, &p.y, &p.z}) *x += between(random, -0.03f, 0.03f);
@@ -43,20 +41,20 @@ Object uneven_block(Random& random, float damping = 0) {
   return make_soft_body(mesh, options);
 }
 
-Object sheet(Random& random) {
+Object sheet(std::mt19937& random) {
   TriangleMesh mesh = grid_mesh(4 + below(random, 9), 4 + below(random, 9), 1, 1);
   for (Vec3f& p : mesh.positions) p.x += between(random, -0.02f, 0.02f), p.z += between(random, -0.02f, 0.02f);
   return make_cloth(mesh);
 }
 
 /// Parts some elements from the others.
-std::vector<int> some_parts(Random& random, std::size_t count) {
+std::vector<int> some_parts(std::mt19937& random, std::size_t count) {
   std::vector<int> part(count);
   for (int& one : part) one = below(random, 12) == 0 ? 1 + below(random, 2) : 0;
   return part;
 }
 
-std::vector<int> some_of(Random& random, std::size_t count) {
+std::vector<int> some_of(std::mt19937& random, std::size_t count) {
   std::vector<int> some(4);
   for (int& one : some) one = below(random, count);
   return some;
@@ -70,7 +68,7 @@ std::vector<std::array<int, 3>> whole_surface(const Object& object, std::vector<
 }
 
 /// Edits a body some times.
-void expect_whole_surface(Object object, Random& random, const std::vector<std::array<int, 3>>& cloth) {
+void expect_whole_surface(Object object, std::mt19937& random, const std::vector<std::array<int, 3>>& cloth) {
   for (int edit = 0; edit < 6; ++edit) {
     const std::size_t count = tetrahedra_of(object).size();
     object = edit % 2 == 0 ? part_tetrahedra(object, some_parts(random, count)).object
@@ -80,7 +78,7 @@ void expect_whole_surface(Object object, Random& random, const std::vector<std::
 }
 
 TEST(LocalEdit, SurfacesAreTheBorderOfAllTetrahedra) {
-  Random random(1);
+  std::mt19937 random(1);
   for (int body = 0; body < 40; ++body) {
     SCOPED_TRACE(body);
     expect_whole_surface(uneven_block(random, body % 2 == 0 ? 0 : 0.01f), random, {});
@@ -88,7 +86,7 @@ TEST(LocalEdit, SurfacesAreTheBorderOfAllTetrahedra) {
 }
 
 TEST(LocalEdit, ClothInTheSameObjectKeepsItsTriangles) {
-  Random random(2);
+  std::mt19937 random(2);
   for (int body = 0; body < 20; ++body) {
     SCOPED_TRACE(body);
     Object both = uneven_block(random);
@@ -102,7 +100,7 @@ TEST(LocalEdit, ClothInTheSameObjectKeepsItsTriangles) {
 }
 
 TEST(LocalEdit, SurfacesThatAreNotTheBorderAreMadeIt) {
-  Random random(3);
+  std::mt19937 random(3);
   const Object whole = uneven_block(random);
   const std::vector<int> part = some_parts(random, tetrahedra_of(whole).size());
   const std::vector<std::array<int, 3>> border = part_tetrahedra(whole, part).object.triangles;
@@ -133,7 +131,7 @@ TEST(LocalEdit, AFaceOfThreeTetrahedraIsRefusedFarFromTheEditToo) {
 }
 
 /// A plane through an object, and the way of its blade.
-PlaneCut some_cut(Random& random) {
+PlaneCut some_cut(std::mt19937& random) {
   const auto vector = [&](float most) {
     return Vec3f{between(random, -most, most), between(random, -most, most), between(random, -most, most)};
   };
@@ -141,7 +139,7 @@ PlaneCut some_cut(Random& random) {
 }
 
 TEST(LocalEdit, SidesOfAPlaneAreThoseOfTheMiddlesBeTheyInTheRounding) {
-  Random random(9);
+  std::mt19937 random(9);
   for (int body = 0; body < 40; ++body) {
     const Object object = body % 2 == 0 ? uneven_block(random) : make_soft_body(box_tetrahedra({1, 1, 1}, {4, 4, 4}));
     const std::vector<std::array<int, 4>> all = tetrahedra_of(object);
@@ -165,7 +163,7 @@ std::vector<int> shared_corners(std::array<int, 4> a, std::array<int, 4> b) {
 }
 
 TEST(LocalEdit, CutsOfSolidsOpenTheFacesThatAPlaneParts) {
-  Random random(4);
+  std::mt19937 random(4);
   for (int body = 0; body < 60; ++body) {
     Object object = uneven_block(random);
     object.cuts = {some_cut(random)};
@@ -189,7 +187,7 @@ TEST(LocalEdit, CutsOfSolidsOpenTheFacesThatAPlaneParts) {
 }
 
 TEST(LocalEdit, EdgesBetweenPartsAreThoseOfAllTriangles) {
-  Random random(5);
+  std::mt19937 random(5);
   for (int cloth = 0; cloth < 60; ++cloth) {
     const Object object = sheet(random);
     const std::vector<int> part = some_parts(random, object.triangles.size());
@@ -205,7 +203,7 @@ TEST(LocalEdit, EdgesBetweenPartsAreThoseOfAllTriangles) {
 }
 
 /// A group of links between random particles. Their rest lengths tell them apart.
-ConstraintGroup some_links(Random& random, std::size_t particles) {
+ConstraintGroup some_links(std::mt19937& random, std::size_t particles) {
   ConstraintGroup links;
   links.type = "distance";
   for (int i = 1; i <= 60; ++i) {
@@ -218,7 +216,7 @@ ConstraintGroup some_links(Random& random, std::size_t particles) {
 }
 
 TEST(LocalEdit, LinksThatACutReachesGoUnlessATriangleHasThem) {
-  Random random(6);
+  std::mt19937 random(6);
   for (int cloth = 0; cloth < 30; ++cloth) {
     Object object = sheet(random);
     const ConstraintGroup links = some_links(random, object.positions.size());
@@ -240,7 +238,7 @@ TEST(LocalEdit, LinksThatACutReachesGoUnlessATriangleHasThem) {
 }
 
 TEST(LocalEdit, ConstraintsAtParticlesAreThoseThatUseThem) {
-  Random random(7);
+  std::mt19937 random(7);
   Object object = sheet(random);
   std::vector<char> marks(object.positions.size());
   for (int i = 0; i < 5; ++i) marks[static_cast<std::size_t>(below(random, marks.size()))] = 1;
@@ -282,7 +280,7 @@ TEST(LocalEdit, RunsOfConstraintsKeepTheirOrderAndData) {
 }
 
 TEST(LocalEdit, AroundHasTheElementsAtMarkedParticles) {
-  Random random(8);
+  std::mt19937 random(8);
   const Object object = uneven_block(random);
   const std::vector<std::array<int, 4>> all = tetrahedra_of(object);
   std::vector<char> marks(object.positions.size());

@@ -19,7 +19,7 @@ namespace {
 
 using testing_support::refusal;
 
-constexpr float g = 9.81f;
+constexpr float earth_gravity = 9.81f;
 
 Scene scene_of(Object object, bool falls) {
   Scene scene;
@@ -137,7 +137,8 @@ TEST(BreakForce, IsTheForceThatAThreadBears) {
   for (const float share : {0.98f, 1.02f}) {
     Object object = two_points(2);
     const std::array<int, 2> pair{0, 1};
-    add_stitches(object, std::span(&pair, 1), {.stiffness = Stiffness::compliance(1e-4f), .break_force = share * 2 * g});
+    add_stitches(object, std::span(&pair, 1),
+                 {.stiffness = Stiffness::compliance(1e-4f), .break_force = share * 2 * earth_gravity});
     object.constraints[0].keyframes = {{0, 1}};
     World world(scene_of(object, true));
     int lost = 0;
@@ -173,9 +174,12 @@ TEST(BreakForce, OfAStiffThreadIsNotHiddenByRounding) {
   for (const std::string type : {"distance", "distance_limit"})
     for (const float y : {0.f, 10.f, 100.f})
       for (const float alpha : {1e-6f, 1e-7f, 1e-8f, 1e-9f}) {
-        EXPECT_EQ(broken_by_a_weight(y, type, alpha, 0.98f * g), 1) << type << " at " << y << " m, " << alpha << " m/N";
-        EXPECT_EQ(broken_by_a_weight(y, type, alpha, 1.02f * g), 0) << type << " at " << y << " m, " << alpha << " m/N";
-        EXPECT_EQ(broken_by_a_weight(y, type, alpha, 0.5f * g), 1) << type << " at " << y << " m, " << alpha << " m/N";
+        EXPECT_EQ(broken_by_a_weight(y, type, alpha, 0.98f * earth_gravity), 1)
+            << type << " at " << y << " m, " << alpha << " m/N";
+        EXPECT_EQ(broken_by_a_weight(y, type, alpha, 1.02f * earth_gravity), 0)
+            << type << " at " << y << " m, " << alpha << " m/N";
+        EXPECT_EQ(broken_by_a_weight(y, type, alpha, 0.5f * earth_gravity), 1)
+            << type << " at " << y << " m, " << alpha << " m/N";
       }
 }
 
@@ -190,7 +194,7 @@ TEST(BreakForce, TakesTheUppermostLinkOfARope) {
   rope.pins = {{0}};
   rope.damping = 100;
   for (ConstraintGroup& group : rope.constraints)
-    if (group.type == "distance") group.break_force = 4.5f * 0.1f * g;  // five hang from the first link
+    if (group.type == "distance") group.break_force = 4.5f * 0.1f * earth_gravity;  // five hang from the first link
   World world(scene_of(rope, true));
   run(world, 120);
   const std::vector<Vec3f> x = world.object(0).positions();
@@ -211,7 +215,7 @@ TEST(BreakForce, TakesATieOffATriangle) {
     tie.type = "point_on_triangle";
     tie.particles = {0, 1, 2, 3};
     tie.stiffness = Stiffness::compliance(1e-4f);
-    tie.break_force = share * 0.5f * g;
+    tie.break_force = share * 0.5f * earth_gravity;
     object.constraints = {tie};
     World world(scene_of(object, true));
     run(world, 120);
@@ -254,7 +258,7 @@ TEST(BreakForce, NeedsAComplianceAndATypeWithForces) {
 TEST(BreakForce, LeavesAStrongerThread) {
   Object object = two_points(1);
   const std::array<int, 2> pair{0, 1};
-  for (const float force : {0.5f * g, 5 * g}) {
+  for (const float force : {0.5f * earth_gravity, 5 * earth_gravity}) {
     add_stitches(object, std::span(&pair, 1), {.stiffness = Stiffness::compliance(1e-4f), .break_force = force});
     object.constraints.back().keyframes = {{0, 1}};
   }

@@ -17,16 +17,16 @@ namespace {
 using testing_support::refusal;
 
 /// The least and the greatest length over that at rest, of the edges that distance_limit constrains.
-struct Stretch {
+struct StretchRange {
   double least = 1e9, most = 0;
 };
 
-Stretch stretch_of(const Object& object, const std::vector<std::array<int, 2>>& edges, const std::vector<Vec3f>& at) {
+StretchRange stretch_of(const Object& object, const std::vector<std::array<int, 2>>& edges, const std::vector<Vec3f>& at) {
   const auto length_in = [](const std::vector<Vec3f>& x, const std::array<int, 2>& edge) {
     const Vec3f d = x[static_cast<std::size_t>(edge[1])] - x[static_cast<std::size_t>(edge[0])];
     return std::sqrt(static_cast<double>(dot(d, d)));
   };
-  Stretch out;
+  StretchRange out;
   for (const auto& edge : edges) {
     const double ratio = length_in(at, edge) / length_in(object.positions, edge);
     out = {std::min(out.least, ratio), std::max(out.most, ratio)};
@@ -103,7 +103,7 @@ TEST(StrainLimit, HoldsCloth) {
   const Object object = scene.objects[0];
   World world(scene);
   for (int frame = 0; frame < 600; ++frame) world.step(1.f / 60);
-  const Stretch stretch = stretch_of(object, edges_of(object), world.object(cloth).positions());
+  const StretchRange stretch = stretch_of(object, edges_of(object), world.object(cloth).positions());
   EXPECT_GT(stretch.most, 1.19);
   EXPECT_LT(stretch.most, 1.2 * 1.01);
 }

@@ -11,7 +11,7 @@
 namespace pliant {
 namespace {
 
-constexpr float g = 9.81f;
+constexpr float earth_gravity = 9.81f;
 
 BodyMass body_mass(float mass, const Symmetric& inertia) { return {mass, inertia, inverse_of(inertia)}; }
 
@@ -49,7 +49,7 @@ class Chain {
     const std::vector<Link> start = links_;
     std::vector<BodyMass> masses;
     for (Link& link : links_) {
-      link.velocity.y -= h * g;
+      link.velocity.y -= h * earth_gravity;
       link.place += convert<double>(link.velocity * h);
       link.turned = normalise(multiply(exponential(convert<double>(link.spin * h)), link.turned));
       masses.push_back(mass_of(link));
@@ -82,7 +82,7 @@ class Chain {
     for (const Link& link : links_) {
       const Vec3d local = rotate(conjugate(link.turned), convert<double>(link.spin)), i = convert<double>(link.inertia);
       sum += 0.5 * double(link.mass) * double(length_squared(link.velocity)) +
-             double(link.mass) * double(g) * link.place.y +
+             double(link.mass) * double(earth_gravity) * link.place.y +
              0.5 * (i.x * local.x * local.x + i.y * local.y * local.y + i.z * local.z * local.z);
     }
     return sum;
@@ -91,7 +91,7 @@ class Chain {
   /// The energy that all weight could gain by falling a chain's length.
   double scale() const {
     double sum = 0;
-    for (const Link& link : links_) sum += double(link.mass) * double(g);
+    for (const Link& link : links_) sum += double(link.mass) * double(earth_gravity);
     return sum * 2 * half * static_cast<double>(links_.size());
   }
 
@@ -158,7 +158,7 @@ TEST(JointTree, AHeavyEndOnALongChainKeepsJointsAndEnergy) {
 /// One link lets go from horizontal: a compound pendulum, T = 1.18034 x 2 pi sqrt((I + m r^2) / (m g r)) for swings of 90 degrees.
 TEST(JointTree, OneLinkSwingsAsACompoundPendulum) {
   Chain chain(1, 1);
-  const double period = 1.18034 * 2 * std::acos(-1) * std::sqrt((0.021 + 0.0625) / (double(g) * 0.25));
+  const double period = 1.18034 * 2 * std::acos(-1) * std::sqrt((0.021 + 0.0625) / (double(earth_gravity) * 0.25));
   const float h = 1.f / 2400;
   const double start = chain.energy();
   int substeps = 0, passages = 0;
@@ -185,15 +185,15 @@ TEST(JointTree, LoopsAreLeftLoose) {
   EXPECT_EQ(JointTree(2, {{0, 1}, {1, 0}}).loose(), std::vector<int>{1});
 }
 
-constexpr std::array<Vec3f, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+constexpr std::array<Vec3f, 3> unit_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 JointRows ball_joint(const Vec3f& value, const Vec3f& arm_a, const Vec3f& arm_b) {
   JointRows joint;
   joint.rows = 3;
   joint.value = {value.x, value.y, value.z};
   for (std::size_t r = 0; r < 3; ++r) {
-    joint.of_b[r] = {axes[r], cross(arm_b, axes[r])};
-    joint.of_a[r] = {-axes[r], -cross(arm_a, axes[r])};
+    joint.of_b[r] = {unit_axes[r], cross(arm_b, unit_axes[r])};
+    joint.of_a[r] = {-unit_axes[r], -cross(arm_a, unit_axes[r])};
   }
   return joint;
 }
@@ -246,7 +246,7 @@ TEST(JointTree, ABridgeIsSolvedAtOnce) {
   JointTree(5, ends).solve(masses, rows, moved, &multipliers);
   EXPECT_LT(largest_miss(ends, rows, moved), 2e-4f) << "of gaps up to 0.1: joints between fixed ends yield a little";
   Vec3f sum{}, momentum{};  // what the ends push is what the planks gain
-  for (std::size_t r = 0; r < 3; ++r) sum -= axes[r] * (multipliers[0][r] - multipliers[5][r]);
+  for (std::size_t r = 0; r < 3; ++r) sum -= unit_axes[r] * (multipliers[0][r] - multipliers[5][r]);
   for (const BodyCorrection& one : moved) momentum += one.displacement * 2.f;
   EXPECT_LT(length(sum - momentum), 1e-4f);
 }

@@ -115,13 +115,13 @@ template <class T>
 constexpr int all_slots = (1 << slot_count<T>)-1;
 
 template <class T>
-class SweepKernels : public testing::Test {
+class SweepsInLanes : public testing::Test {
  protected:
   Random random_{5};
 };
-TYPED_TEST_SUITE(SweepKernels, ConstraintTypes, NameOfType);
+TYPED_TEST_SUITE(SweepsInLanes, ConstraintTypes, NameOfType);
 
-TYPED_TEST(SweepKernels, GiveTheBitsOfTheReference) {
+TYPED_TEST(SweepsInLanes, GiveTheBitsOfTheReference) {
   using T = TypeParam;
   for (Law law : {Law::compliant, Law::damped, Law::pbd}) {
     for (int ladder : {all_slots<T>, 0}) {
@@ -168,7 +168,7 @@ CompiledObject every_set_of_slots(Law law, Random& random) {
   return compiled;
 }
 
-TYPED_TEST(SweepKernels, GiveTheBitsOfTheReferenceWithAnySlotsInRuns) {
+TYPED_TEST(SweepsInLanes, GiveTheBitsOfTheReferenceWithAnySlotsInRuns) {
   using T = TypeParam;
   for (Law law : {Law::compliant, Law::damped, Law::pbd}) {
     for (bool nasty : {false, true}) {
@@ -182,7 +182,7 @@ TYPED_TEST(SweepKernels, GiveTheBitsOfTheReferenceWithAnySlotsInRuns) {
   }
 }
 
-TYPED_TEST(SweepKernels, MeetRunsAndSinglesInThisTest) {
+TYPED_TEST(SweepsInLanes, MeetRunsAndSinglesInThisTest) {
   using T = TypeParam;
   const CompiledObject rows = compile(separate_constraints<T>(160, Law::damped, all_slots<T>, this->random_), {10, 4096});
   EXPECT_EQ(rows.pools[0].block_floats, batch_width * (field_count<T> + 1))
@@ -198,7 +198,7 @@ TYPED_TEST(SweepKernels, MeetRunsAndSinglesInThisTest) {
   EXPECT_GT(batches_in_runs(0, 0), 0);
 }
 
-TYPED_TEST(SweepKernels, LeaveOthersAloneAndPaddingUnwritten) {
+TYPED_TEST(SweepsInLanes, LeaveOthersAloneAndPaddingUnwritten) {
   using T = TypeParam;
   CompiledObject compiled = compile(separate_constraints<T>(5, Law::pbd, 0, this->random_), {10, 4096});
   fill(compiled.pools[0], this->random_, false);

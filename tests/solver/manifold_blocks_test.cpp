@@ -94,7 +94,7 @@ Pile random_pile(int bodies, int contacts, int of_first, unsigned seed) {
 
 constexpr float pile_step = 1.f / 480;
 constexpr Vec3f fall{0, -0.025f, 0};
-constexpr ContactSoftness softness{0.04f, 0.05f, 0.5f};
+constexpr ContactSoftness pile_softness{0.04f, 0.05f, 0.5f};
 constexpr int pile_substeps = 3;
 
 /// Calls function(manifold, a, b) in the order of colours. Fixed bodies stay as they are.
@@ -126,7 +126,7 @@ int solve_one_by_one(Pile& pile) {
       if (bounce(m, a, b, pile_step, fall)) bounced = true;
     });
     bounces += bounced ? 1 : 0;
-    one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, pile_step, softness); });
+    one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, pile_step, pile_softness); });
     advance(pile);
     one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { velocity_pass(m, a, b, pile_step); });
   }
@@ -148,7 +148,7 @@ int solve_in_blocks(Pile& pile, const ManifoldKernels& kernels, int threads) {
   for (int substep = 0; substep < pile_substeps; ++substep) {
     blocks.warm_start(executor, kernels, pile.motions);
     bounces += blocks.bounce(executor, kernels, pile.motions, pile_step, fall) ? 1 : 0;
-    blocks.position_pass(executor, kernels, pile.motions, pile_step, softness);
+    blocks.position_pass(executor, kernels, pile.motions, pile_step, pile_softness);
     advance(pile);
     blocks.velocity_pass(executor, kernels, pile.motions, pile_step);
   }

@@ -24,14 +24,14 @@ LocalShape random_shape(std::mt19937& random, ShapeKind kind) {
 constexpr ShapeKind kinds[] = {ShapeKind::plane, ShapeKind::sphere, ShapeKind::capsule, ShapeKind::box};
 
 /// Particles near the surface of a collider: at rest, sliding, fast, some of them fixed.
-struct Meeting {
+struct ParticlesNearCollider {
   CompiledObject object;
   std::vector<MovingCollider> colliders{1};
   Records positions, displacements, remainders, velocities;
   AdvanceArguments particles;
   PointBounds bounds;
 
-  Meeting(std::mt19937& random, ShapeKind kind, bool moves, int count) {
+  ParticlesNearCollider(std::mt19937& random, ShapeKind kind, bool moves, int count) {
     object.thickness = 0.004f;
     object.static_friction = object.kinetic_friction = 0.5f;
     MovingCollider& collider = colliders[0];
@@ -94,7 +94,7 @@ TEST(PointContacts, AreTheSameInLanesAsOneByOne) {
     for (const ShapeKind kind : kinds)
       for (const bool moves : {false, true})
         for (const int count : {1, 15, 16, 17, 200}) {
-          const Meeting meeting(random, kind, moves, count);
+          const ParticlesNearCollider meeting(random, kind, moves, count);
           const std::vector<Contact> lanes = meeting.contacts(*kernels, kernels->contacts.make_point_contacts),
                                      single = meeting.contacts(*kernels, nullptr);
           ASSERT_EQ(lanes.size(), single.size()) << isa << ", shape " << static_cast<int>(kind) << ", " << count;

@@ -17,7 +17,7 @@ namespace {
 
 using testing_support::available_isas;
 
-constexpr int count = 2 * launch_block + 37;
+constexpr int point_count = 2 * launch_block + 37;
 
 /// Records of particles, a seventh of them with infinite mass.
 struct LaunchedParticles {
@@ -27,14 +27,15 @@ struct LaunchedParticles {
     std::mt19937 random(10);
     std::uniform_real_distribution<float> metres(-2, 2);
     const auto make = [&](std::vector<Record>& records, float size) {
-      for (int i = 0; i < count; ++i)
+      for (int i = 0; i < point_count; ++i)
         records.push_back({size * metres(random), size * metres(random), size * metres(random), 0});
     };
     make(positions, 1);
     make(displacements, 1e-3f);
     make(remainders, 1e-9f);
     make(velocities, 3);
-    for (int i = 0; i < count; ++i) positions[static_cast<std::size_t>(i)].w = i % 7 == 0 ? 0 : 1.f + static_cast<float>(i);
+    for (int i = 0; i < point_count; ++i)
+      positions[static_cast<std::size_t>(i)].w = i % 7 == 0 ? 0 : 1.f + static_cast<float>(i);
   }
 
   AdvanceArguments arguments() {
@@ -43,7 +44,7 @@ struct LaunchedParticles {
     a.displacements = displacements.data();
     a.remainders = remainders.data();
     a.velocities = velocities.data();
-    a.last = count;
+    a.last = point_count;
     a.h = 1.f / 600;
     a.inverse_h = 600;
     a.velocity_kept = 0.99f;
@@ -67,7 +68,7 @@ void expect_same(const LaunchedParticles& a, const LaunchedParticles& b, const s
 
 template <class Functor>
 void run_backwards(const Functor& functor) {
-  for (int block = launch_blocks(count) - 1; block >= 0; --block) run_block(functor, block, count);
+  for (int block = launch_blocks(point_count) - 1; block >= 0; --block) run_block(functor, block, point_count);
 }
 
 std::vector<std::string> tables() {
@@ -102,8 +103,8 @@ TEST(Points, AdvanceOnAnyNumberOfThreads) {
   for (const int threads : {1, 2, 4}) {
     LaunchedParticles found;
     Executor executor(threads);
-    launch(executor, "update", count, UpdatePoint{found.arguments()});
-    launch(executor, "predict", count, PredictPoint{found.arguments()});
+    launch(executor, "update", point_count, UpdatePoint{found.arguments()});
+    launch(executor, "predict", point_count, PredictPoint{found.arguments()});
     expect_same(found, expected, std::to_string(threads) + " threads");
   }
 }
@@ -112,9 +113,9 @@ TEST(Points, FindWhatIsNotFinite) {
   LaunchedParticles particles;
   particles.displacements[1500].z = std::numeric_limits<float>::infinity();
   particles.displacements[3].x = particles.displacements[1500].z - particles.displacements[1500].z;
-  std::vector<unsigned char> nonfinite(count, 2);
+  std::vector<unsigned char> nonfinite(point_count, 2);
   run_backwards(FindNonfinite{particles.displacements.data(), nonfinite.data()});
-  for (int i = 0; i < count; ++i) EXPECT_EQ(nonfinite[static_cast<std::size_t>(i)], i == 3 || i == 1500 ? 1 : 0) << i;
+  for (int i = 0; i < point_count; ++i) EXPECT_EQ(nonfinite[static_cast<std::size_t>(i)], i == 3 || i == 1500 ? 1 : 0) << i;
 }
 
 }  // namespace

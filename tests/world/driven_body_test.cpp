@@ -15,7 +15,7 @@
 namespace pliant {
 namespace {
 
-using testing_support::pi;
+using testing_support::float_pi;
 using testing_support::run;
 
 /// Turns about the y-axis through a pivot by `speed` [rad/s] for some seconds.
@@ -51,15 +51,15 @@ float angle_of(const Quatf& q) {
 
 TEST(DrivenBody, FollowsThePlaceAndTheRotationOfItsPin) {
   Scene scene;
-  scene.add(driven(Box{{0.5f, 0.1f, 0.1f}}, {1, 0, 0}, turning(pi / 2, 1)));
+  scene.add(driven(Box{{0.5f, 0.1f, 0.1f}}, {1, 0, 0}, turning(float_pi / 2, 1)));
   World world(scene);
   run(world, 30);
   const RigidPose half = world.object(0).pose(0);
-  EXPECT_NEAR(angle_of(half.rotation), pi / 4, 1e-5);
-  EXPECT_NEAR(half.position.x, std::cos(pi / 4), 1e-5);
-  EXPECT_NEAR(half.position.z, -std::sin(pi / 4), 1e-5);
+  EXPECT_NEAR(angle_of(half.rotation), float_pi / 4, 1e-5);
+  EXPECT_NEAR(half.position.x, std::cos(float_pi / 4), 1e-5);
+  EXPECT_NEAR(half.position.z, -std::sin(float_pi / 4), 1e-5);
   run(world, 60);
-  EXPECT_NEAR(angle_of(world.object(0).pose(0).rotation), pi / 2, 1e-5) << "it stays where its last keyframe is";
+  EXPECT_NEAR(angle_of(world.object(0).pose(0).rotation), float_pi / 2, 1e-5) << "it stays where its last keyframe is";
 }
 
 TEST(DrivenBody, WhoseMotionOnlyMovesIsFreeToTurn) {
@@ -76,13 +76,13 @@ TEST(DrivenBody, WhoseMotionOnlyMovesIsFreeToTurn) {
 
 TEST(DrivenBody, CarriesRoundWhatLiesOnIt) {
   Scene scene;
-  scene.add(driven(Box{{2, 0.1f, 2}}, {0, -0.1f, 0}, turning(pi / 4, 4)));
+  scene.add(driven(Box{{2, 0.1f, 2}}, {0, -0.1f, 0}, turning(float_pi / 4, 4)));
   scene.add(body_at(Box{{0.1f, 0.1f, 0.1f}}, {1, 0.1f, 0}));
   World world(scene);
   run(world, 240);
   const RigidPose rider = world.object(1).pose(0);
   EXPECT_NEAR(std::hypot(rider.position.x, rider.position.z), 1, 0.02) << "it starts from rest";
-  EXPECT_NEAR(std::fabs(angle_of(rider.rotation)), pi, 0.2);
+  EXPECT_NEAR(std::fabs(angle_of(rider.rotation)), float_pi, 0.2);
 }
 
 TEST(DrivenBody, PushesABallAtTheSpeedOfItsSurface) {
@@ -101,7 +101,7 @@ TEST(DrivenBody, PushesABallAtTheSpeedOfItsSurface) {
 
 TEST(DrivenBody, TakesAlongWhatIsJointedToIt) {
   Scene scene;
-  Object arm = driven(Box{{0.5f, 0.05f, 0.05f}}, {0.5f, 0, 0}, turning(pi / 2, 2));
+  Object arm = driven(Box{{0.5f, 0.05f, 0.05f}}, {0.5f, 0, 0}, turning(float_pi / 2, 2));
   const int hand = add_body(arm, {{Box{{0.1f, 0.1f, 0.1f}}}}, {.position = {1.1f, 0, 0}});
   add_joint(arm, FixedJoint{.a = 0, .b = hand, .anchor = {1, 0, 0}});
   scene.add(arm);
@@ -110,7 +110,7 @@ TEST(DrivenBody, TakesAlongWhatIsJointedToIt) {
   const RigidPose pose = world.object(0).pose(hand);
   EXPECT_NEAR(pose.position.x, -1.1, 2e-3);
   EXPECT_NEAR(pose.position.z, 0, 5e-3);
-  EXPECT_NEAR(std::fabs(angle_of(pose.rotation)), pi, 5e-3);
+  EXPECT_NEAR(std::fabs(angle_of(pose.rotation)), float_pi, 5e-3);
 }
 
 TEST(DrivenBody, TurnsOnAfterARestoreWithTheSameBits) {
@@ -159,8 +159,8 @@ TEST(DrivenBody, StartsWhereItsKeyframesAreIfItIsAddedLater) {
   scene.add(body_at(Sphere{0.1f}, {0, 5, 0}));
   World world(scene);
   run(world, 30);
-  const ObjectId id = world.add(driven(Box{{0.5f, 0.1f, 0.1f}}, {1, 0, 0}, turning(pi / 2, 1)));
-  EXPECT_NEAR(angle_of(world.object(id).pose(0).rotation), pi / 4, 1e-5);
+  const ObjectId id = world.add(driven(Box{{0.5f, 0.1f, 0.1f}}, {1, 0, 0}, turning(float_pi / 2, 1)));
+  EXPECT_NEAR(angle_of(world.object(id).pose(0).rotation), float_pi / 4, 1e-5);
 }
 
 }  // namespace

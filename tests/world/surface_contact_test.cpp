@@ -16,10 +16,10 @@ using namespace testing_support;
 /// A sheet folded over itself in a half circle, dropped on a floor.
 Scene folded_cloth() {
   TriangleMesh mesh = sheet(24, 0.5f, 0);
-  constexpr float radius = 0.03f, flat = 0.25f - pi / 2 * radius;
+  constexpr float radius = 0.03f, flat = 0.25f - float_pi / 2 * radius;
   for (Vec3f& p : mesh.positions) {
-    const float along = p.x + 0.25f, angle = std::clamp((along - flat) / radius, 0.f, pi);
-    const float back = std::max(0.f, along - flat - pi * radius);
+    const float along = p.x + 0.25f, angle = std::clamp((along - flat) / radius, 0.f, float_pi);
+    const float back = std::max(0.f, along - flat - float_pi * radius);
     p.x = std::min(along, flat) + radius * std::sin(angle) - back;
     p.y = 0.1f + radius * (1 - std::cos(angle));
   }

@@ -11,7 +11,7 @@
 namespace pliant {
 namespace {
 
-using testing_support::pi;
+using testing_support::float_pi;
 
 Object box_at(const Vec3f& position, const Vec3f& velocity = {}, const Vec3f& angular_velocity = {}) {
   BodyOptions options;
@@ -68,19 +68,19 @@ double radius_after(float speed, int seconds) {
 
 /// Friction of 1 holds it up to 3.1 rad/s.
 TEST(Turntable, CarriesABoxRound) {
-  EXPECT_NEAR(radius_after(pi / 4, 5), 1, 1e-3);
-  EXPECT_NEAR(radius_after(pi / 2, 5), 1, 4e-3);
+  EXPECT_NEAR(radius_after(float_pi / 4, 5), 1, 1e-3);
+  EXPECT_NEAR(radius_after(float_pi / 2, 5), 1, 4e-3);
 }
 
-TEST(Turntable, ThrowsOutWhatFrictionCannotHold) { EXPECT_GT(radius_after(pi, 3), 2); }
+TEST(Turntable, ThrowsOutWhatFrictionCannotHold) { EXPECT_GT(radius_after(float_pi, 3), 2); }
 
 TEST(Turntable, CarriesABoxRoundBesideASleeper) {
-  Scene scene = table(pi / 4, 5);
+  Scene scene = table(float_pi / 4, 5);
   Collider shelf;
   shelf.shape = Box{{0.5f, 0.1f, 0.5f}};
   shelf.position = {5, 0, 0};
   scene.add(shelf);
-  scene.add(rider(pi / 4));
+  scene.add(rider(float_pi / 4));
   scene.add(box_at({5, 0.2f, 0}));
   scene.settings.sleep.on = true;
   World world(scene);
@@ -90,7 +90,7 @@ TEST(Turntable, CarriesABoxRoundBesideASleeper) {
 }
 
 TEST(Turntable, MayBeAFixedBody) {
-  constexpr float speed = pi / 4;
+  constexpr float speed = float_pi / 4;
   Scene scene;
   BodyOptions options;
   options.position = {0, -0.1f, 0};

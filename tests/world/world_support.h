@@ -11,7 +11,7 @@
 namespace pliant::testing_support {
 
 inline constexpr float dt = 1.f / 60;
-inline constexpr float pi = 3.14159265f;
+inline constexpr float float_pi = 3.14159265f;
 
 inline bool is_finite(const State& state) {
   for (const auto* records : {&state.positions, &state.remainders, &state.velocities}) {
