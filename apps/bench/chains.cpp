@@ -15,7 +15,8 @@ namespace {
 
 constexpr float half_link = 0.25f, end_mass = 100;
 
-double processor_ms() {
+/// Processor time of this thread [ms].
+double thread_ms() {
   std::timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
@@ -50,9 +51,9 @@ class Chain {
   }
 
   void step() {
-    const double start = processor_ms();
+    const double start = thread_ms();
     world_.step(frame_time);
-    times_.push_back(processor_ms() - start);
+    times_.push_back(thread_ms() - start);
     row_.drift = std::max(row_.drift, drift());
   }
 
