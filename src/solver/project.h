@@ -48,10 +48,11 @@ PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass
 /// The inputs of a projection besides positions: compliance, damping, multiplier.
 template <class R>
 struct ConstraintResponse {
-  R softness;        ///< compliance alpha, or PBD stiffness k'
-  R damping;         ///< damping coefficient beta
-  R multiplier;      ///< lambda of this substep; updated by project
-  R share = R(1.f);  ///< in general sweeps: share of dlambda that is added to the multiplier
+  R softness;           ///< compliance alpha, or PBD stiffness k'
+  R damping;            ///< damping coefficient beta
+  R multiplier;         ///< lambda of this substep; updated by project
+  bool is_kept = true;  ///< false: there is no multiplier, and what it would be is not asked
+  R share = R(1.f);     ///< in general sweeps: share of dlambda that is added to the multiplier
 };
 
 /// Computes the corrections of one constraint, or of one in each lane.
@@ -75,7 +76,9 @@ PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_coun
   } else {
     const R compliance = min(response.softness * R(a.inverse_h2), R(largest_compliance));
     R numerator = -c, denominator = mass + compliance;
-    if constexpr (keeps_multiplier) numerator = numerator - compliance * response.multiplier;
+    if constexpr (keeps_multiplier) {
+      if (response.is_kept) numerator = numerator - compliance * response.multiplier;
+    }
     if constexpr (law == Law::damped) {
       const R gamma = min(response.softness * response.damping * R(a.inverse_h), R(largest_compliance));
       numerator = numerator - gamma * motion_along<T>(gradient, motion);

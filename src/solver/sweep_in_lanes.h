@@ -109,7 +109,8 @@ PLIANT_HD void project_register(const RowPointers<row_count>& rows, const SlotIn
   std::memcpy(&params, rest, sizeof params);
   ConstraintResponse<Wide> response{load_wide(rows.at[fields] + slots.lane), Wide(0.f), Wide(0.f)};
   if constexpr (keeps_multipliers) {
-    if (multiplier != nullptr && !a.first_pass) response.multiplier = load_wide(multiplier + slots.lane);
+    response.is_kept = multiplier != nullptr;
+    if (response.is_kept && !a.first_pass) response.multiplier = load_wide(multiplier + slots.lane);
   }
   Vec3<Wide> motion[slot_count<T>];
   if constexpr (law == Law::damped) {
@@ -121,7 +122,7 @@ PLIANT_HD void project_register(const RowPointers<row_count>& rows, const SlotIn
   Vec3<Wide> correction[slot_count<T>];
   project<T, law, keeps_multipliers>(x, w, params, motion, response, a, correction);
   if constexpr (keeps_multipliers) {
-    if (multiplier != nullptr) store_wide(multiplier + slots.lane, response.multiplier);
+    if (response.is_kept) store_wide(multiplier + slots.lane, response.multiplier);
   }
   PLIANT_UNROLL
   for (int slot = 0; slot < slot_count<T>; ++slot)
@@ -175,8 +176,7 @@ void sweep_either(const Pool& pool, const Segment& segment, float* multipliers, 
   }
 }
 
-/// Whether multipliers are kept is a template argument where the projection is short. Elsewhere those that are not kept are zero, which
-/// changes no bit.
+/// Whether multipliers are kept is a template argument where the projection is short, elsewhere a branch.
 template <class T, Law law>
 void sweep_law(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   constexpr bool is_short = slot_count<T> == 2;
