@@ -14,6 +14,7 @@
 #include "solver/stages/stages.h"
 #include "solver/sweeps/multigrid.h"
 #include "solver/sweeps_support.h"
+#include "support/kernels.h"
 #include "topology/edges.h"
 
 namespace pliant::testing_support {
@@ -92,7 +93,7 @@ struct Linearised {
   std::vector<MultigridObject> work;
   const MultigridKernels* kernels = nullptr;
 
-  explicit Linearised(const Object& from, const std::string& isa = "generic", bool touches = false)
+  explicit Linearised(const Object& from, const std::string& isa = available_isas().front(), bool touches = false)
       : object(compile_with_levels(from)), kernels(&pick_kernels(isa).multigrid) {
     std::mt19937 random(5);
     positions.assign(object.positions.begin(), object.positions.end());
@@ -233,7 +234,7 @@ struct Corrected {
     pairs = make_pair_model(model);
     if (pairs) workspace.pairs = std::make_unique<SurfaceContact>(*pairs);
     Executor executor(1);
-    const StepContext context{model, state, workspace, executor, pick_kernels("generic"), 1, 1, run.settings.sweep_options,
+    const StepContext context{model, state, workspace, executor, pick_kernels(available_isas().front()), 1, 1, run.settings.sweep_options,
                               false};
     executor.enter([&] {
       Substep s = begin_frame(context, 1.0 / 360).front();
