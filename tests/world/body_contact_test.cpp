@@ -244,7 +244,7 @@ TEST(BodyContact, BodiesInOnePlaceSeparate) {
   ASSERT_TRUE(first.ok());
   ASSERT_FALSE(first.warnings.empty());
   EXPECT_NE(first.warnings[0].find("left to later frames"), std::string::npos) << first.warnings[0];
-  run(world, 20);
+  run(world, 11);
   const std::vector<Vec3f> at = world.object(0).positions();
   float farthest = 0;
   for (const Vec3f& p : at) farthest = std::max(farthest, std::sqrt(length_squared(p)));
