@@ -39,6 +39,11 @@ function(pliant_unity target size)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${PLIANT_UNITY} UNITY_BUILD_BATCH_SIZE ${size})
 endfunction()
 
+# pliant_compile_fast(TARGET): for code that runs once, not in every frame. Compiling it with less optimisation takes two thirds of the time.
+function(pliant_compile_fast target)
+  target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-O1>)
+endfunction()
+
 # pliant_include_root(TARGET SCOPE FOLDER PREFIX): files that link TARGET may include FOLDER's headers as "PREFIX/name.h", and
 # no other folder's: PREFIX is the only entry of a folder in the build tree that links to FOLDER. Linking a target is what makes
 # its headers visible, so an include that skips the layers does not compile.
