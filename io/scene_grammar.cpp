@@ -336,7 +336,8 @@ const Record& settings_record() {
        field("record_multipliers", boolean(), Settings{}.record_multipliers,
              "Store multipliers for reading even if the solver does not need them."),
        field("isa", choice({"x86-64-v2", "x86-64-v3", "x86-64-v4", "generic", "sequential"}),
-             "the best that the machine supports", "Forces an instruction set: the same bits at another speed.")},
+             "the best that the machine supports",
+             "Forces an instruction set that the build holds (PLIANT_LEVELS): the same bits at another speed.")},
       {}};
   return result;
 }

@@ -242,7 +242,7 @@ struct Settings {
   bool measure = false;             ///< fill Report::residuals and stretch; costs about one more iteration a frame
   bool record_residuals = false;    ///< fill Report::convergence; slow: measures each iteration of the last substep
   bool record_multipliers = false;  ///< keep multipliers for ObjectView::multipliers even if the solver does not need them
-  std::string isa;  ///< "" for the fastest, or "x86-64-v2", "-v3", "-v4", "generic", "sequential" (same bits, other speed)
+  std::string isa;  ///< "" for the fastest, or "x86-64-v2", "-v3", "-v4", "generic", "sequential", if the build holds it
 };
 
 /// The complete description of a simulation.

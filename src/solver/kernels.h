@@ -1,5 +1,5 @@
 // The inner loops of a step: a table of functions for each instruction set level. To add a kernel, add a line to its
-// struct and to each table; to add a level, add a line to math/levels.h.
+// struct and to each table; to add a level, see cmake/PliantLanes.cmake.
 //
 // All tables give the same bits and differ only in speed. The sequential table is the readable reference: plain floats,
 // one constraint after another, in the same order.
@@ -60,7 +60,7 @@ const SweepKernels& sweep_kernels_sequential();
 
 /// Like SweepKernels::sweep, with relaxation. If arguments.corrections is set, stores corrections there instead of applying them:
 /// that of a batch's `slot` and `lane` at record 16 (size batch + slot) + correction_place(lane) of its pool's array. One constraint after
-/// another on every level: only comparisons use it (Jacobi sweeps, relaxation).
+/// another on every level: no default uses it (Jacobi sweeps, relaxation).
 void sweep_general(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 
 const StepKernels& step_kernels_sequential();

@@ -1,4 +1,6 @@
 // Selects a kernel table: the best for this CPU, or one by name.
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 #include "collision/neighbours/neighbour_kernels.h"
@@ -68,6 +70,10 @@ const Kernels& kernels_sequential() {
 }
 
 const Kernels& pick_kernels(const std::string& isa) {
+  const auto runs = [](const Level& level) { return level.runs(); };
+  if (std::none_of(std::begin(levels), std::end(levels), runs))
+    throw Error({}, "this machine runs none of the code paths of this build: " + level_names() + "sequential",
+                "build it with PLIANT_LEVELS=all");
   if (isa == kernels_sequential().isa) return kernels_sequential();
   for (const Level& level : levels) {
     const Kernels& kernels = level.kernels();

@@ -1,6 +1,7 @@
 // Selects a table of kernels by what this machine runs.
 #include "levels/compiled.h"
 #include "math/runs_level.h"
+#include "pliant/error.h"
 #include "surface/surface_kernels.h"
 
 namespace pliant::surface {
@@ -15,8 +16,9 @@ std::vector<const SurfaceKernels*> all_kernels() {
 }
 
 const SurfaceKernels& best_kernels() {
-  static const SurfaceKernels& best = *all_kernels().front();
-  return best;
+  static const std::vector<const SurfaceKernels*> all = all_kernels();
+  if (all.empty()) throw Error({}, "this machine runs no code path of this build", "build it with PLIANT_LEVELS=all");
+  return *all.front();
 }
 
 }  // namespace pliant::surface
