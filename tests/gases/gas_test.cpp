@@ -182,8 +182,7 @@ Scene scene_with_all() {
 }
 
 TEST(Gas, HasTheSameBitsOnThreadsAndLevels) {
-  std::vector<std::string> isas = testing_support::available_isas();
-  isas.push_back("sequential");
+  const std::vector<std::string> isas = testing_support::available_code_paths();
   std::string expected;
   for (const int threads : {1, 2, 3})
     for (const std::string& isa : isas) {

@@ -164,9 +164,7 @@ TEST(RodBundle, GivesTheSameBitsAtAllLevels) {
   const Rods rods(21, {0.004f, true, 1e5f});
   Scene scene = plain_scene();
   const Outcome any(scene, {rods.together}, 40);
-  std::vector<std::string> isas = testing_support::available_isas();
-  isas.push_back("sequential");
-  for (const std::string& isa : isas) {
+  for (const std::string& isa : testing_support::available_code_paths()) {
     scene.settings.isa = isa;
     EXPECT_TRUE(Outcome(scene, {rods.together}, 40) == any) << isa;
   }

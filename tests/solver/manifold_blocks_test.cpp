@@ -198,8 +198,7 @@ void compare_all(const Pile& pile, bool must_bounce) {
   if (must_bounce) {
     EXPECT_GT(bounces, 0);
   }
-  std::vector<std::string> names = testing_support::available_isas();
-  names.emplace_back("sequential");
+  const std::vector<std::string> names = testing_support::available_code_paths();
   for (const std::string& name : names)
     for (const int threads : {1, 3}) {
       Pile got = pile;

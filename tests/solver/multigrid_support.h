@@ -234,8 +234,8 @@ struct Corrected {
     pairs = make_pair_model(model);
     if (pairs) workspace.pairs = std::make_unique<SurfaceContact>(*pairs);
     Executor executor(1);
-    const StepContext context{
-        model, state, workspace, executor, pick_kernels(available_isas().front()), 1, 1, run.settings.sweep_options, false};
+    const Kernels& kernels = pick_kernels(available_isas().front());
+    const StepContext context{model, state, workspace, executor, kernels, 1, 1, run.settings.sweep_options, false};
     executor.enter([&] {
       Substep s = begin_frame(context, 1.0 / 360).front();
       control(s);

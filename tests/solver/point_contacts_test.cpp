@@ -86,13 +86,13 @@ TEST(PointContacts, AreTheSameInLanesAsOneByOne) {
   std::mt19937 random(17);
   int found = 0;
   for (const std::string& isa : testing_support::available_isas()) {
-    const Kernels* kernels = &pick_kernels(isa);
+    const Kernels& kernels = pick_kernels(isa);
     for (const ShapeKind kind : kinds)
       for (const bool moves : {false, true})
         for (const int count : {1, 15, 16, 17, 200}) {
           const ParticlesNearCollider meeting(random, kind, moves, count);
-          const std::vector<Contact> lanes = meeting.contacts(*kernels, kernels->contacts.make_point_contacts),
-                                     single = meeting.contacts(*kernels, nullptr);
+          const std::vector<Contact> lanes = meeting.contacts(kernels, kernels.contacts.make_point_contacts),
+                                     single = meeting.contacts(kernels, nullptr);
           ASSERT_EQ(lanes.size(), single.size()) << isa << ", shape " << static_cast<int>(kind) << ", " << count;
           for (std::size_t i = 0; i < lanes.size(); ++i)
             EXPECT_EQ(std::memcmp(&lanes[i], &single[i], sizeof(Contact)), 0)

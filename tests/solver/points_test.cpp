@@ -15,7 +15,7 @@
 namespace pliant {
 namespace {
 
-using testing_support::available_isas;
+using testing_support::available_code_paths;
 
 constexpr int point_count = 2 * launch_block + 37;
 
@@ -71,16 +71,10 @@ void run_backwards(const Functor& functor) {
   for (int block = launch_blocks(point_count) - 1; block >= 0; --block) run_block(functor, block, point_count);
 }
 
-std::vector<std::string> tables() {
-  std::vector<std::string> names = available_isas();
-  names.emplace_back("sequential");
-  return names;
-}
-
 TEST(Points, UpdateAsEveryTableOfKernels) {
   LaunchedParticles expected;
   run_backwards(UpdatePoint{expected.arguments()});
-  for (const std::string& isa : tables()) {
+  for (const std::string& isa : available_code_paths()) {
     LaunchedParticles found;
     pick_kernels(isa).update(found.arguments());
     expect_same(found, expected, isa);
@@ -90,7 +84,7 @@ TEST(Points, UpdateAsEveryTableOfKernels) {
 TEST(Points, PredictAsEveryTableOfKernels) {
   LaunchedParticles expected;
   run_backwards(PredictPoint{expected.arguments()});
-  for (const std::string& isa : tables()) {
+  for (const std::string& isa : available_code_paths()) {
     LaunchedParticles found;
     pick_kernels(isa).predict(found.arguments(), nullptr);
     expect_same(found, expected, isa);

@@ -35,4 +35,11 @@ inline std::vector<std::string> available_isas() {
   return available;
 }
 
+/// The same and the scalar code: all ways in which a World can run here.
+inline std::vector<std::string> available_code_paths() {
+  std::vector<std::string> all = available_isas();
+  all.push_back("sequential");
+  return all;
+}
+
 }  // namespace pliant::testing_support

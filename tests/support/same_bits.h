@@ -32,7 +32,8 @@ inline std::string hash_after(const Scene& scene, const Steps& steps, int thread
   return hash(world.state());
 }
 
-/// Expects the bits of the sequential code on any number of threads, by the widest and the narrowest lanes. Returns their hash.
+/// Expects the bits of the sequential code on any number of threads, by the widest and the narrowest lanes. Returns
+/// their hash.
 inline std::string expect_same_bits_on_any_threads_and_levels(const Scene& scene, const Steps& steps) {
   std::string expected = hash_after(scene, steps, 1, "sequential");
   EXPECT_EQ(hash_after(scene, steps, 1, ""), expected);

@@ -1,8 +1,9 @@
 // The pairs of thread count and instruction set by which tests run what must have one hash.
 //
-// A scene runs by 1, 2, 3 and 8 threads and by each level once, not by all of their products: a fault of a level or of a thread count shows
-// in its pair. Only where a pair differs do all products run, to tell which of the two it is. With PLIANT_THOROUGH=1 all products run at
-// once, those of the best level three times, since threads may give other bits only sometimes.
+// A scene runs by 1, 2, 3 and 8 threads and by each level once, not by all of their products: a fault of a level or
+// of a thread count shows in its pair. Only where a pair differs do all products run, to tell which of the two it is.
+// With PLIANT_THOROUGH=1 all products run at once, those of the best level three times, since threads may give other
+// bits only sometimes.
 #pragma once
 
 #include <gtest/gtest.h>
