@@ -39,7 +39,9 @@ function(pliant_unity target size)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${PLIANT_UNITY} UNITY_BUILD_BATCH_SIZE ${size})
 endfunction()
 
-# pliant_compile_fast(TARGET): for code that runs once, not in every frame. Compiling it with less optimisation takes two thirds of the time.
+# pliant_compile_fast(TARGET): for code that no step of a World runs: programs, readers and writers, tests. With less
+# optimisation it compiles in two thirds of the time; reading and writing take as long as before
+# (docs/internals/performance.md).
 function(pliant_compile_fast target)
   target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:-O1>)
 endfunction()

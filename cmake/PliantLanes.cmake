@@ -1,6 +1,7 @@
 # The units in lanes: compiled once for each instruction set level that the build holds, all into one program, which picks one table of
-# kernels at start (src/solver/kernels.h). src/math/levels.h declares all levels there are. A new level also needs its
-# flags and its name below, a place in `known`, a test of the processor (src/math/runs_level.h) and what vectors it has (src/math/isa.h).
+# kernels at start (src/solver/kernels.h). src/math/levels.h declares all levels there are. A new level also needs
+# its flags and its name below, a place in `known` and among the `names` and numbers of pliant_native_level, a test of
+# the processor (src/math/runs_level.h) and the vectors that it has (src/math/isa.h).
 set(PLIANT_LEVELS all CACHE STRING "Instruction set levels that the build holds: all, or a list of native (the best of this machine), v4, v3, \
 v2 and generic; a program runs where one of them runs. The results have the same bits by any")
 set(PLIANT_LEVEL_FLAGS_v4 -march=x86-64-v4 -mprefer-vector-width=512)

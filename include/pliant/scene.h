@@ -242,7 +242,9 @@ struct Settings {
   bool measure = false;             ///< fill Report::residuals and stretch; costs about one more iteration a frame
   bool record_residuals = false;    ///< fill Report::convergence; slow: measures each iteration of the last substep
   bool record_multipliers = false;  ///< keep multipliers for ObjectView::multipliers even if the solver does not need them
-  std::string isa;  ///< "" for the fastest, or "x86-64-v2", "-v3", "-v4", "generic", "sequential", if the build holds it
+  /// "" for the fastest, or one that the build holds: "x86-64-v2", "-v3", "-v4", "generic"; or "sequential". The bits
+  /// are the same.
+  std::string isa;
 };
 
 /// The complete description of a simulation.

@@ -1,7 +1,8 @@
 // The list of instruction set levels of the SIMD units, widest first: X(suffix of function names, name of the level, ...).
 //
-// cmake/PliantLanes.cmake lists the same levels with compiler flags, and says what a new one needs. `generic` names no instruction set, so it compiles on any CPU. All levels give the same bits. A build holds some of
-// them (PLIANT_LEVELS): "levels/compiled.h" says which; here all are declared.
+// cmake/PliantLanes.cmake lists the same levels with compiler flags, and says what a new one needs. `generic` names no
+// instruction set, so it compiles on any CPU. All levels give the same bits. A build holds some of them
+// (PLIANT_LEVELS): "levels/compiled.h" says which; here all are declared.
 #pragma once
 
 // clang-format off: one level per line.
