@@ -15,6 +15,8 @@ namespace {
 
 /// A feature is flat to the other solid if its points differ in height by no more than this share of its size, or by the margin.
 constexpr double flat_share = 0.1;
+/// The nearest place is a point of contact where all others are higher by this share of the solids' sizes.
+constexpr double higher = 0.01;
 /// Polygons that face each other less than this serve no clipping [cosine].
 constexpr double least_facing = 0.9;
 
@@ -101,7 +103,7 @@ Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, 
     point.separation -= radius_a + radius_b;
     deepest = std::min(deepest, point.separation);
   }
-  const double error = 0.01 * (size_of(a) + size_of(b)) + 1e-6;
+  const double error = higher * (size_of(a) + size_of(b)) + 1e-6;
   const bool has_all = !points.empty() && deepest <= nearest.separation + error;
   if (!has_all) points.push_back({nearest.on_a, nearest.on_b, nearest.separation, nearest_point_feature});
   return four_of(points, normal);
@@ -111,13 +113,19 @@ Touch touch_half_space(const ConvexShape& b, const Posed& pose_of_b, double marg
   const Vec3d up{0, 1, 0};
   const double radius = static_cast<double>(b.radius);
   const Vec3d down = rotate(conjugate(pose_of_b.rotation), -up);
-  const double depth = radius - to_world(pose_of_b, support(b, down)).y;  // all that is below the surface touches
+  const Vec3d deepest = to_world(pose_of_b, support(b, down)) - up * radius;
+  const double depth = -deepest.y;  // all that is below the surface touches
   const Feature lowest = facing_feature(b, pose_of_b, -up, margin, std::max(turning, depth));
   std::vector<TouchPoint> points;
   for (int i = 0; i < lowest.count; ++i) {
     const Vec3d on_b = lowest.points[static_cast<std::size_t>(i)] - up * radius;
     if (on_b.y <= margin) points.push_back({{on_b.x, 0, on_b.z}, on_b, on_b.y, static_cast<std::uint32_t>(i)});
   }
+  // The flattest part need not hold the deepest place.
+  double least = margin;
+  for (const TouchPoint& point : points) least = std::min(least, point.separation);
+  if (deepest.y < least - (higher * size_of(b) + 1e-6))
+    points.push_back({{deepest.x, 0, deepest.z}, deepest, deepest.y, nearest_point_feature});
   return points.empty() ? Touch{} : four_of(points, up);
 }
 

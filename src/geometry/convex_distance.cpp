@@ -19,6 +19,8 @@ constexpr int most_steps = 64;
 constexpr double accuracy = 1e-11, close = 1e-8;
 /// The polytope stops growing when that would move its nearest face by less than this share of the solids' size.
 constexpr double growth = 1e-7;
+/// Nor beyond so many faces: of solids whose faces are flush, rounding may let each step double them.
+constexpr std::size_t most_faces = 2000;
 /// Cores nearer than this, times a metre and their size, count as overlapping.
 constexpr double contact = 1e-10;
 
@@ -203,7 +205,7 @@ class Polytope {
   ConvexDistance depth() {
     int nearest = is_solid_ ? nearest_face() : -1;
     if (nearest < 0) return flat();
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < most_steps && faces_.size() < most_faces; ++step) {
       const PolytopeFace face = faces_[static_cast<std::size_t>(nearest)];
       const Vertex next = difference_.support(face.normal);
       if (dot(next.w, face.normal) - face.distance <= growth * size_ || !grow(next)) break;

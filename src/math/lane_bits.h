@@ -27,5 +27,8 @@ PLIANT_HD std::uint32_t lane_bits(const WideMask& mask) {
 #endif
 }
 
+/// True if a number is zero in all lanes.
+PLIANT_HD bool all_zero(const Wide& value) { return lane_bits(value == Wide(0.f)) == 0xffff; }
+
 }  // namespace PLIANT_ISA
 }  // namespace pliant

@@ -15,7 +15,6 @@ PLIANT_HD motion_formulas::RecordOf<Wide> load_records(const Record* base, const
 PLIANT_HD void store_records(Record* base, const std::int32_t* index, const motion_formulas::RecordOf<Wide>& r) {
   store_indexed(base, index, to_registers({r.xyz, r.w}));
 }
-PLIANT_HD bool all_zero(const Wide& sum) { return lane_bits(sum == Wide(0.f)) == 0xffff; }
 
 }  // namespace PLIANT_ISA
 }  // namespace pliant

@@ -11,9 +11,8 @@
 #include "collision/bodies/kept_side.h"
 #include "collision/bodies/manifold.h"
 #include "collision/bodies/mesh_contacts.h"
-#include "collision/bodies/round_contact.h"
+#include "collision/bodies/pair_touch.h"
 #include "core/at.h"
-#include "geometry/convex_contact.h"
 #include "parallel/ranges.h"
 
 namespace pliant {
@@ -21,21 +20,15 @@ namespace pliant {
 namespace {
 
 constexpr int narrow_pairs_a_task = 64;
+/// Where solids move against each other by less than this share of the smaller part's size in a frame, directions hardly change.
+constexpr double fast_share = 0.12;
+/// Solids that would go into each other by less than this share of the smaller part's size and this share of the way that gravity adds in a
+/// frame pass each other: what lies on one of two flush solids is pressed in by less.
+constexpr double slop_share = 0.005, slop_of_fall = 0.1;
 constexpr float unlimited = 1e30f;  ///< [m]
 /// A contact stays while its bodies have moved less against each other since it began than this share of the smaller part's size, and
 /// turned by less than 1.6 degrees (cosine of half the angle).
 constexpr double still_share = 0.04, still_cosine = 0.9999;
-
-/// The pose of b in the frame of a, whose rotation is a unit quaternion up to rounding.
-Posed relative_to(const Posed& a, const Posed& b) {
-  return {to_local(a, b.position), multiply(conjugate(a.rotation), b.rotation)};
-}
-
-Posed relative_pose(const Posed& a, const Posed& b) {
-  Posed relative = relative_to(a, b);
-  relative.rotation = normalise(relative.rotation);
-  return relative;
-}
 
 /// Where two bodies are in one place, no direction separates them. They count as a little apart, each pair in a direction of its own.
 Posed apart(Posed relative, int a, int b, double size) {
@@ -70,27 +63,6 @@ void renew_gaps(const Posed& a, const Posed& b, BodyContact& c) {
                                   (dot(in_b, convert<double>(c.anchor_b[i])) - dot(in_a, convert<double>(c.anchor_a[i]))));
 }
 
-/// How far points move until contacts are found again [m].
-struct Reach {
-  double margin = 0, turning = 0;
-  Rocking rocking{};
-};
-
-/// Contact points of two parts in the frame of body a.
-Touch touch_of(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Reach& reach) {
-  const Posed pose = relative_pose(a.pose, compose(b_in_a, b.pose));
-  Touch found = a.is_half_space ? touch_half_space(b.shape, pose, reach.margin, reach.turning)
-                                : touch(a.shape, b.shape, pose, reach.margin, reach.turning);
-  if (!a.is_half_space) found = with_corners(a.shape, b.shape, pose, found, reach.rocking);
-  found.normal = rotate(a.pose.rotation, found.normal);
-  for (int i = 0; i < found.count; ++i) {
-    TouchPoint& point = found.points[at(i)];
-    point.on_a = to_world(a.pose, point.on_a);
-    point.on_b = to_world(a.pose, point.on_b);
-  }
-  return found;
-}
-
 void set_directions(BodyContact& c, const Vec3d& normal) {
   const Vec3d size = abs(normal);
   const Vec3d axis = size.x <= size.y && size.x <= size.z ? Vec3d{1, 0, 0}
@@ -118,26 +90,28 @@ void move_centre(const std::array<Vec3f, 4>& places, BodyContact& c) {
   }
 }
 
-/// Places the points of a new contact.
-void set_points(const Touch& found, const Posed& a, const Posed& b, BodyContact& c) {
+/// Places the points of a new contact, which b touches when it has moved by so much in the frame of a [m].
+void set_points(const Touch& found, const Vec3d& moved, const Posed& a, const Posed& b, BodyContact& c) {
   c.count = found.count;
   set_directions(c, rotate(a.rotation, found.normal));
+  const Posed there{b.position + rotate(a.rotation, moved), b.rotation};
+  const double ahead = dot(found.normal, moved);
   Vec3d centre{};
   for (int i = 0; i < found.count; ++i) {
     const TouchPoint& point = found.points[at(i)];
     centre += to_world(a, (point.on_a + point.on_b) * 0.5) * (1. / found.count);
   }
   c.arm_a = convert<float>(centre - a.position);
-  c.arm_b = convert<float>(centre - b.position);
+  c.arm_b = convert<float>(centre - there.position);
   std::array<Vec3f, 4> places{};
   for (std::size_t i = 0; i < at(found.count); ++i) {
     const TouchPoint& point = found.points[i];
     const Vec3f& place = places[i] = convert<float>(to_world(a, (point.on_a + point.on_b) * 0.5) - centre);
     c.x[i] = dot(place, c.tangent1);
     c.y[i] = dot(place, c.tangent2);
-    c.gap[i] = static_cast<float>(point.separation);
+    c.gap[i] = static_cast<float>(point.separation - ahead);
     c.anchor_a[i] = convert<float>(point.on_a);
-    c.anchor_b[i] = convert<float>(to_local(b, to_world(a, point.on_b)));
+    c.anchor_b[i] = convert<float>(to_local(there, to_world(a, point.on_b)));
     c.feature[i] = point.feature;
   }
   move_centre(places, c);
@@ -214,6 +188,7 @@ struct BodyContacts::Task {
   const std::vector<BodyState>& bodies;
   const std::vector<BodyContact>& before;
   float dt, faster;
+  const BodyPaths* paths = nullptr;            ///< null: straight ones
   const std::vector<char>* renewed = nullptr;  ///< [body] nonzero: its contacts are found again; null: those of all are
   float far = unlimited;  ///< contacts of others stay unless bodies have moved farther (BodyContacts::renew)
 
@@ -222,10 +197,54 @@ struct BodyContacts::Task {
     found.clear();
     ContactsBefore contacts(before);
     for (int i = first; i < last; ++i) {
-      const Pair& pair = of.pairs_.pairs()[at(i)];
-      find(pair, contacts.find(of.parts_[at(pair.first)].id, of.parts_[at(pair.second)].id), found);
+      const std::size_t pieces = found.pieces.size(), made = found.made.size();
+      const std::size_t touches = found.first.size();
+      found.any_stopped = false;
+      find(i, contacts, found);
+      if (found.made.size() > made)
+        found.marks.push_back({i, pieces, found.pieces.size(), made, found.made.size(), found.any_stopped,
+                               found.first.size() > touches ? found.first.back().time : 1});
     }
   }
+
+  void find(int pair, ContactsBefore& contacts, Found& found) const {
+    const Pair& parts = of.pairs_.pairs()[at(pair)];
+    find(parts, contacts.find(of.parts_[at(parts.first)].id, of.parts_[at(parts.second)].id), found);
+  }
+
+  /// Finds the contacts of those pairs again of which a body touches a third one first.
+  void run_on_paths(Found& found) const {
+    ContactsBefore contacts(before);
+    Found next;
+    next.clear();
+    next.deepest = found.deepest;
+    Mark to;
+    const auto copy_until = [&](std::size_t piece, std::size_t made) {
+      next.pieces.insert(next.pieces.end(), found.pieces.begin() + offset(to.pieces_end),
+                         found.pieces.begin() + offset(piece));
+      next.made.insert(next.made.end(), found.made.begin() + offset(to.made_end), found.made.begin() + offset(made));
+    };
+    for (const Mark& mark : found.marks) {
+      const Piece& piece = found.pieces[mark.pieces];
+      if (!(paths->first_turn(piece.a, piece.b) < mark.time)) continue;
+      if (!mark.is_stopped && !stops(found.made[mark.made], piece)) continue;
+      copy_until(mark.pieces, mark.made);
+      find(mark.pair, contacts, next);
+      to = mark;
+    }
+    copy_until(found.pieces.size(), found.made.size());
+    next.count = 0;
+    for (const Piece& piece : next.pieces) next.count += piece.stays.empty() ? 1 : piece.stays.size();
+    found = std::move(next);
+  }
+  /// True if a contact that was found at the start of the frame stops bodies on ways that turn.
+  bool stops(const BodyContact& contact, const Piece& parties) const {
+    const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
+    return paths->between(parties.a, parties.b, {}).least_along(convert<double>(contact.normal)) +
+               static_cast<double>(gap) <
+           0;
+  }
+  static std::ptrdiff_t offset(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
 
   /// Copies the contacts that run has found to their places, and renews the gaps of those that stay.
   static void place(const Found& found, const std::vector<BodyState>& bodies, BodyContact* to, std::pair<int, int>* of) {
@@ -329,7 +348,8 @@ struct BodyContacts::Task {
     // An impact may turn the whole approach into spin. Of two opposite points one may rise as the other sinks.
     const double turning =
         static_cast<double>(2 * dt * (approach + turning_of(pair.first, a) + turning_of(pair.second, b)));
-    const auto add = [&](const Touch& touching, int piece) {
+    const Piece parties{{}, one.body, other.body};
+    const auto add = [&](const Touch& touching, const Vec3d& moved, int piece) {
       if (touching.count == 0) return;
       BodyContact contact;
       contact.a = one.id;
@@ -338,23 +358,57 @@ struct BodyContacts::Task {
       contact.position = convert<float>(relative.position);
       contact.rotation = convert<float>(relative.rotation);
       contact.turned = convert<float>(a.pose.rotation);
-      set_points(touching, a.pose, b.pose, contact);
+      set_points(touching, moved, a.pose, b.pose, contact);
       if (const BodyContact* alike = like(contact, old)) take_impulses(*alike, contact);
       note_depth(contact);
-      found.pieces.push_back({{}, one.body, other.body});
+      found.pieces.push_back(parties);
       found.made.push_back(contact);
       ++found.count;
     };
+    const SolidPath on{path_of(one.body, other.body), slop_share * size + slop_of_fall * fall(), 0.5 * fall()};
+    const bool is_fast = length(on.path.end()) > fast_share * size;
     if (one.mesh == nullptr) {
-      const Touch now =
-          touch_of(one, other, apart(relative, one.body, other.body, size), {reach, turning, rocking_of(a, b, dt, faster)});
-      if (one.is_half_space || !has_changed_sides(now, a.pose, old)) return add(now, 0);
-      const Vec3d kept = rotate(conjugate(a.pose.rotation), convert<double>(old.front().normal));
-      return add(touch_along(one, other, relative, kept, turning), 0);
+      const Reach within{reach, turning, rocking_of(a, b, dt, faster)};
+      const Posed placed = apart(relative, one.body, other.body, size);
+      const Touch now = touch_of(one, other, placed, within);
+      if (one.is_half_space) {
+        if (is_fast) note_first(first_on_plane(now, on), parties, a, found);
+        return add(now, {}, 0);
+      }
+      if (has_changed_sides(now, a.pose, old)) {
+        const Vec3d kept = rotate(conjugate(a.pose.rotation), convert<double>(old.front().normal));
+        return add(touch_along(one, other, relative, kept, turning), {}, 0);
+      }
+      if (!is_fast) return add(now, {}, 0);
+      const PairTouch touching = touch_on_path(one, other, placed, within, now, on);
+      found.any_stopped = touching.is_stopped;
+      note_first(touching.first, parties, a, found);
+      return add(touching.touch, touching.moved, 0);
+    }
+    const MeshSideKept kept = a.deforms ? MeshSideKept{} : side_kept(*one.mesh, other, relative, 2 * reach, old);
+    if (kept.triangle >= 0) {
+      const MeshTouch touching = touch_side(other.shape, compose(relative, other.pose), *one.mesh, kept, reach, turning);
+      return add(touching.touch, {}, touching.piece);
     }
     std::vector<MeshTouch> touches;
-    touch_mesh(other.shape, compose(relative, other.pose), *one.mesh, reach, touches, turning);
-    for (const MeshTouch& touching : touches) add(touching.touch, touching.piece);
+    found.any_stopped = true;
+    note_first(
+        touch_mesh(other.shape, compose(relative, other.pose), *one.mesh, reach, touches, turning, is_fast ? &on : nullptr),
+        parties, a, found);
+    for (const MeshTouch& touching : touches) add(touching.touch, touching.moved, touching.piece);
+  }
+
+  /// The way of b against a in the frame of a.
+  ContactPath path_of(int a, int b) const {
+    const BodyState &one = bodies[at(a)], &other = bodies[at(b)];
+    return paths == nullptr ? BodyPaths::straight(one, other, dt, one.pose.rotation)
+                            : paths->between(a, b, one.pose.rotation);
+  }
+  /// Twice what gravity may add to a way in the frame [m].
+  double fall() const { return static_cast<double>(dt * faster); }
+
+  static void note_first(const PathContact& first, const Piece& of, const BodyState& a, Found& found) {
+    if (first.touches) found.first.push_back({of.a, of.b, first.time, rotate(a.pose.rotation, first.normal)});
   }
 };
 
@@ -376,8 +430,20 @@ void BodyContacts::find(Executor& executor, const Task& task_of_pair) {
   found_.resize(at(ranges_of(count, narrow_pairs_a_task)));
   for_ranges(executor, "bodies: contacts", count, narrow_pairs_a_task,
              [&](int first, int last) { task_of_pair.run(first, last, found_[at(first / narrow_pairs_a_task)]); });
+  find_on_paths(executor, task_of_pair);
   first_.assign(1, 0);
   for (const Found& found : found_) first_.push_back(first_.back() + found.count);
+}
+
+/// Contacts in the direction of a way that ends at something else are found once more.
+void BodyContacts::find_on_paths(Executor& executor, Task task) {
+  touches_.clear();
+  for (const Found& found : found_) touches_.insert(touches_.end(), found.first.begin(), found.first.end());
+  if (touches_.empty()) return;
+  paths_.begin(task.bodies, task.dt, touches_);
+  task.paths = &paths_;
+  executor.parallel_for("bodies: contacts", static_cast<int>(found_.size()),
+                        [&](int i) { task.run_on_paths(found_[at(i)]); });
 }
 
 BodyOverlap BodyContacts::deepest() const {
@@ -415,7 +481,7 @@ void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodi
                           FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before,
                           std::vector<BodyContact>& now) {
   pairs_.update(executor, parts_, bodies, dt, faster, meet);
-  const Task task{*this, bodies, before, dt, faster};
+  const Task task{*this, bodies, before, dt, faster, nullptr};
   find(executor, task);
   replace(executor, task, now);
 }
@@ -424,7 +490,7 @@ void BodyContacts::renew(Executor& executor, const std::vector<BodyState>& bodie
                          FunctionRef<bool(int, int)> meet, const std::vector<char>& of, float far,
                          std::vector<BodyContact>& now) {
   pairs_.renew(executor, parts_, bodies, dt, faster, meet, of);
-  const Task task{*this, bodies, now, dt, faster, &of, far};
+  const Task task{*this, bodies, now, dt, faster, nullptr, &of, far};
   find(executor, task);
   replace(executor, task, now);
 }

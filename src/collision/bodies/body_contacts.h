@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "collision/bodies/body_pairs.h"
+#include "collision/bodies/body_paths.h"
 #include "parallel/executor.h"
 #include "pliant/state.h"
 
@@ -64,29 +65,44 @@ class BodyContacts {
     std::span<const BodyContact> stays;
     int a = 0, b = 0;
   };
+  /// Which of the pieces and contacts of a task are those of a pair, where it has made some.
+  struct Mark {
+    int pair = 0;
+    std::size_t pieces = 0, pieces_end = 0, made = 0, made_end = 0;
+    bool is_stopped = false;  ///< PairTouch::is_stopped; of a mesh perhaps
+    double time = 1;          ///< of the first touch on the way
+  };
   /// What a task has found, in the order of pairs.
   struct Found {
     std::vector<Piece> pieces;
     std::vector<BodyContact> made;
-    std::size_t count = 0;  ///< of contacts
+    std::vector<Mark> marks;
+    std::vector<FirstTouch> first;
+    std::size_t count = 0;     ///< of contacts
+    bool any_stopped = false;  ///< of the last pair (Mark::is_stopped)
     BodyOverlap deepest{};
 
     void clear() {
       pieces.clear();
       made.clear();
+      marks.clear();
+      first.clear();
       count = 0;
       deepest = {};
     }
   };
 
   void find(Executor& executor, const Task& task);
+  void find_on_paths(Executor& executor, Task task);
   void replace(Executor& executor, const Task& found, std::vector<BodyContact>& now);
   bool all_stay(const std::vector<BodyContact>& before) const;
 
   std::vector<BodyPart> parts_;
   std::vector<float> size_;  ///< [body]
   BodyPairs pairs_;
-  std::vector<Found> found_;        ///< [task]
+  std::vector<Found> found_;         ///< [task]
+  std::vector<FirstTouch> touches_;  ///< in the order of pairs
+  BodyPaths paths_;
   std::vector<std::size_t> first_;  ///< [task] its first contact
   std::vector<BodyContact> next_;
   std::vector<std::pair<int, int>> bodies_;

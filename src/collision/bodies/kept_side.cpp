@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
+#include "collision/bodies/solid_in_mesh.h"
 #include "geometry/convex_contact.h"
 #include "math/vector.h"
 
@@ -60,6 +62,49 @@ Touch touch_surface(const Posed& surface, const Placed& part, double turning) {
   return found;
 }
 
+/// What contact a part had with a mesh, in the mesh's frame.
+struct MeshContactBefore {
+  Vec3d normal{}, place{}, centre{};  ///< of the contact, and of the part then
+  double size = 0;
+
+  MeshContactBefore(const BodyContact& contact, const BodyPart& b)
+      : normal(rotate(conjugate(convert<double>(contact.turned)), convert<double>(contact.normal))),
+        place(convert<double>(contact.anchor_a[0])) {
+    const Posed pose{convert<double>(contact.position), convert<double>(contact.rotation)};
+    const SolidInMesh solid(b.shape, compose(pose, b.pose), 0);
+    centre = solid.centre();
+    size = solid.size();
+  }
+  double height(const Vec3d& point) const { return dot(normal, point - place); }
+};
+
+/// True if a point is over a triangle along its normal, or beside it by no more than `margin` [m].
+bool is_over(const MeshFace& face, const Vec3d& point, double margin) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (dot(face.sides[k].outward, point - face.corners[k]) > margin) return false;
+  return true;
+}
+
+/// The first triangle that lies between two places.
+MeshSideKept first_between(const BodyMesh& mesh, const Vec3d& from, const Vec3d& to) {
+  const Vec3d low{std::min(from.x, to.x), std::min(from.y, to.y), std::min(from.z, to.z)},
+      high{std::max(from.x, to.x), std::max(from.y, to.y), std::max(from.z, to.z)};
+  std::vector<int> near;
+  mesh.find(BoxBounds{convert<float>(low), convert<float>(high)}.grown(1e-5f), near);
+  MeshSideKept found;
+  double first = 2;
+  for (const int triangle : near) {
+    const MeshFace& face = mesh.face(triangle);
+    const double before = dot(face.normal, from - face.corners[0]), after = dot(face.normal, to - face.corners[0]);
+    if (!(before * after < 0)) continue;
+    const double share = before / (before - after);
+    if (share >= first || !is_over(face, from + (to - from) * share, MeshSide::tolerance)) continue;
+    first = share;
+    found = {triangle, before > 0 ? face.normal : -face.normal};
+  }
+  return found;
+}
+
 }  // namespace
 
 bool has_changed_sides(const Touch& found, const Posed& a, std::span<const BodyContact> before) {
@@ -79,6 +124,21 @@ Touch touch_along(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, con
     std::swap(point.on_a, point.on_b);
   }
   return found;
+}
+
+MeshSideKept side_kept(const BodyMesh& mesh, const BodyPart& b, const Posed& b_in_mesh, double farthest,
+                       std::span<const BodyContact> before) {
+  if (before.empty() || mesh.is_terrain()) return {};
+  const Vec3d centre = SolidInMesh(b.shape, compose(b_in_mesh, b.pose), 0).centre();
+  const MeshContactBefore first(before.front(), b);
+  if (length(centre - first.centre) > farthest + 4 * first.size) return {};
+  for (const BodyContact& contact : before) {
+    const MeshContactBefore old(contact, b);
+    const int triangle = contact.a.piece;
+    if (triangle >= mesh.triangle_count() || !(old.height(old.centre) < 0) || !(old.height(centre) < 0)) continue;
+    if (is_over(mesh.face(triangle), centre, old.size)) return {triangle, old.normal};
+  }
+  return first_between(mesh, first.centre, centre);
 }
 
 }  // namespace pliant

@@ -20,4 +20,15 @@ bool has_changed_sides(const Touch& found, const Posed& a, std::span<const BodyC
 /// half-space.
 Touch touch_along(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Vec3d& normal, double turning);
 
+/// A triangle of a mesh that the centre of a solid has passed, and the side from which.
+struct MeshSideKept {
+  int triangle = -1;  ///< -1: it has passed none
+  Vec3d normal{};     ///< unit vector to that side, in the frame of the mesh
+};
+
+/// The triangle through which the centre of a part b has gone since its contacts with a mesh were found, or before, if it still is behind it.
+/// What has moved by more than `farthest` besides four times its size [m] has been put there.
+MeshSideKept side_kept(const BodyMesh& mesh, const BodyPart& b, const Posed& b_in_mesh, double farthest,
+                       std::span<const BodyContact> before);
+
 }  // namespace pliant

@@ -71,10 +71,12 @@ Touch touch_of(const Cluster& cluster) {
   Vec3d sum{};
   for (const TrianglePoint& at : cluster.points) sum += at.normal;
   const Vec3d normal = cluster.points.size() == 1 ? cluster.normal : unit_or(sum, cluster.normal);
+  const Vec3d& moved = cluster.points.front().moved;
   std::vector<TouchPoint> points;
   for (const TrianglePoint& at : cluster.points) {
     TouchPoint point = at.point;
-    point.separation *= dot(at.normal, normal);
+    point.on_b += moved;
+    point.separation = point.separation * dot(at.normal, normal) + dot(normal, moved);
     point.on_a = point.on_b - normal * point.separation;
     points.push_back(point);
   }
@@ -90,30 +92,45 @@ int triangle_above(const BodyMesh& mesh, const SolidInMesh& solid) {
   return dot(face.normal, solid.centre() - face.corners[0]) <= 0 ? triangle : -1;
 }
 
-std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& solid, double reach) {
+std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& solid, double reach, const SolidPath* path,
+                                     PathContact& first) {
   std::vector<TrianglePoint> points;
   std::vector<int> near;
   int plane = triangle_above(mesh, solid);
   if (plane < 0) {
     mesh.find(solid.box(reach + mesh.thickness()), near);
     for (const int triangle : near) touch_triangle(solid, mesh, triangle, reach, points);
+    // Terrain is one smooth piece, above which nothing is a side.
+    if (path != nullptr && !mesh.is_terrain()) first = put_on_path(solid, mesh, near, reach, *path, points);
     // Deep inside a fine mesh no triangle may be below the solid's lowest points.
     if (points.empty()) plane = least_overlapped(solid, mesh, near);
   }
-  if (plane >= 0) touch_plane_of(solid, mesh, plane, reach, points);
+  if (plane >= 0)
+    touch_plane_of(solid, mesh, plane, facing_normal(mesh.face(plane), solid.centre(), mesh.is_terrain()), reach, points);
   return points;
 }
 
 }  // namespace
 
-void touch_mesh(const ConvexShape& shape, const Posed& pose_in_mesh, const BodyMesh& mesh, double reach,
-                std::vector<MeshTouch>& found, double turning) {
+PathContact touch_mesh(const ConvexShape& shape, const Posed& pose_in_mesh, const BodyMesh& mesh, double reach,
+                       std::vector<MeshTouch>& found, double turning, const SolidPath* path) {
   found.clear();
   const SolidInMesh solid(shape, pose_in_mesh, turning);
-  const std::vector<TrianglePoint> points = points_on(mesh, solid, reach);
+  PathContact first;
+  const std::vector<TrianglePoint> points = points_on(mesh, solid, reach, path, first);
   for (const Cluster& cluster : clusters_of(points, coincident_share * solid.size()))
-    found.push_back({cluster.piece, touch_of(cluster)});
+    found.push_back({cluster.piece, touch_of(cluster), cluster.points.front().moved});
   std::sort(found.begin(), found.end(), [](const MeshTouch& a, const MeshTouch& b) { return a.piece < b.piece; });
+  return first;
+}
+
+MeshTouch touch_side(const ConvexShape& shape, const Posed& pose_in_mesh, const BodyMesh& mesh, const MeshSideKept& kept,
+                     double reach, double turning) {
+  std::vector<TrianglePoint> points;
+  const SolidInMesh solid(shape, pose_in_mesh, turning);
+  touch_plane_of(solid, mesh, kept.triangle, kept.normal, reach, points);
+  const std::vector<Cluster> clusters = clusters_of(points, coincident_share * solid.size());
+  return clusters.empty() ? MeshTouch{} : MeshTouch{kept.triangle, touch_of(clusters.front()), {}};
 }
 
 }  // namespace pliant

@@ -38,6 +38,14 @@ Feature SolidInMesh::feature(const Vec3d& direction, double slack) const {
   return feature_towards(shape_, pose_, direction, slack);
 }
 
+SolidInMesh SolidInMesh::moved(const Vec3d& displacement) const {
+  SolidInMesh out = *this;
+  out.pose_.position += displacement;
+  out.centre_ += displacement;
+  for (Vec3d& corner : out.corners_) corner += displacement;
+  return out;
+}
+
 BoxBounds SolidInMesh::box(double margin) const {
   const double grown = radius() + margin;
   const Vec3d high{support({1, 0, 0}).x + grown, support({0, 1, 0}).y + grown, support({0, 0, 1}).z + grown};

@@ -28,6 +28,8 @@ class SolidInMesh {
   Vec3d support(const Vec3d& direction) const;
   /// The flat part of the core's surface that faces a direction.
   Feature feature(const Vec3d& direction, double slack) const;
+  /// The solid displaced by so much [m].
+  SolidInMesh moved(const Vec3d& displacement) const;
   /// A box around the solid, grown by a margin [m].
   BoxBounds box(double margin) const;
 

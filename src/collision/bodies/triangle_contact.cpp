@@ -17,11 +17,13 @@ namespace {
 constexpr double straight = 1 - 1e-6;
 /// Flat parts that face each other less than this serve no clipping [cosine].
 constexpr double facing = 0.9;
+/// The deepest place is a point of contact where all others are higher by this share of the solid's size.
+constexpr double higher = 0.01;
 /// Flat parts of a solid may differ in height by shares of its size between these.
 constexpr double least_slack = 0.01, most_slack = 0.1;
 
 constexpr int first_side = 64;  ///< sides of the triangle; edges of the solid's flat part have smaller numbers
-constexpr std::uint32_t triangle_bit = 0x80000000u, is_nearest = 0x20000000u;
+constexpr std::uint32_t triangle_bit = 0x80000000u, is_nearest = 0x20000000u, is_deepest = 0x10000000u;
 
 /// What makes a point of a triangle: the same number while the same corners and edges do.
 std::uint32_t feature_of(int triangle, std::uint32_t what) {
@@ -48,11 +50,23 @@ struct Facing {
   }
 
   void add(std::vector<TrianglePoint>& points, const TouchPoint& point) const {
-    TrianglePoint out{triangle, normal, point};
+    TrianglePoint out{triangle, normal, point, {}};
     out.point.on_a += normal * mesh.thickness();
     out.point.on_b -= normal * solid.radius();
     out.point.separation -= mesh.thickness() + solid.radius();
     points.push_back(out);
+  }
+
+  /// Adds the deepest place of the core, which its flattest part need not hold.
+  void add_deepest(std::vector<TrianglePoint>& points, std::size_t first, double nearest) const {
+    const Vec3d place = solid.support(-normal);
+    const double separation = dot(normal, place - face().corners[0]);
+    if (separation < nearest) return;
+    double deepest = reach;
+    for (std::size_t i = first; i < points.size(); ++i)
+      deepest = std::min(deepest, points[i].point.separation + mesh.thickness() + solid.radius());
+    if (separation < deepest - higher * solid.size())
+      add(points, {place - normal * separation, place, separation, is_deepest});
   }
 };
 
@@ -103,12 +117,20 @@ Corners over_triangle(const MeshFace& face, const Feature& part, bool is_flipped
   return corners;
 }
 
+/// True if a place is above a triangle along the triangle's own normal.
+bool is_above(const Facing& at, const Vec3d& place) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (at.face().beyond(k, place, at.is_flipped) > (at.face().sides[k].is_inner ? MeshSide::tolerance : 0)) return false;
+  return true;
+}
+
 /// The points of the solid's flat part that are above the triangle along the triangle's own normal.
 void add_points_above(const Facing& at, const TriangleNearest& nearest, std::vector<TrianglePoint>& points) {
   const MeshFace& face = at.face();
   const Feature part = at.flat_part();
-  const bool is_polygon = part.count > 2;
-  if (is_polygon && -dot(part.normal, at.normal) < facing) return;
+  const std::size_t first = points.size();
+  // Nothing that is over the triangle is nearer than the nearest place; what is has been cut off by a valley's plane alone.
+  const double least = nearest.separation > 0 ? nearest.separation - MeshSide::tolerance : -1e300;
   const Corners corners = over_triangle(face, part, at.is_flipped);
   for (std::size_t i = 0; i < corners.count; ++i) {
     const Corner& corner = corners.at[i];
@@ -116,13 +138,12 @@ void add_points_above(const Facing& at, const TriangleNearest& nearest, std::vec
     const bool is_own = sides[0] < 0 && sides[1] < 0;
     if (!is_own && !(sides[0] >= 0 && at.is_convex(sides[0])) && !(sides[1] >= 0 && at.is_convex(sides[1]))) continue;
     const double separation = dot(at.normal, corner.place - face.corners[0]);
-    // Nothing that is over the triangle is nearer than the nearest place; what is has been cut off by a valley's plane alone.
-    if (separation > at.reach || (nearest.separation > 0 && separation < nearest.separation - MeshSide::tolerance))
-      continue;
+    if (separation > at.reach || separation < least) continue;
     const std::uint32_t what = static_cast<std::uint32_t>(corner.before) << 8 | static_cast<std::uint32_t>(corner.after);
     at.add(points, {corner.place - at.normal * separation, corner.place, separation,
                     is_own ? what : feature_of(at.triangle, what)});
   }
+  if (is_above(at, at.solid.support(-at.normal))) at.add_deepest(points, first, least);
 }
 
 // ------------------------------------------------------------------------------------------------ edges and corners
@@ -191,8 +212,14 @@ void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle
   const MeshFace& face = mesh.face(triangle);
   if (!(length_squared(face.normal) > 0)) return;  // its edges are those of neighbours
   const double core_reach = reach + mesh.thickness() + solid.radius();
-  const TriangleNearest nearest = nearest_on(face, solid, core_reach, mesh.is_terrain());
+  touch_triangle(solid, mesh, triangle, reach, nearest_on(face, solid, core_reach, mesh.is_terrain()), points);
+}
+
+void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
+                    const TriangleNearest& nearest, std::vector<TrianglePoint>& points) {
   if (!nearest.is_near) return;
+  const MeshFace& face = mesh.face(triangle);
+  const double core_reach = reach + mesh.thickness() + solid.radius();
   const double along = dot(nearest.normal, face.normal);
   const bool is_behind = mesh.is_terrain() && along <= 0, is_straight = std::fabs(along) >= straight;
   Facing at{solid, mesh, triangle, core_reach, nearest.normal, along < 0};
@@ -204,11 +231,11 @@ void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle
   add_points_above(at, nearest, points);
 }
 
-void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
+void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal, double reach,
                     std::vector<TrianglePoint>& points) {
   const MeshFace& face = mesh.face(triangle);
-  const Vec3d normal = facing_normal(face, solid.centre(), mesh.is_terrain());
   const Facing at{solid, mesh, triangle, reach + mesh.thickness() + solid.radius(), normal, false};
+  const std::size_t first = points.size();
   const Feature part = at.flat_part();
   for (int i = 0; i < part.count; ++i) {
     const Vec3d& place = part.points[static_cast<std::size_t>(i)];
@@ -216,6 +243,7 @@ void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle
     if (separation > at.reach) continue;
     at.add(points, {place - normal * separation, place, separation, static_cast<std::uint32_t>(i)});
   }
+  at.add_deepest(points, first, -1e300);
 }
 
 int least_overlapped(const SolidInMesh& solid, const BodyMesh& mesh, const std::vector<int>& triangles) {

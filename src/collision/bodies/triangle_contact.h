@@ -9,6 +9,7 @@
 
 #include "collision/bodies/body_mesh.h"
 #include "collision/bodies/solid_in_mesh.h"
+#include "collision/bodies/triangle_nearest.h"
 #include "geometry/touch.h"
 
 namespace pliant {
@@ -18,14 +19,20 @@ struct TrianglePoint {
   int triangle = 0;
   Vec3d normal{};
   TouchPoint point;
+  Vec3d moved{};  ///< from where the solid is to where it touches [m]
 };
 
 /// Appends the points at which a solid touches a triangle, or might within `reach` [m]. They share a normal.
 void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
                     std::vector<TrianglePoint>& points);
 
-/// Appends the points of a solid that are deepest below the plane of a triangle, as if that had no bounds.
-void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
+/// The same where the nearest places are known.
+void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
+                    const TriangleNearest& nearest, std::vector<TrianglePoint>& points);
+
+/// Appends the points of a solid that are deepest below the plane of a triangle, as if that had no bounds. `normal` is that of the triangle, or
+/// its opposite: to the side to which the solid belongs.
+void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal, double reach,
                     std::vector<TrianglePoint>& points);
 
 /// The triangle out of which the way along its normal is shortest, of those that a solid overlaps; -1: it overlaps none.

@@ -58,13 +58,14 @@ TriangleNearest nearest_of_point(const MeshFace& face, const Vec3d& point) {
 }
 
 /// Of cores that are apart, and of round ones.
-TriangleNearest nearest_by_supports(const MeshFace& face, const SolidInMesh& solid, double reach) {
+TriangleNearest nearest_by_supports(const MeshFace& face, const SolidInMesh& solid, double reach,
+                                    const Vec3d& displacement = {}) {
   Polyhedron triangle;
   for (const Vec3d& corner : face.corners) triangle.corners.push_back(convert<float>(corner));
+  const Posed pose{solid.pose().position + displacement, solid.pose().rotation};
   ConvexShape core = solid.shape();
   core.radius = 0;
-  const ConvexDistance found =
-      convex_distance({ConvexShape::Kind::polyhedron, 0, 0, 0, &triangle}, core, solid.pose(), reach);
+  const ConvexDistance found = convex_distance({ConvexShape::Kind::polyhedron, 0, 0, 0, &triangle}, core, pose, reach);
   return {true, found.normal, found.separation, found.on_a, found.on_b};
 }
 
@@ -129,6 +130,15 @@ TriangleNearest best_axis(const MeshFace& face, const SolidInMesh& solid, Triang
 
 Vec3d facing_normal(const MeshFace& face, const Vec3d& point, bool is_one_sided) {
   return !is_one_sided && dot(face.normal, point - face.corners[0]) < 0 ? -face.normal : face.normal;
+}
+
+TriangleNearest exactly_nearest_on(const MeshFace& face, const SolidInMesh& solid, const Vec3d& displacement) {
+  if (solid.shape().kind == ConvexShape::Kind::point) {
+    TriangleNearest out = nearest_of_point(face, solid.pose().position + displacement);
+    out.is_near = true;
+    return out;
+  }
+  return nearest_by_supports(face, solid, 1e300, displacement);
 }
 
 TriangleNearest nearest_on(const MeshFace& face, const SolidInMesh& solid, double reach, bool is_one_sided) {

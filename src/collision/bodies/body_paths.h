@@ -1,0 +1,47 @@
+// The ways of bodies over a frame: straight, until they first touch something, then along it.
+//
+// A ball that lands on a floor of two boxes does not go on below it to the side of the second one. So the direction of a contact is
+// looked for on ways that end at what is touched first.
+#pragma once
+
+#include <vector>
+
+#include "collision/bodies/body_part.h"
+#include "geometry/contact_path.h"
+
+namespace pliant {
+
+/// The first touch of two bodies within a frame.
+struct FirstTouch {
+  int a = 0, b = 0;
+  double time = 0;  ///< in the frame, from 0 to 1
+  Vec3d normal{};   ///< unit vector from a to b, in the world
+};
+
+class BodyPaths {
+ public:
+  /// Takes the touches of a frame of `dt` seconds. Of several of a body at one time, the first one counts.
+  void begin(const std::vector<BodyState>& bodies, float dt, const std::vector<FirstTouch>& touches);
+
+  /// When the way of one of two bodies first turns because it touches a third one; beyond 1 if neither does in this frame.
+  double first_turn(int a, int b) const;
+  /// The way of b against a, in axes that are turned by `axes` against the world.
+  ContactPath between(int a, int b, const Quatd& axes) const;
+  /// The same of bodies that touch nothing else.
+  static ContactPath straight(const BodyState& a, const BodyState& b, float dt, const Quatd& axes);
+
+ private:
+  struct Turn {
+    int other = -1;  ///< the body that is touched; -1: none
+    double time = 2;
+    Vec3d change{};  ///< of the displacement that the whole frame would bring [m]
+  };
+  void note(int body, int other, double time, const Vec3d& normal);
+  Vec3d displacement(int body) const;
+
+  const std::vector<BodyState>* bodies_ = nullptr;
+  double dt_ = 0;
+  std::vector<Turn> turns_;  ///< [body]
+};
+
+}  // namespace pliant

@@ -1,0 +1,142 @@
+#include "collision/bodies/triangles_on_path.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "collision/bodies/triangle_nearest.h"
+#include "math/vector.h"
+
+namespace pliant {
+
+namespace {
+
+/// A triangle that is met, and where.
+struct Met {
+  int triangle = 0;
+  std::size_t first = 0, end = 0;  ///< its points at the start of the path
+  PathContact at;
+};
+
+/// A solid on its path, and a mesh.
+struct Way {
+  const SolidInMesh& solid;
+  const BodyMesh& mesh;
+  double reach;
+  const SolidPath& on;
+
+  double radii() const { return solid.radius() + mesh.thickness(); }
+
+  /// True if points that were found at the start stop the solid on a path.
+  bool stops(const ContactPath& path, const std::vector<TrianglePoint>& points, const Met& of) const {
+    const SolidPath here{path, on.slop, on.sag};
+    for (std::size_t i = of.first; i < of.end; ++i)
+      if (here.is_stopped(points[i].normal, points[i].point.separation)) return true;
+    return false;
+  }
+
+  /// True if a path takes the solid lower over the plane of a triangle than `height` [m].
+  bool passes(const ContactPath& path, int triangle, const BoxBounds& swept, double height) const {
+    const MeshFace& face = mesh.face(triangle);
+    if (!(length_squared(face.normal) > 0)) return false;
+    for (const double Vec3d::*axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+      const auto [least, most] = std::minmax({face.corners[0].*axis, face.corners[1].*axis, face.corners[2].*axis});
+      if (most < low(swept, axis) || least > high(swept, axis)) return false;
+    }
+    const Vec3d normal = facing_normal(face, solid.centre(), mesh.is_terrain());
+    const double gap = dot(normal, solid.support(-normal) - face.corners[0]) - radii();
+    return gap + path.least_along(normal) < height;
+  }
+  static double low(const BoxBounds& box, const double Vec3d::*axis) { return convert<double>(box.low).*axis; }
+  static double high(const BoxBounds& box, const double Vec3d::*axis) { return convert<double>(box.high).*axis; }
+
+  PathContact meet(const ContactPath& path, int triangle) const {
+    const MeshFace& face = mesh.face(triangle);
+    const auto gap_at = [&](const Vec3d& displacement) -> PathGap {
+      const TriangleNearest nearest = exactly_nearest_on(face, solid, displacement);
+      return {nearest.separation - radii(), nearest.normal};
+    };
+    return PathSearch(path, on.slop, gap_at).find();
+  }
+};
+
+BoxBounds swept(const SolidInMesh& solid, const ContactPath& path, double margin) {
+  const BoxBounds box = solid.box(margin);
+  BoxBounds all = box;
+  for (std::size_t i = 0; i < path.count(); ++i) {
+    const Vec3f by = convert<float>(path.at(path.leg(i), 1));
+    all.low = min(all.low, box.low + by);
+    all.high = max(all.high, box.high + by);
+  }
+  return all;
+}
+
+/// The triangles that may be met on a path, in the order of `near`, which is that of the points: those whose planes the solid passes lower
+/// than `height` [m].
+std::vector<Met> met_on(const Way& way, const ContactPath& path, const std::vector<int>& near,
+                        const std::vector<TrianglePoint>& points, double height) {
+  const BoxBounds box = swept(way.solid, path, way.mesh.thickness() + way.on.sag);
+  std::vector<Met> all;
+  std::size_t next = 0;
+  for (const int triangle : near) {
+    Met met{triangle, next, next, {}};
+    while (met.end < points.size() && points[met.end].triangle == triangle) ++met.end;
+    next = met.end;
+    if (way.stops(path, points, met) || way.passes(path, triangle, box, height)) all.push_back(met);
+  }
+  return all;
+}
+
+PathContact first_of(std::vector<Met>& met, const Way& way, const ContactPath& path) {
+  PathContact first;
+  for (Met& one : met) {
+    one.at = way.meet(path, one.triangle);
+    if (one.at.touches && (!first.touches || one.at.time < first.time)) first = one.at;
+  }
+  return first;
+}
+
+/// Appends the points of a triangle at the place where it is met, as seen from the start of the path.
+void add_points(const Way& way, const Met& met, std::vector<TrianglePoint>& points) {
+  const std::size_t first = points.size();
+  const Vec3d& by = met.at.displacement;
+  const SolidInMesh there = way.solid.moved(by);
+  if (met.at.touches)
+    touch_triangle(there, way.mesh, met.triangle, way.reach, points);
+  else  // no direction is preferred where they pass
+    touch_triangle(there, way.mesh, met.triangle, way.reach, exactly_nearest_on(way.mesh.face(met.triangle), there, {}),
+                   points);
+  for (std::size_t i = first; i < points.size(); ++i) {
+    points[i].moved = by;
+    points[i].point.on_b -= by;
+    points[i].point.separation -= dot(points[i].normal, by);
+  }
+}
+
+}  // namespace
+
+PathContact put_on_path(const SolidInMesh& solid, const BodyMesh& mesh, const std::vector<int>& near, double reach,
+                        const SolidPath& on, std::vector<TrianglePoint>& points) {
+  const Way way{solid, mesh, reach, on};
+  ContactPath path = on.path;
+  std::vector<Met> met = met_on(way, path, near, points, -on.slop);
+  if (met.empty()) return {};
+  const PathContact first = first_of(met, way, path);
+  if (first.touches && met.size() > 1) {
+    path.turn(first.time, first.normal * -std::min(dot(first.normal, path.speed_at(first.time)), 0.));
+    met = met_on(way, path, near, points, on.slop);  // what has been touched is not passed, yet holds the solid
+    first_of(met, way, path);
+  }
+  std::vector<TrianglePoint> out;
+  std::size_t next = 0;
+  for (const Met& one : met) {
+    out.insert(out.end(), points.begin() + static_cast<std::ptrdiff_t>(next),
+               points.begin() + static_cast<std::ptrdiff_t>(one.first));
+    add_points(way, one, out);
+    next = one.end;
+  }
+  out.insert(out.end(), points.begin() + static_cast<std::ptrdiff_t>(next), points.end());
+  if (!out.empty()) points.swap(out);
+  return first;
+}
+
+}  // namespace pliant
