@@ -56,6 +56,14 @@ void leave_out_absent(const std::vector<int>& present, bool keeps_number, std::v
   velocities = std::move(speeds);
 }
 
+/// The group of an object's links, if they are drawn as lines and some can break, tear or be cut; -1: its lines stay.
+int group_that_breaks(const Object& object) {
+  const int group = object.triangles.empty() && !object.skin ? output::line_group_of(object) : -1;
+  if (group < 0 || output::lines_of(object, group).empty()) return -1;
+  const bool can_break = object.constraints[static_cast<std::size_t>(group)].break_force > 0;
+  return can_break || object.tearing || !object.cuts.empty() ? group : -1;
+}
+
 /// True if the World tears or cuts an object in a way that changes its mesh. Of rods joints break, and their segments stay.
 bool changes_mesh(const Object& object) {
   const auto is_of_rod = [](const ObjectJoint& joint) { return joint.kind == "rod"; };
@@ -63,7 +71,7 @@ bool changes_mesh(const Object& object) {
   const bool has_rods_alone = object.triangles.empty() &&
                               std::any_of(object.joints.begin(), object.joints.end(), is_of_rod) &&
                               std::none_of(object.constraints.begin(), object.constraints.end(), is_link);
-  return (object.tearing || !object.cuts.empty()) && !has_rods_alone;
+  return (object.tearing || !object.cuts.empty()) && !has_rods_alone && group_that_breaks(object) < 0;
 }
 
 class WorldWriter final : public FrameWriter {
@@ -73,10 +81,11 @@ class WorldWriter final : public FrameWriter {
       : format_(std::move(format)), objects_(std::move(objects)), has_all_points_(has_all_points) {
     for (const Object& object : scene.objects) {
       spacings_.push_back(object.fluid && options.liquid_surfaces ? object.fluid->spacing : 0);
+      is_remeshed_.push_back(changes_mesh(object));
+      line_groups_.push_back(group_that_breaks(object));
+      has_lines_that_break_ = has_lines_that_break_ || line_groups_.back() >= 0;
       Object part;
       part.skin = object.skin;
-      part.tearing = object.tearing;
-      part.cuts = object.cuts;
       part.bodies = object.bodies;
       for (ObjectBody& body : part.bodies) body.solids.clear();
       particles_.push_back(object.positions.size());
@@ -89,10 +98,13 @@ class WorldWriter final : public FrameWriter {
     output::Frame frame{.time = world.state().time, .positions = {}, .velocities = {}, .number = world.state().frame};
     for (std::size_t o = 0; o < objects_.size(); ++o) {
       const ObjectView object = world.object(objects_[o]);
-      if (changes_mesh(parts_[o]))
+      if (is_remeshed_[o])
         add_mesh(object, frame);
       else
         add_matter(object, spacings_[o], {world.threads(), has_all_points_}, frame);
+      if (has_lines_that_break_)
+        frame.lines.push_back(line_groups_[o] < 0 ? std::vector<std::vector<int>>{}
+                                                  : output::lines_of(object.description(), line_groups_[o]));
       if (parts_[o].skin) {
         if (frame.positions.back().size() != particles_[o])
           throw Error({.object = object.info().name}, "has another number of particles than its skin was made for",
@@ -140,11 +152,13 @@ class WorldWriter final : public FrameWriter {
   }
 
   std::unique_ptr<output::FormatWriter> format_;
-  std::vector<ObjectId> objects_;  ///< objects at the start of the run
-  std::vector<Object> parts_;  ///< for each object, which particles and frames are bodies, its skin, and whether it tears
+  std::vector<ObjectId> objects_;       ///< objects at the start of the run
+  std::vector<Object> parts_;           ///< for each object, which particles and frames are bodies, and its skin
+  std::vector<bool> is_remeshed_;       ///< for each object, whether it tears
+  std::vector<int> line_groups_;        ///< for each object, the group of its links if they can break, else -1
   std::vector<std::size_t> particles_;  ///< of each object at the start
   std::vector<float> spacings_;         ///< for each object, that of its liquid if its surface is written, else 0 [m]
-  bool has_bodies_ = false;
+  bool has_bodies_ = false, has_lines_that_break_ = false;
   bool has_all_points_ = false;  ///< the format has the same number of points in each frame
 };
 
@@ -162,13 +176,14 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
     require_fitting(path, scene.objects[static_cast<std::size_t>(o)], world.object(o).info().particles,
                     static_cast<int>(world.object(o).orientations().size()));
   output::Objects objects = output::describe(scene);
-  for (std::size_t o = 0; o < objects.size(); ++o)
+  for (std::size_t o = 0; o < objects.size(); ++o) {
     objects[o].is_remeshed =
         (options.liquid_surfaces && scene.objects[o].fluid.has_value()) || changes_mesh(scene.objects[o]);
+    objects[o].is_relinked = group_that_breaks(scene.objects[o]) >= 0;
+  }
   for (const Object& object : scene.objects)
     if (changes_mesh(object) && object.triangles.empty())
-      throw Error({.file = path, .line = 0, .object = object.name},
-                  "tears and has no triangles, and the lines of a file cannot change",
+      throw Error({.file = path, .line = 0, .object = object.name}, "tears and has neither triangles nor links",
                   "leave its `tearing` and `cuts` out, or write no file");
   const auto parts = output::split_path(path);
   const bool has_all_points = parts.suffix == ".glb" || parts.suffix == ".pc2";

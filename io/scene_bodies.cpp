@@ -294,13 +294,15 @@ class Bodies {
 
 }  // namespace
 
-Object build_bodies(const JsonDocument& document, const JsonValue& list, const std::string& name, const MeshFolder& folder,
-                    std::vector<std::string>& repairs) {
-  Object object;
+BuiltObject build_bodies(const JsonDocument& document, const JsonValue& list, const std::string& name,
+                         const MeshFolder& folder, std::vector<std::string>& repairs) {
+  BuiltObject built;
+  Object& object = built.object;
   object.name = name;
   const Reader reader{document, folder, object.name, repairs};
   Bodies bodies(reader, object);
   for (const JsonValue& item : list.items) {
+    const std::size_t first = object.bodies.size();
     try {
       bodies.add(item);
     } catch (const Error& error) {
@@ -312,8 +314,10 @@ Object build_bodies(const JsonDocument& document, const JsonValue& list, const s
       if (!inner.element.empty()) place.element += ", " + inner.element;
       throw Error(place, error.problem(), error.advice());
     }
+    for (std::size_t b = first; b < object.bodies.size() && item.find("velocity") != nullptr; ++b)
+      built.own_velocities.push_back(object.bodies[b].particle);
   }
-  return object;
+  return built;
 }
 
 }  // namespace pliant::scene_file

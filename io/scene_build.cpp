@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "pliant/substep_bounds.h"
 #include "scene_grammar.h"
@@ -120,12 +121,25 @@ void set_properties(const JsonDocument& document, const JsonValue& at, Object& o
   set(at, "lift", object.lift);
   set(at, "damping", object.damping);
   set(at, "colour", object.colour);
+}
+
+/// Gives the object's velocity to all particles but those of bodies that have their own, or are fixed.
+void set_velocity(const JsonDocument& document, const JsonValue& at, BuiltObject& built) {
   Vec3f velocity;
   if (!set(at, "velocity", velocity)) return;
-  if (!object.velocities.empty())
+  const auto has_one_per_particle = [](const JsonValue& record) {
+    const JsonValue* particles = record.find("particles");
+    return particles != nullptr && particles->find("velocities") != nullptr;
+  };
+  const std::vector<JsonValue>& parts = elements(at, "parts");
+  if (has_one_per_particle(at) || std::any_of(parts.begin(), parts.end(), has_one_per_particle))
     document.fail_key(*at.find("velocity"), "this object already has a velocity per particle", "give one of the two");
-  object.velocities.assign(object.positions.size(), velocity);
-  for (const ObjectBody& body : object.bodies)  // a fixed body has no velocity
+  Object& object = built.object;
+  const std::vector<Vec3f> given = std::exchange(object.velocities, std::vector<Vec3f>(object.positions.size(), velocity));
+  for (const int particle : built.own_velocities)
+    object.velocities[static_cast<std::size_t>(particle)] =
+        given.empty() ? Vec3f{} : given[static_cast<std::size_t>(particle)];
+  for (const ObjectBody& body : object.bodies)
     if (std::isinf(object.masses[body.particle])) object.velocities[body.particle] = {};
 }
 
@@ -173,6 +187,7 @@ Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFo
   add_parts(document, at, folder, built.object, repairs);
   set_joints(document, at, built.object);
   set_properties(document, at, built.object);
+  set_velocity(document, at, built);
   set_clusters(document, at, built);
   set_pins(document, at, built);
   set_attachments(document, at, built);

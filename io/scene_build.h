@@ -14,7 +14,8 @@ SceneFile build(const JsonDocument& document, const MeshFolder& folder);
 /// An object, with the data that selections of its particles need.
 struct BuiltObject {
   Object object;
-  int columns = 0, rows = 0;  ///< number of vertices along a grid; 0: no grid
+  int columns = 0, rows = 0;          ///< number of vertices along a grid; 0: no grid
+  std::vector<int> own_velocities{};  ///< the particles of bodies that have a velocity of their own
 };
 
 /// Builds an object without pins and attachments. `what` is the member "cloth", "soft_body", "rope" and so on.
@@ -28,8 +29,8 @@ Flow particle_flow(const JsonDocument& document, const JsonValue& at);
 Shape shape_of(const JsonValue& at);
 
 /// Builds an object of rigid bodies. `list` is the member "bodies".
-Object build_bodies(const JsonDocument& document, const JsonValue& list, const std::string& name, const MeshFolder& folder,
-                    std::vector<std::string>& repairs);
+BuiltObject build_bodies(const JsonDocument& document, const JsonValue& list, const std::string& name,
+                         const MeshFolder& folder, std::vector<std::string>& repairs);
 
 /// Builds an object from a robot description. `at` is the member "urdf".
 Object build_robot(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,

@@ -88,14 +88,16 @@ const Record& fixed_record() {
 }
 
 const Record& hinge_record() {
-  static const Record result{"hinge joint",
-                             "The second body rotates about one axis of the first.",
-                             {needed("anchor", place(), anchor_meaning),
-                              field("axis", axis(), HingeJoint{}.axis, "The axis, in the world at the start."),
-                              field("limit", record(turn_range_record()), "no limit", "Range of the angle."),
-                              field("motor", record(turn_motor_record()), "none", "Drives the angle."),
-                              field("friction", number("N m", 0), HingeJoint{}.friction, "Greatest torque of friction.")},
-                             {}};
+  static const Record result{
+      "hinge joint",
+      "The second body rotates about one axis of the first.",
+      {needed("anchor", place(), anchor_meaning),
+       field("axis", axis(), HingeJoint{}.axis, "The axis, in the world at the start."),
+       field("limit", record(turn_range_record()), "no limit", "Range of the angle."),
+       field("motor", record(turn_motor_record()), "none", "Drives the angle."),
+       field("friction", number("N m", 0), HingeJoint{}.friction, "Greatest torque of friction."),
+       field("damping", number("N m s/rad", 0), HingeJoint{}.damping, "Torque over angular velocity.")},
+      {}};
   return result;
 }
 
@@ -106,7 +108,8 @@ const Record& slider_record() {
                               field("axis", axis(), SliderJoint{}.axis, "The axis, in the world at the start."),
                               field("limit", record(slide_range_record()), "no limit", "Range of the displacement."),
                               field("motor", record(slide_motor_record()), "none", "Drives the displacement."),
-                              field("friction", number("N", 0), SliderJoint{}.friction, "Greatest force of friction.")},
+                              field("friction", number("N", 0), SliderJoint{}.friction, "Greatest force of friction."),
+                              field("damping", number("N s/m", 0), SliderJoint{}.damping, "Force over speed.")},
                              {}};
   return result;
 }

@@ -1,7 +1,8 @@
-// Finds similar names: first in the record itself, then in records below it, then in the whole format.
+// Finds similar names: first in the record itself, then in records below it, then in those that a scene has once.
 #include "scene_hints.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace pliant::scene_file {
@@ -51,6 +52,25 @@ std::vector<Reached> reached_from(const Record& first) {
   return reached;
 }
 
+/// The scene and its settings. Records in lists are left out: a name of one kind of object means nothing in another.
+std::vector<Reached> reached_once() {
+  std::vector<Reached> all = reached_from(scene_record());
+  std::erase_if(all, [](const Reached& one) { return one.path.find("[]") != std::string::npos; });
+  return all;
+}
+
+/// The first member of a record whose name means the same as `wanted`, as other programs say it; empty if there is none.
+std::string same_meaning(const std::string& wanted, const Record& record) {
+  using Pair = std::array<const char*, 2>;
+  static constexpr std::array<Pair, 8> pairs{Pair{"damping", "friction"},     Pair{"translate", "position"},
+                                             Pair{"translation", "position"}, Pair{"location", "position"},
+                                             Pair{"orientation", "rotation"}, Pair{"weight", "mass"},
+                                             Pair{"extents", "half_extents"}, Pair{"bounce", "restitution"}};
+  for (const auto& [other, name] : pairs)
+    if (wanted == other && record.find(name) != nullptr) return name;
+  return {};
+}
+
 /// The path of another record that has a member of this name; empty if there is none.
 std::string home_of(const std::string& wanted, const std::vector<Reached>& reached) {
   for (const Reached& one : reached) {
@@ -95,9 +115,10 @@ std::string hint_for(const std::string& wanted, const Record& record) {
   const std::vector<std::string> names = field_names_of(record);
   if (wanted.size() <= longest_name) {
     if (const std::string near = nearest_name(wanted, names); !near.empty()) return "did you mean '" + near + "'?";
-    const std::vector<Reached> below = reached_from(record), all = reached_from(scene_record());
+    if (const std::string same = same_meaning(wanted, record); !same.empty()) return "did you mean '" + same + "'?";
+    const std::vector<Reached> below = reached_from(record), once = reached_once();
     for (const auto& look : {home_of, nearest_elsewhere})
-      for (const auto* reached : {&below, &all})
+      for (const auto* reached : {&below, &once})
         if (std::string hint = look(wanted, *reached); !hint.empty()) return hint;
   }
   return names.empty() ? "this record has no members" : "known are " + joined(names);

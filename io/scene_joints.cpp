@@ -103,6 +103,7 @@ Joint one_axis_of(const JointSource& from, float unit) {
   set_range(from.at, "limit", unit, joint.limit);
   set_motor(from.document, from.at, "motor", unit, joint.motor);
   set(from.at, "friction", joint.friction);
+  set(from.at, "damping", joint.damping);
   return joint;
 }
 

@@ -304,7 +304,7 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
     if (what.key == "grains") return grains_of(document, what, name, folder, repairs);
     if (what.key == "rope") return rope_of(document, what, name);
     if (what.key == "rod") return {rod_of(document, what, name)};
-    if (what.key == "bodies") return {build_bodies(document, what, name, folder, repairs)};
+    if (what.key == "bodies") return build_bodies(document, what, name, folder, repairs);
     if (what.key == "urdf") return {build_robot(document, what, name, folder, repairs)};
   } catch (const Error& error) {
     if (!error.where().file.empty()) throw;  // the error has a location already: this file, or that of the mesh

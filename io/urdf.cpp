@@ -65,6 +65,7 @@ class RobotBuilder {
   Object build() {
     object_.name = robot_.name;
     require_targets();
+    require_mimicked();
     index_links();
     const std::size_t root = root_link();
     const Quatf upright = options_.z_up ? rotation({1, 0, 0}, -90) : Quatf{};
@@ -97,7 +98,35 @@ class RobotBuilder {
       if (!has_target(*joint))
         fail(joint->line, "joint '" + name + "' is " + joint->type + ", so no motor moves it to a target",
              "remove the target; revolute, continuous and prismatic joints have motors");
+      if (!joint->mimics.empty())
+        fail(joint->line, "joint '" + name + "' mimics '" + joint->mimics + "', so it has no target of its own",
+             "give the target to '" + joint->mimics + "'");
     }
+  }
+
+  /// Refuses a joint that mimics one that is not there or that no motor moves, or itself.
+  void require_mimicked() const {
+    for (const urdf::Joint& joint : robot_.joints) {
+      const urdf::Joint* of = &joint;
+      for (std::size_t steps = 0; !of->mimics.empty(); ++steps) {
+        if (steps == robot_.joints.size())
+          fail(joint.line, "joint '" + joint.name + "' mimics itself, by way of others", "let one joint lead the others");
+        of = &mimicked_by(*of);
+      }
+    }
+  }
+
+  const urdf::Joint& mimicked_by(const urdf::Joint& joint) const {
+    const auto is_it = [&](const urdf::Joint& other) { return other.name == joint.mimics; };
+    const auto found = std::find_if(robot_.joints.begin(), robot_.joints.end(), is_it);
+    if (found == robot_.joints.end())
+      fail(joint.line, "joint '" + joint.name + "' mimics '" + joint.mimics + "', which is no joint",
+           "name a joint of the file");
+    if (!has_target(joint) || !has_target(*found))
+      fail(joint.line,
+           "joint '" + joint.name + "' (" + joint.type + ") cannot mimic '" + found->name + "' (" + found->type + ")",
+           "revolute, continuous and prismatic joints can");
+    return *found;
   }
 
   // ---------------------------------------------------------------- the tree
@@ -331,13 +360,13 @@ class RobotBuilder {
       } else if (joint.type == "revolute" || joint.type == "continuous") {
         add_joint(object_,
                   HingeJoint{a, b, pose.position, axis, joint.type == "revolute" ? limit_of(joint, 6.2831855f) : none_,
-                             motor_of(joint), joint.friction, named});
+                             motor_of(joint), joint.friction, named, joint.damping});
       } else if (joint.type == "prismatic") {
-        add_joint(object_,
-                  SliderJoint{a, b, pose.position, axis, limit_of(joint, 1e6f), motor_of(joint), joint.friction, named});
+        add_joint(object_, SliderJoint{a, b, pose.position, axis, limit_of(joint, 1e6f), motor_of(joint), joint.friction,
+                                       named, joint.damping});
       } else if (joint.type == "planar") {
-        if (joint.friction != 0 || joint.has_limit)
-          warn(joint.line, "friction and limits of the planar joint '" + joint.name + "' are ignored");
+        if (joint.friction != 0 || joint.damping != 0 || joint.has_limit)
+          warn(joint.line, "friction, damping and limits of the planar joint '" + joint.name + "' are ignored");
         add_joint(object_, PlanarJoint{.a = a, .b = b, .anchor = pose.position, .normal = axis, .options = named});
       } else if (joint.type != "floating") {
         fail(joint.line, "joint '" + joint.name + "' has the unknown type '" + joint.type + "'",
@@ -359,19 +388,44 @@ class RobotBuilder {
     return {};
   }
 
+  /// The target of a joint, or what follows from that of the joint that it mimics.
+  std::optional<float> target_of(const urdf::Joint& joint) const {
+    if (!joint.mimics.empty()) {
+      const std::optional<float> leading = target_of(mimicked_by(joint));
+      if (!leading) return {};
+      return joint.multiplier * *leading + joint.offset;
+    }
+    const auto target = options_.targets.find(joint.name);
+    if (target == options_.targets.end()) return {};
+    return target->second;
+  }
+
+  /// Where a joint is held without a target: at 0, or at what follows from the joint that it mimics.
+  float held_position(const urdf::Joint& joint) const {
+    return joint.mimics.empty() ? 0 : joint.multiplier * held_position(mimicked_by(joint)) + joint.offset;
+  }
+
+  void warn_of_mimic(const urdf::Joint& joint, bool has_motor) {
+    const std::string follows = "joint '" + joint.name + "' mimics '" + joint.mimics + "' ";
+    warn(joint.line,
+         follows + (has_motor ? "by the target of its motor alone, which does not follow when it is changed later"
+                              : "without a motor, so it moves freely"));
+  }
+
   /// A servo that holds the joint, or moves it to a target, with the effort and speed that the file gives.
   std::optional<JointMotor> motor_of(const urdf::Joint& joint) {
-    const auto target = options_.targets.find(joint.name);
-    if (!options_.motors && target == options_.targets.end()) return {};
-    if (!(joint.effort > 0)) {
-      warn(joint.line, "joint '" + joint.name + "' has no effort limit, so it gets no motor" +
-                           (target == options_.targets.end() ? "" : ", and its target is ignored"));
-      return {};
-    }
+    const std::optional<float> target = target_of(joint);
+    const bool is_driven = options_.motors || target.has_value();
+    const bool can_be = is_driven && joint.effort && *joint.effort > 0;
+    if (!joint.mimics.empty()) warn_of_mimic(joint, can_be);
+    if (is_driven && !can_be)
+      warn(joint.line, "joint '" + joint.name + "' has " + (joint.effort ? "an effort limit of 0" : "no effort limit") +
+                           ", so it gets no motor" + (target ? ", and its target is ignored" : ""));
+    if (!can_be) return {};
     JointMotor motor;
     motor.kind = JointMotor::Kind::position;
-    motor.target = target == options_.targets.end() ? 0 : target->second;
-    motor.most = joint.effort;
+    motor.target = target.value_or(joint.mimics.empty() ? 0 : held_position(joint));
+    motor.most = *joint.effort;
     if (joint.velocity > 0) motor.most_speed = joint.velocity;
     return motor;
   }

@@ -40,15 +40,16 @@ const std::map<std::string, Known>& known_elements() {
       {"material", {{"color"}, {"name"}, {"texture"}, {}}},
       {"color", {{}, {"rgba"}, {}, {}}},
       {"joint",
-       {{"parent", "child", "origin", "axis", "limit", "dynamics"},
+       {{"parent", "child", "origin", "axis", "limit", "dynamics", "mimic"},
         {"name", "type"},
-        {"mimic", "calibration", "safety_controller"},
+        {"calibration", "safety_controller"},
         {}}},
       {"parent", {{}, {"link"}, {}, {}}},
       {"child", {{}, {"link"}, {}, {}}},
       {"axis", {{}, {"xyz"}, {}, {}}},
       {"limit", {{}, {"lower", "upper", "effort", "velocity"}, {}, {}}},
-      {"dynamics", {{}, {"friction", "damping"}, {}, {}}}};
+      {"dynamics", {{}, {"friction", "damping"}, {}, {}}},
+      {"mimic", {{}, {"joint", "multiplier", "offset"}, {}, {}}}};
   return known;
 }
 

@@ -45,7 +45,10 @@ struct Joint {
   std::string name, type, parent, child;
   Pose origin{};
   Vec3f axis{1, 0, 0};
-  float lower = 0, upper = 0, effort = 0, velocity = 0, friction = 0, damping = 0;
+  float lower = 0, upper = 0, velocity = 0, friction = 0, damping = 0;
+  std::optional<float> effort{};  ///< greatest torque [N m] or force [N] of its motor
+  std::string mimics;  ///< the joint that it follows: its position is that one's times `multiplier` plus `offset`
+  float multiplier = 1, offset = 0;
   bool has_limit = false;
   int line = 0;
 };

@@ -81,6 +81,15 @@ class Reader {
     return at.Attribute(name) == nullptr ? fallback : vector(at, name);
   }
 
+  /// A number that is not negative.
+  float magnitude(const Element& at, const char* name, float fallback) const {
+    const float value = number(at, name, fallback);
+    if (value < 0)
+      fail(at.GetLineNum(), std::string(at.Name()) + " has a negative " + name + ": " + at.Attribute(name),
+           "give a number of at least 0");
+    return value;
+  }
+
   float positive(const Element& at, const char* name) const {
     const float value = number(at, name);
     if (!(value > 0))
@@ -137,6 +146,9 @@ Inertial inertial_of(Reader& reader, const Element& at) {
   const Element *mass = at.FirstChildElement("mass"), *inertia = at.FirstChildElement("inertia");
   if (mass == nullptr || inertia == nullptr) reader.fail(at.GetLineNum(), "inertial lacks mass or inertia", "add both");
   inertial.mass = reader.number(*mass, "value");
+  if (inertial.mass < 0)
+    reader.fail(mass->GetLineNum(), std::string("inertial has a negative mass: ") + mass->Attribute("value") + " kg",
+                "give a mass above 0, or leave the inertial out to get that of the shapes");
   inertial.moments = {reader.number(*inertia, "ixx"), reader.number(*inertia, "iyy"), reader.number(*inertia, "izz")};
   inertial.products = {reader.number(*inertia, "iyz", 0), reader.number(*inertia, "ixz", 0),
                        reader.number(*inertia, "ixy", 0)};
@@ -198,24 +210,18 @@ Joint joint_of(Reader& reader, const Element& at) {
       joint.has_limit = child->Attribute("lower") != nullptr || child->Attribute("upper") != nullptr;
       joint.lower = reader.number(*child, "lower", 0);
       joint.upper = reader.number(*child, "upper", 0);
-      joint.effort = reader.number(*child, "effort", 0);
+      if (child->Attribute("effort") != nullptr) joint.effort = reader.magnitude(*child, "effort", 0);
       joint.velocity = reader.number(*child, "velocity", 0);
     } else if (kind == "dynamics") {
-      joint.friction = reader.number(*child, "friction", 0);
-      joint.damping = reader.number(*child, "damping", 0);
+      joint.friction = reader.magnitude(*child, "friction", 0);
+      joint.damping = reader.magnitude(*child, "damping", 0);
+    } else if (kind == "mimic") {
+      joint.mimics = reader.text(*child, "joint");
+      joint.multiplier = reader.number(*child, "multiplier", 1);
+      joint.offset = reader.number(*child, "offset", 0);
     }
   }
   return joint;
-}
-
-void warn_of_damping(Reader& reader, const Robot& robot) {
-  const auto is_damped = [](const Joint& joint) { return joint.damping != 0; };
-  const auto first = std::find_if(robot.joints.begin(), robot.joints.end(), is_damped);
-  if (first == robot.joints.end()) return;
-  const auto more = std::count_if(first + 1, robot.joints.end(), is_damped);
-  reader.warn(first->line, "damping of joint '" + first->name + "'" +
-                               (more == 0 ? "" : " and of " + std::to_string(more) + " more") +
-                               " is not supported and ignored");
 }
 
 const char* xml_error_in_words(tinyxml2::XMLError error) {
@@ -270,7 +276,6 @@ Robot read(const std::string& path, std::vector<std::string>& warnings) {
     else if (kind == "joint")
       robot.joints.push_back(joint_of(reader, *child));
   }
-  warn_of_damping(reader, robot);
   return robot;
 }
 

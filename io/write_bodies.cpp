@@ -74,10 +74,12 @@ class SurfaceWriter final : public FormatWriter {
         expanded.positions.push_back(frame.positions[o]);
         if (!frame.velocities.empty()) expanded.velocities.push_back(frame.velocities[o]);
         if (!frame.triangles.empty()) expanded.triangles.push_back(frame.triangles[o]);
+        if (!frame.lines.empty()) expanded.lines.push_back(frame.lines[o]);
       }
       if (o >= objects_.size() || objects_[o].bodies.empty()) continue;
       add_bodies(objects_[o], frame.bodies[o], !frame.velocities.empty(), expanded);
       if (!frame.triangles.empty()) expanded.triangles.emplace_back();
+      if (!frame.lines.empty()) expanded.lines.emplace_back();
     }
     format_->add(expanded);
   }

@@ -84,6 +84,16 @@ void check_bodies(const std::string& path, const FrameObject& object, const std:
   }
 }
 
+/// Throws an Error unless a frame has the lines of an object that is relinked.
+void check_lines(const std::string& path, const std::vector<FrameObject>& objects, const Frame& frame, std::size_t o) {
+  if (!objects[o].is_relinked) return;
+  if (frame.lines.size() != objects.size()) refuse(path, objects[o].name, {}, "a frame lacks the links that are left");
+  for (const std::vector<int>& line : frame.lines[o])
+    for (const int i : line)
+      if (i < 0 || i >= objects[o].particles)
+        refuse(path, objects[o].name, {}, "a link uses a particle that does not exist");
+}
+
 std::string identifier(const std::string& name) {
   std::string result;
   for (const char c : name) {
@@ -116,19 +126,26 @@ FrameObject describe(const Object& object) {
     result.triangles = object.skin->triangles;
   }
   describe_bodies(object, result);
-  if (!result.triangles.empty()) return result;
-  const std::vector<bool> is_body = body_centres(object);
-  for (const ConstraintGroup& group : object.constraints) {
-    if (group.type != "distance" || group.particles.size() < 2) continue;
-    std::vector<std::array<int, 2>> edges;
-    for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2) {
-      const std::array<int, 2> edge{group.particles[i], group.particles[i + 1]};
-      if (object.bodies.empty() || !is_body.at(edge[0]) || !is_body.at(edge[1])) edges.push_back(edge);
-    }
-    result.lines = join_lines(edges);
-    break;
-  }
+  if (const int group = line_group_of(object); result.triangles.empty() && group >= 0)
+    result.lines = lines_of(object, group);
   return result;
+}
+
+int line_group_of(const Object& object) {
+  const auto is_it = [](const ConstraintGroup& group) { return group.type == "distance" && group.particles.size() >= 2; };
+  const auto found = std::find_if(object.constraints.begin(), object.constraints.end(), is_it);
+  return found == object.constraints.end() ? -1 : static_cast<int>(found - object.constraints.begin());
+}
+
+std::vector<std::vector<int>> lines_of(const Object& object, int group) {
+  const std::vector<int>& particles = object.constraints.at(static_cast<std::size_t>(group)).particles;
+  const std::vector<bool> is_body = body_centres(object);
+  std::vector<std::array<int, 2>> edges;
+  for (std::size_t i = 0; i + 1 < particles.size(); i += 2) {
+    const std::array<int, 2> edge{particles[i], particles[i + 1]};
+    if (object.bodies.empty() || !is_body.at(edge[0]) || !is_body.at(edge[1])) edges.push_back(edge);
+  }
+  return join_lines(edges);
 }
 
 std::vector<FrameObject> describe(const Scene& scene) {
@@ -143,12 +160,13 @@ bool is_any_remeshed(const std::vector<FrameObject>& objects) {
 
 bool is_any_varying(const std::vector<FrameObject>& objects) {
   return std::any_of(objects.begin(), objects.end(),
-                     [](const FrameObject& object) { return object.is_remeshed || object.varies; });
+                     [](const FrameObject& object) { return object.is_remeshed || object.is_relinked || object.varies; });
 }
 
 std::vector<FrameObject> present_objects(const std::vector<FrameObject>& objects, const Frame& frame) {
   std::vector<FrameObject> result = objects;
   for (std::size_t i = 0; i < result.size(); ++i) {
+    if (result[i].is_relinked) result[i].lines = frame.lines[i];
     if (!result[i].is_remeshed && !result[i].varies) continue;
     result[i].particles = static_cast<int>(frame.positions[i].size());
     if (result[i].is_remeshed) result[i].triangles = frame.triangles[i];
@@ -167,6 +185,7 @@ void check_frame(const std::string& path, const std::vector<FrameObject>& object
                               : (objects[i].varies || static_cast<int>(positions.size()) == objects[i].particles) &&
                                     (frame.velocities.empty() || frame.velocities[i].size() == positions.size());
     if (!fits) refuse(path, objects[i].name, {}, "a frame has another number of particles than the scene");
+    check_lines(path, objects, frame, i);
     const auto bad = std::find_if_not(positions.begin(), positions.end(), finite);
     if (bad != positions.end())
       refuse(path, objects[i].name, "particle " + std::to_string(bad - positions.begin()),
@@ -237,12 +256,15 @@ std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const 
     throw Error({.file = path, .line = 0, .object = remeshed->name, .element = {}},
                 "is the surface of a liquid, or tears: another mesh in each frame, which '" + suffix + "' cannot have",
                 "end it in .obj, .ply, .usda or .pvd");
-  if (suffix == ".glb") return make_glb_writer(path, objects);
+  const auto glb = [&](const Objects& all) { return make_glb_writer(path, all); };
+  if (suffix == ".glb") return make_segment_writer(objects, glb);
   if (suffix == ".usda") return make_usda_writer(path, objects, frame_time);
   const auto surfaces = [&](auto make) { return make_surface_writer(objects, make); };
   if (suffix == ".obj") return surfaces([&](const Objects& all) { return make_obj_sequence(path, all); });
   if (suffix == ".ply") return surfaces([&](const Objects& all) { return make_ply_sequence(path, all); });
-  if (suffix == ".pc2") return surfaces([&](const Objects& all) { return make_pc2_writer(path, all, frame_time); });
+  const auto pc2 = [&](const Objects& all) { return make_pc2_writer(path, all, frame_time); };
+  if (suffix == ".pc2")
+    return make_segment_writer(objects, [&](const Objects& segments) { return make_surface_writer(segments, pc2); });
   if (suffix == ".pvd") return surfaces([&](const Objects& all) { return make_pvd_writer(path, all); });
   throw Error({.file = path, .line = 0, .object = {}, .element = {}}, "'" + suffix + "' is not a geometry format",
               "end it in .obj, .ply, .glb, .usda, .pc2 or .pvd");

@@ -39,6 +39,7 @@ struct FrameObject {
   std::vector<TriangleMesh> solids{};   ///< surfaces of bodies, each in the body's principal axes about its centre of mass
   std::vector<FrameBody> bodies{};
   bool is_remeshed = false;  ///< true: a surface that is another mesh in each frame (Frame::triangles)
+  bool is_relinked = false;  ///< true: lines of which links can break: each frame has those that are left (Frame::lines)
   bool varies = false;       ///< true: points, of which each frame has as many as are there
 
   /// True if the object has particles to show that are no centres of bodies.
@@ -63,6 +64,8 @@ struct Frame {
   /// The triangles of each object that is remeshed, whose positions are then its vertices, without velocities; those of others are empty.
   /// Empty if no object is remeshed.
   std::vector<std::vector<std::array<int, 3>>> triangles{};
+  /// The lines of each object that is relinked, by its particles; those of others are empty. Empty if no object is relinked.
+  std::vector<std::vector<std::vector<int>>> lines{};
 };
 
 /// Writes frames in one format. Frames must be added in the order of time; finish() completes the files.
@@ -88,11 +91,16 @@ class FormatWriter {
 std::vector<FrameObject> describe(const Scene& scene);
 FrameObject describe(const Object& object);
 
+/// The group of constraints whose links are the lines of an object: its first one of distance constraints; -1 if it has none.
+int line_group_of(const Object& object);
+/// The lines that the links of a group form.
+std::vector<std::vector<int>> lines_of(const Object& object, int group);
+
 /// True if a mesh differs from frame to frame.
 bool is_any_remeshed(const std::vector<FrameObject>& objects);
-/// True if the number of particles of an object differs from frame to frame.
+/// True if the number of particles, the mesh or the lines of an object differ from frame to frame.
 bool is_any_varying(const std::vector<FrameObject>& objects);
-/// The objects with the meshes and numbers of particles of a frame.
+/// The objects with the meshes, lines and numbers of particles of a frame.
 std::vector<FrameObject> present_objects(const std::vector<FrameObject>& objects, const Frame& frame);
 
 /// The motions of all bodies of an object of a World.
@@ -135,6 +143,11 @@ std::unique_ptr<FormatWriter> make_pvd_writer(const std::string& path, const Obj
 
 /// A writer of a format without bodies, which gets their surfaces as vertices that move. `make` makes it for given objects.
 std::unique_ptr<FormatWriter> make_surface_writer(const Objects& objects,
+                                                  const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
+
+/// A writer of a format whose lines cannot change. Each link of an object that is relinked gets two vertices of its own, which are in one
+/// place from when it breaks. `make` makes it for given objects.
+std::unique_ptr<FormatWriter> make_segment_writer(const Objects& objects,
                                                   const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
 
 /// Makes the writer for the suffix of `path`. Throws an Error that lists the known suffixes if it is unknown, or cannot have an object

@@ -24,7 +24,14 @@ class Prim {
  public:
   Prim(const std::string& path, const FrameObject& object) : object_(object), points_(path), extents_(path) {
     if (object.is_remeshed) counts_.emplace(path), indices_.emplace(path);
-    for (const auto& line : object.lines) order_.insert(order_.end(), line.begin(), line.end());
+    if (object.is_relinked) counts_.emplace(path);
+    order_by(object.lines);
+  }
+
+  /// Of an object that is relinked: the lines at that time, before its positions.
+  void add_lines(const std::string& time, const std::vector<std::vector<int>>& lines) {
+    order_by(lines);
+    counts_->write("            " + time + ": " + counts_of(lines) + ",\n");
   }
 
   void add(const std::string& time, const std::vector<Vec3f>& positions) {
@@ -47,6 +54,7 @@ class Prim {
       write_samples(file, "int[] faceVertexCounts", *counts_);
       write_samples(file, "int[] faceVertexIndices", *indices_);
     }
+    if (object_.is_relinked) write_samples(file, "int[] curveVertexCounts", *counts_);
     std::string colour;
     tuple(colour, object_.colour);
     file.write("        color3f[] primvars:displayColor = [" + colour + "]\n");
@@ -77,6 +85,17 @@ class Prim {
     return listed_numbers(indices);
   }
 
+  static std::string counts_of(const std::vector<std::vector<int>>& lines) {
+    std::vector<int> counts;
+    for (const auto& line : lines) counts.push_back(static_cast<int>(line.size()));
+    return listed_numbers(counts);
+  }
+
+  void order_by(const std::vector<std::vector<int>>& lines) {
+    order_.clear();
+    for (const auto& line : lines) order_.insert(order_.end(), line.begin(), line.end());
+  }
+
   const std::vector<Vec3f>& arranged(const std::vector<Vec3f>& positions) {
     arranged_.clear();
     for (const int i : order_) arranged_.push_back(positions[i]);
@@ -94,17 +113,16 @@ class Prim {
     append(widths, object_.width);
     widths += "] (\n            interpolation = \"constant\"\n        )\n";
     if (!curves()) return widths;
-    std::vector<int> counts;
-    for (const auto& line : object_.lines) counts.push_back(static_cast<int>(line.size()));
-    return "        uniform token type = \"linear\"\n        int[] curveVertexCounts = " + listed_numbers(counts) + "\n" +
-           widths;
+    const std::string counts =
+        object_.is_relinked ? "" : "        int[] curveVertexCounts = " + counts_of(object_.lines) + "\n";
+    return "        uniform token type = \"linear\"\n" + counts + widths;
   }
 
   FrameObject object_;
   std::vector<int> order_;
   std::vector<Vec3f> arranged_;
   Spool points_, extents_;
-  std::optional<Spool> counts_, indices_;  // of triangles, where each frame has others
+  std::optional<Spool> counts_, indices_;  // of triangles, or counts of lines, where each frame has others
 };
 
 /// The shortest decimal frame rate whose inverse is `frame_time` as a float: 60, where 1 / 0.016666668 is 59.999997.
@@ -136,6 +154,7 @@ class UsdaWriter final : public FormatWriter {
     last_time_ = frame.time;
     for (std::size_t p = 0; p < prims_.size(); ++p) {
       const std::size_t o = prim_objects_[p];
+      if (objects_[o].is_relinked) prims_[p].add_lines(text, frame.lines[o]);
       prims_[p].add(text, frame.positions[o]);
       if (objects_[o].is_remeshed) prims_[p].add_mesh(text, frame.triangles[o]);
     }

@@ -141,12 +141,13 @@ class PvdWriter final : public FormatWriter {
     Frame result;
     result.positions = {frame.positions[o]};
     if (!frame.triangles.empty()) result.triangles = {frame.triangles[o]};
+    if (!frame.lines.empty()) result.lines = {frame.lines[o]};
     return result;
   }
 
   void write_piece(const std::string& name, const Frame& frame, std::size_t o) {
     AtomicFile file(folder_ + "/" + name);
-    if (objects_[o].is_remeshed || objects_[o].varies)
+    if (is_any_varying({objects_[o]}))
       pieces_[o] = Piece(pieces_[o].name, present_objects({objects_[o]}, part_of(frame, o)).front());
     file.write(pieces_[o].head);
     if (!frame.velocities.empty() && !objects_[o].is_remeshed)

@@ -74,6 +74,7 @@ struct HingeJoint {
   std::optional<JointMotor> motor{};
   float friction = 0;  ///< greatest torque [N m]
   JointOptions options{};
+  float damping = 0;  ///< torque over angular velocity, >= 0 [N m s/rad]
 };
 
 /// One axis along which b slides; b does not rotate against a.
@@ -85,6 +86,7 @@ struct SliderJoint {
   std::optional<JointMotor> motor{};
   float friction = 0;  ///< greatest force [N]
   JointOptions options{};
+  float damping = 0;  ///< force over speed, >= 0 [N s/m]
 };
 
 /// One axis along which b slides and about which it rotates.

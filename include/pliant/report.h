@@ -107,10 +107,10 @@ struct FlowReport {
   }
 };
 
-/// Statistics of contact between surfaces, including mesh colliders.
+/// Statistics of contact between surfaces, including mesh colliders and, in `contacts`, rigid bodies.
 struct PairReport {
   std::int64_t candidates = 0;              ///< pairs of primitives in lists: mesh neighbours, and pairs found near
-  std::int64_t contacts = 0;                ///< contacts active in the last substep
+  std::int64_t contacts = 0;                ///< active in the last substep, also of points and surfaces with rigid bodies
   std::int64_t truncated = 0;               ///< steps of vertices that the filter truncated, over all substeps
   std::int64_t unresolvable = 0;            ///< pairs that no step limit keeps apart, as in cloth pinched by colliders
   std::int64_t initially_intersecting = 0;  ///< edges that intersect a triangle since the start; no contact until apart
@@ -211,7 +211,7 @@ struct Report {
   double milliseconds = 0;
   int substeps = 0;  ///< substeps of this frame, with those that Settings::most_substeps permits; the most of any object
   std::vector<PhaseTime> phases;  ///< of sets that ran side by side the sum, which can exceed `milliseconds`
-  std::int64_t contacts = 0;      ///< contacts with colliders that were active in the last substep
+  std::int64_t contacts = 0;      ///< contacts with colliders and rigid bodies that were active in the last substep
   PairReport pairs;
   std::vector<Residual> residuals;             ///< filled if Settings::measure is set
   std::optional<Stretch> stretch;              ///< filled if Settings::measure is set

@@ -88,6 +88,18 @@ void doubt_pins(const Doubts& d) {
   d.problems.doubtful(twice, "particle", "is pinned more than once", "only the last motion has an effect: pin it once");
 }
 
+void doubt_attachments(const Doubts& d) {
+  Tally far;
+  for (std::size_t i = 0; i < d.object.attachments.size(); ++i) {
+    const Attachment& attachment = d.object.attachments[i];
+    const Vec3d way = Vec3d{attachment.target.x, attachment.target.y, attachment.target.z} - d.at(attachment.particle);
+    const double most = static_cast<double>(large_place);
+    if (length_squared(way) > most * most) far.add(static_cast<std::int64_t>(i));
+  }
+  d.problems.doubtful(far, "attachment", "has its target more than 10 km from its particle",
+                      "it pulls the particle there at once: targets are places in the world, in metres");
+}
+
 void doubt_references(const Doubts& d) {
   if (d.object.fluid || d.object.grains || d.object.tracers) return;  // whose particles are in no constraint of their own
   std::vector<bool> used = d.fixed;
@@ -311,6 +323,7 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   const Doubts doubts{problems, object, scene, fixed_particles(object)};
   doubt_masses(doubts);
   doubt_pins(doubts);
+  doubt_attachments(doubts);
   doubt_joints(problems, object);
   doubt_tears(problems, object, scene);
   doubt_absorbency(problems, object, scene);

@@ -1,4 +1,4 @@
-// Warnings about liquids, gases and grains: particles that start within one another, and emitters that shoot.
+// Warnings about liquids, gases and grains: particles that start within one another, emitters that shoot, and numbers of no known matter.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -84,6 +84,37 @@ void doubt_emitters(Problems& problems, const Object& object) {
   }
 }
 
+/// A temperature that is probably in degrees Celsius, or mistyped. Flames have up to 3 500 K.
+void doubt_temperature(Problems& problems, const std::string& what, float temperature) {
+  constexpr float coldest = 100, hottest = 10000;  // [K]
+  if (temperature >= coldest && temperature <= hottest) return;
+  problems.doubtful(what,
+                    "is " + words(static_cast<double>(temperature)) +
+                        (temperature < coldest ? " K, at which air is frozen" : " K, hotter than the surface of the sun"),
+                    "temperatures are in kelvin: 20 degrees Celsius are 293.15");
+}
+
+/// Numbers of a liquid or gas that are outside of what exists by far.
+void doubt_matter(Problems& problems, const Object& object) {
+  constexpr double lightest = 1, stiffest = 1e4;  // of liquids [kg/m^3]; kinematic viscosity [m^2/s], of pitch 1e5
+  if (!object.fluid) return;
+  const double density = static_cast<double>(object.fluid->density),
+               viscosity = static_cast<double>(object.fluid->viscosity);
+  if (!object.gas && density < lightest)
+    problems.doubtful("fluid, density", "is " + words(density) + " kg/m^3, less than that of air",
+                      "densities are in kg/m^3: water has 1000");
+  if (viscosity > stiffest * density)
+    problems.doubtful(
+        "fluid, viscosity",
+        "is " + words(viscosity) + " Pa s at a density of " + words(density) + " kg/m^3, so that it moves like a solid",
+        "viscosities are in Pa s: water has 0.001, honey 10");
+  if (!object.gas) return;
+  doubt_temperature(problems, "gas, temperature", object.gas->temperature);
+  doubt_temperature(problems, "gas, ambient_temperature", object.gas->ambient_temperature);
+  for (const GasHeater& heater : object.gas->heaters)
+    doubt_temperature(problems, "gas, heater, temperature", heater.temperature);
+}
+
 }  // namespace
 
 void doubt_flows(Problems& problems, const Scene& scene) {
@@ -101,6 +132,7 @@ void doubt_flows(Problems& problems, const Scene& scene) {
     const Object& object = scene.objects[o];
     problems.at(object.name);
     doubt_emitters(problems, object);
+    doubt_matter(problems, object);
     if (crowded[o].count == 0) continue;
     const Place& first = places[static_cast<std::size_t>(other[o])];
     const std::string& of = scene.objects[static_cast<std::size_t>(first.object)].name;

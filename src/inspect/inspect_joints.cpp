@@ -14,6 +14,8 @@ namespace {
 
 /// Radii of gyration from a body's centre to an anchor above which units are probably wrong.
 constexpr double far_anchor = 100;
+/// Distance beyond which a joint turns bodies by rounding alone, whatever it may slide along [m].
+constexpr double far_from_all = 1e4;
 
 /// A body of a joint, with what its anchors are compared to.
 struct JointedBody {
@@ -70,6 +72,7 @@ void doubt_anchor(Problems& problems, const Object& object, const ObjectJoint& j
   if (!std::isfinite(nearest) || nearest <= far_anchor) return;
   const JointedBody& near = remoteness(anchor, b) == nearest ? b : a;
   const double distance = nearest * near.radius_of_gyration();
+  if (slides(joint) && distance <= far_from_all) return;
   problems.doubtful("joint '" + joint.name + "'",
                     "has its anchor " + words(distance) + " m from the centre of body '" + near.body.name + "', " +
                         words(std::round(nearest)) + " times its radius of gyration",
@@ -128,7 +131,7 @@ void doubt_joints(Problems& problems, const Object& object) {
     if (!has_body(object, joint.a) || !has_body(object, joint.b)) continue;
     if (joins_angles(joint))
       doubt_bearings(problems, object, joint);
-    else if (!slides(joint))
+    else
       doubt_anchor(problems, object, joint);
   }
 }

@@ -23,13 +23,15 @@ struct KnownForces {
   std::function<float(int group)> factor;  ///< the present factor of a group's rest data
   /// Multipliers over h^2 [N] of all constraints of a type, row by row, in the order of the groups; empty: unknown.
   std::function<std::vector<float>(const std::string& type)> multipliers;
+  double h = 0;  ///< length of the last substep; 0: the multipliers are unknown [s]
 };
 
 /// By how much rounding in the solve changes the elongation of a constraint between points at most that far apart [m].
 double rounding_of_elongation(double distance);
 
-/// The Edit that removes the constraints whose force is beyond that at which they break; nothing if all hold. The force is |C| over the
-/// compliance. Where rounding hides whether that is beyond, multipliers tell it.
+/// The Edit that removes the constraints whose force is beyond that at which they break; nothing if all hold. Multipliers tell the
+/// force, or where rounding makes them coarse |C| over the compliance. Lengths break by a pull alone. Of links in a row, as those of a rope, only the one with the
+/// greatest force over its limit is removed, because that relieves the others.
 std::optional<Edit> break_constraints(const Object& object, const KnownForces& known);
 
 }  // namespace pliant

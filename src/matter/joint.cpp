@@ -83,6 +83,7 @@ int add_joint(Object& object, const HingeJoint& joint) {
   draft.lock("hinge_joint");
   if (joint.limit) draft.limit_angle(0, *joint.limit);
   draft.drive_angle(0, joint.motor, joint.friction);
+  draft.damp_angle(0, joint.damping);
   return draft.finish();
 }
 
@@ -92,6 +93,7 @@ int add_joint(Object& object, const SliderJoint& joint) {
   draft.lock("slider_joint");
   if (joint.limit) draft.limit_offset(0, *joint.limit);
   draft.drive_offset(0, joint.motor, joint.friction);
+  draft.damp_offset(0, joint.damping);
   return draft.finish();
 }
 

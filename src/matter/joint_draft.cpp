@@ -259,6 +259,15 @@ void JointDraft::add_friction(const char* type, int axis, float friction, bool i
   add(type, axis, rest, 0);
 }
 
+/// A motor at rest of any strength, whose compliance lets it give way in proportion to its force.
+void JointDraft::add_damper(const char* type, int axis, float damping, bool is_angle) {
+  require(damping, "damping", 0, 1e30f);
+  if (damping < above_zero) return;
+  std::vector<float> rest{0, 0, 0, 0, joint::no_limit};
+  if (is_angle) rest.push_back(joint::no_limit);
+  add(type, axis, rest, 1 / damping);
+}
+
 void JointDraft::drive_angle(int axis, const std::optional<JointMotor>& motor, float friction, const char* name) {
   if (motor) add_motor("joint_angle_motor", axis, *motor, name, true);
   add_friction("joint_angle_motor", axis, friction, true);

@@ -61,6 +61,9 @@ class JointDraft {
   /// A motor and friction. `name` is that of the motor, by which users set its target.
   void drive_angle(int axis, const std::optional<JointMotor>& motor, float friction, const char* name = "motor");
   void drive_offset(int axis, const std::optional<JointMotor>& motor, float friction, const char* name = "motor");
+  /// A viscous damper [N m s/rad; N s/m].
+  void damp_angle(int axis, float damping) { add_damper("joint_angle_motor", axis, damping, true); }
+  void damp_offset(int axis, float damping) { add_damper("joint_offset_motor", axis, damping, false); }
 
   const JointOptions& options() const { return options_; }
   /// Adds everything to the object. Returns the index of the joint.
@@ -80,6 +83,7 @@ class JointDraft {
   void require_range(const JointRange& range, bool is_angle) const;
   void add_motor(const char* type, int axis, const JointMotor& motor, const char* name, bool is_angle);
   void add_friction(const char* type, int axis, float friction, bool is_angle);
+  void add_damper(const char* type, int axis, float damping, bool is_angle);
 
   Object& object_;
   std::string kind_, name_;

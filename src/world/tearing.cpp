@@ -199,7 +199,7 @@ std::optional<Edit> broken_by_force(const WorldData& world, ObjectId id, const O
     for (float& value : values) value /= h * h;
     return values;
   };
-  return break_constraints(object, {positions, factor, multipliers});
+  return break_constraints(object, {positions, factor, multipliers, static_cast<double>(world.workspace.last_h[number])});
 }
 
 void tear_object(WorldData& world, ObjectId id, Report& report) {

@@ -218,6 +218,22 @@ TEST(InspectScene, TakesAnchorsAnywhereOnTheAxisOfASlider) {
   add_joint(bead, SliderJoint{.b = 0});
   scene.add(bead);
   EXPECT_EQ(finding(scene, "anchor"), "");
+  Object far = make_body({{Sphere{0.005f}}}, {.name = "far"});
+  add_joint(far, SliderJoint{.b = 0, .anchor = {0, 1e6f, 0}});
+  scene.objects = {far};
+  EXPECT_NE(finding(scene, "anchor").find("has its anchor 1e+06 m from the centre of body 'far'"), std::string::npos);
+}
+
+TEST(InspectScene, DoubtsATargetFarFromWhatIsAttached) {
+  const auto doubt = [](float height) {
+    Object object = make_cloth(sheet(0));
+    object.attachments = {{.particle = 3, .target = {0, height, 0}}};
+    Scene scene;
+    scene.add(object);
+    return finding(scene, "attachment");
+  };
+  EXPECT_EQ(doubt(1), "");
+  EXPECT_NE(doubt(1e6f).find("attachment 0: has its target more than 10 km from its particle"), std::string::npos);
 }
 
 TEST(InspectScene, SurvivesJointsOfBodiesThatDoNotExist) {
@@ -319,6 +335,32 @@ Scene water() {
   options.fluid.spacing = 0.05f;
   scene.add(make_liquid(fill_box({}, {0.3f, 1, 0.3f}, 0.05f), options));
   return scene;
+}
+
+TEST(InspectScene, DoubtsNumbersOfNoKnownMatter) {
+  const auto of_liquid = [](float density, float viscosity) {
+    Scene scene = water();
+    scene.objects[0].fluid->density = density;
+    scene.objects[0].fluid->viscosity = viscosity;
+    return finding(scene, "object 'water', fluid, ");
+  };
+  EXPECT_EQ(of_liquid(1000, 0.001f), "");
+  EXPECT_EQ(of_liquid(13534, 1e6f), "");
+  const std::string both = of_liquid(1e-6f, 1e6f);
+  EXPECT_NE(both.find("fluid, density: is 1e-06 kg/m^3, less than that of air"), std::string::npos) << both;
+  EXPECT_NE(both.find("fluid, viscosity: is 1e+06 Pa s at a density of 1e-06 kg/m^3"), std::string::npos) << both;
+  const auto of_gas = [](float temperature) {
+    GasOptions options;
+    options.name = "smoke";
+    options.fluid.spacing = 0.1f;
+    options.gas.temperature = temperature;
+    Scene scene;
+    scene.add(make_gas(fill_box({}, {0.3f, 0.3f, 0.3f}, 0.1f), options));
+    return finding(scene, "gas, temperature");
+  };
+  EXPECT_EQ(of_gas(2000), "");
+  EXPECT_NE(of_gas(1e9f).find("is 1e+09 K, hotter than the surface of the sun"), std::string::npos) << of_gas(1e9f);
+  EXPECT_NE(of_gas(20).find("20 degrees Celsius are 293.15"), std::string::npos) << of_gas(20);
 }
 
 TEST(InspectScene, SaysThatWindDoesNotPushLiquids) {

@@ -28,6 +28,23 @@ std::size_t body_named(const Object& object, const std::string& start) {
   return i;
 }
 
+/// Without a velocity of its own a body has the object's, as the format's table says.
+TEST(SceneBodies, HaveTheVelocityOfTheObjectUnlessTheyHaveTheirOwn) {
+  const Scene scene = parse_scene(R"({"objects": [{"velocity": [1, 0, 0], "bodies": [
+      {"name": "own", "solids": [{"sphere": {}}], "velocity": [0, 1, 0], "repeat": {"grid": {"counts": [2, 1, 1], "spacing": [5, 5, 5]}}},
+      {"name": "rests", "solids": [{"sphere": {}}], "position": [0, 3, 0], "velocity": [0, 0, 0]},
+      {"name": "fixed", "solids": [{"sphere": {}}], "position": [0, 6, 0], "mass": "fixed"},
+      {"name": "follows", "solids": [{"sphere": {}}], "position": [0, 9, 0]}],
+      "parts": [{"rope": {"points": [[0, 20, 0], [1, 20, 0]]}}]}]})",
+                                  "x.json", ".");
+  const Vec3f own{0, 1, 0}, rests{}, objects{1, 0, 0};
+  EXPECT_EQ(scene.objects[0].velocities, (std::vector<Vec3f>{own, own, rests, rests, objects, objects, objects}));
+  EXPECT_NE(test::scene_message(R"({"objects": [{"velocity": [1, 0, 0], "bodies": [{"solids": [{"sphere": {}}]}], "parts": [
+      {"particles": {"positions": [[0, 9, 0]], "masses": 1, "velocities": [[0, 0, 1]]}}]}]})")
+                .find("/objects/0/velocity: this object already has a velocity per particle"),
+            std::string::npos);
+}
+
 TEST_F(Heap, HasItsProperties) {
   EXPECT_EQ(heap.name, "heap");
   EXPECT_EQ(heap.bodies.size(), 5U + 6 + 5 + 40);

@@ -74,10 +74,10 @@ TEST_F(Rig, HasTheJointsThatCodeMakes) {
   add_joint(same, FixedJoint{-1, 0, {0, 0, 1}, {}});
   expect_same(1);
   const JointMotor servo{JointMotor::Kind::position, 45 * degree, 3, 4, 180 * degree};
-  add_joint(same, HingeJoint{1, 2, {3, 0, 0}, {0, 1, 0}, JointRange{-90 * degree, 90 * degree}, servo, 0.125f, {}});
+  add_joint(same, HingeJoint{1, 2, {3, 0, 0}, {0, 1, 0}, JointRange{-90 * degree, 90 * degree}, servo, 0.125f, {}, 0.25f});
   expect_same(2);
   const JointMotor drive{JointMotor::Kind::speed, 0.25f, 7};
-  add_joint(same, SliderJoint{2, 3, {5, 0, 0}, {0, 1, 0}, JointRange{-1, 2, 0.5f}, drive, 0.5f, {}});
+  add_joint(same, SliderJoint{2, 3, {5, 0, 0}, {0, 1, 0}, JointRange{-1, 2, 0.5f}, drive, 0.5f, {}, 4});
   expect_same(3);
   CylindricalJoint both{3, 4, {7, 0, 0}, {0, 1, 0}};
   both.slide_limit = JointRange{-1, 1};

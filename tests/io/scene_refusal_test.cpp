@@ -99,6 +99,15 @@ TEST(SceneRefusal, KnowsWhereANameBelongs) {
   EXPECT_EQ(hint(R"({"objects": [], "settings": {"gravty": [0, 0, 0]}})"), "did you mean 'gravity' of the scene?");
   EXPECT_EQ(hint(R"({"objects": [], "settings": {"substep": 10}})"), "did you mean 'substeps'?") << "here comes before all";
   EXPECT_EQ(hint(R"({"objects": [], "sphere": {}})").rfind("it is a member of collider, as 'colliders[].sphere'", 0), 0U);
+  EXPECT_EQ(hint(R"({"objects": [{"rope": {"points": [[0, 0, 0], [1, 0, 0]]}, "pins": [{"particles": {"group": "a"}}]}]})"),
+            "known are 'box' and 'nearest'")
+      << "the groups of objects, which collide, are no selection";
+  EXPECT_EQ(hint(R"({"objects": [{"bodies": [{"solids": [{"sphere": {}}]}], "joints": [
+                    {"between": ["world", "body"], "ball": {"anchor": [0, 0, 0], "damping": 1}}]}]})"),
+            "did you mean 'friction'?")
+      << "the damping of an object is that of air";
+  EXPECT_EQ(hint(R"({"objects": [{"bodies": [{"solids": [{"sphere": {}}], "orientation": [0, 0, 0]}]}]})"),
+            "did you mean 'rotation'?");
   EXPECT_EQ(hint(R"({"objects": [], "wind": {"qzx": 1}})"),
             "known are 'velocity', 'air_density', 'gust' and 'gust_period'");
   EXPECT_EQ(hint(R"({"objects": [], "wind": {")" + std::string(65, 's') + R"(": 1}})").rfind("known are ", 0), 0U);

@@ -5,12 +5,17 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "pliant/body.h"
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/joint.h"
 #include "support/paths.h"
+#include "support/refusal.h"
 #include "write_support.h"
 
 namespace pliant {
@@ -187,11 +192,10 @@ TEST_F(Urdf, NamesWhatItIgnoresWithItsLine) {
   std::string all;
   for (const std::string& one : warnings) all += one.substr(one.find("arm.urdf")) + "\n";
   for (const std::string part :
-       {"arm.urdf:16: damping of joint 'shoulder' is not supported and ignored",
-        "arm.urdf:29: mesh 'wheel.dae' of link 'wheel' is ignored: only .obj",
+       {"arm.urdf:29: mesh 'wheel.dae' of link 'wheel' is ignored: only .obj",
         "arm.urdf:28: mesh 'package://arm/tetra.obj' of link 'wheel' is ignored: there is no file",
         "arm.urdf:26: link 'wheel' has mass but no shape that can be read, so it touches nothing",
-        "arm.urdf:31: 'mimic' of joint is not supported and ignored",
+        "arm.urdf:31: joint 'spin' mimics 'shoulder' without a motor, so it moves freely",
         "arm.urdf:32: link 'camera' has mass but no collision or visual shape, so it touches nothing",
         "arm.urdf:34: 'transmission' of robot", "arm.urdf:22: link 'finger' has no mass"})
     EXPECT_NE(all.find(part), std::string::npos) << part << "\nin\n" << all;
@@ -223,7 +227,79 @@ TEST_F(Urdf, SuggestsANameForWhatIsUnknown) {
   EXPECT_EQ(warned("revolute", limit, "<gazebo/><gazebo/>\n<gazebo/>"),
             "a.urdf:5: 'gazebo' of robot is not supported and ignored (and 2 more)\n");
   EXPECT_EQ(warned("planar", R"(<dynamics friction="1"/>)"),
-            "a.urdf:4: friction and limits of the planar joint 'j' are ignored\n");
+            "a.urdf:4: friction, damping and limits of the planar joint 'j' are ignored\n");
+  EXPECT_EQ(warned("revolute", limit + R"(<dynamics damping="5"/>)"), "") << "it is read";
+}
+
+/// A gripper of two fingers that slide, the second of which is to mimic the first.
+std::string gripper(const std::string& first, const std::string& second) {
+  const std::string base = R"(<link name="base"><inertial><mass value="1"/>
+    <inertia ixx="0.01" iyy="0.01" izz="0.01"/></inertial><collision><geometry><box size="0.1 0.1 0.05"/></geometry></collision></link>)";
+  const auto finger = [](const std::string& name, const std::string& x, const std::string& axis, const std::string& more) {
+    return "\n<link name=\"" + name +
+           R"("><collision><geometry><box size="0.02 0.03 0.06"/></geometry></collision></link>)" + "<joint name=\"j" +
+           name + R"(" type="prismatic"><parent link="base"/><child link=")" + name + "\"/><origin xyz=\"" + x +
+           " 0 0.06\"/><axis xyz=\"" + axis + " 0 0\"/>" + more + "</joint>";
+  };
+  return "<robot name=\"r\">" + base + finger("l", "-0.04", "1", first) + finger("r", "0.04", "-1", second) + "</robot>";
+}
+
+struct Grip {
+  Object object;
+  std::string warnings;
+};
+
+Grip grip(const std::string& first, const std::string& second, const std::map<std::string, float>& targets) {
+  const test::Folder folder;
+  test::put(folder / "a.urdf", gripper(first, second));
+  UrdfOptions options;
+  options.fixed_base = options.motors = true;
+  options.targets = targets;
+  std::vector<std::string> warnings;
+  Grip made{read_urdf(folder / "a.urdf", options, &warnings), {}};
+  for (const std::string& one : warnings) made.warnings += one.substr(folder.path().size() + 1) + "\n";
+  return made;
+}
+
+const std::string strong = R"(<limit lower="0" upper="0.03" effort="10" velocity="0.1"/>)";  // NOLINT(cert-err58-cpp)
+
+TEST_F(Urdf, MovesAJointThatMimicsAnother) {
+  const Grip made = grip(strong, strong + R"(<mimic joint="jl" multiplier="0.5" offset="0.002"/>)", {{"jl", 0.02f}});
+  EXPECT_NE(made.warnings.find("joint 'jr' mimics 'jl' by the target of its motor alone"), std::string::npos)
+      << made.warnings;
+  Scene scene;
+  scene.gravity = {};
+  scene.add(made.object);
+  World world(scene);
+  for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(scene.frame_time).ok());
+  const auto x = [&](const char* name) {
+    return world.object(0).positions()[static_cast<std::size_t>(body(made.object, name).particle)].x;
+  };
+  EXPECT_NEAR(x("l"), -0.04f + 0.02f, 2e-4f);
+  EXPECT_NEAR(x("r"), 0.04f - 0.012f, 2e-4f);
+}
+
+TEST_F(Urdf, RefusesWhatCannotMimic) {
+  const auto refused_grip = [](const std::string& first, const std::string& second,
+                               const std::map<std::string, float>& targets) {
+    return testing_support::refusal([&] { grip(first, second, targets); });
+  };
+  const std::string mimics = R"(<mimic joint="jl"/>)";
+  for (const auto& [message, found] : std::vector<std::pair<std::string, std::string>>{
+           {"joint 'jr' mimics 'jl', so it has no target of its own; give the target to 'jl'",
+            refused_grip(strong, strong + mimics, {{"jr", 0.01f}})},
+           {"joint 'jr' mimics 'jx', which is no joint", refused_grip(strong, strong + R"(<mimic joint="jx"/>)", {})},
+           {"joint 'jl' mimics itself", refused_grip(strong + R"(<mimic joint="jr"/>)", strong + mimics, {})}})
+    EXPECT_NE(found.find(message), std::string::npos) << found;
+}
+
+TEST_F(Urdf, TakesAnEffortOfZeroAsALimit) {
+  const std::string weak = R"(<limit lower="0" upper="0.03" effort="0" velocity="0.1"/>)",
+                    none = R"(<limit lower="0" upper="0.03" velocity="0.1"/>)";
+  EXPECT_NE(grip(weak, strong, {}).warnings.find("joint 'jl' has an effort limit of 0, so it gets no motor\n"),
+            std::string::npos);
+  EXPECT_NE(grip(none, strong, {}).warnings.find("joint 'jl' has no effort limit, so it gets no motor\n"),
+            std::string::npos);
 }
 
 TEST_F(Urdf, NamesAMissingMeshOfAPackageByARelativePath) {
@@ -346,6 +422,11 @@ TEST_F(Urdf, RefusesWhatIsNoTreeOrNoRobot) {
       {link + R"(<link name="b"/><link name="c"/><joint name="j" type="fixed"><parent link="b"/><child link="c"/></joint>
 <joint name="k" type="fixed"><parent link="c"/><child link="b"/></joint>)",
        "a.urdf:3: object 'r': joints 'j' and 'k' form a loop"},
+      {R"(<link name="a"><inertial><mass value="-1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>)",
+       "a.urdf:2: inertial has a negative mass: -1 kg; give a mass above 0"},
+      {link + R"(<link name="b"/><joint name="j" type="revolute"><parent link="a"/><child link="b"/>
+<dynamics damping="-2"/></joint>)",
+       "a.urdf:4: dynamics has a negative damping: -2"},
       {R"(<link name="a"/>)", "no link with mass or geometry"},
       {"", "has no links"}};
   for (const auto& [elements, message] : cases) {

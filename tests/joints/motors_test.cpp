@@ -146,6 +146,29 @@ TEST(JointFriction, ASliderHoldsUpToTheGreatestForce) {
   }
 }
 
+/// A wheel on a damped hinge: its spin is w0 exp(-c t / I), of implicit Euler's (1 + c h / I)^-n.
+TEST(JointDamping, SlowsAWheelExponentially) {
+  Mechanism m;
+  m.scene.gravity = {};
+  const int b = m.box({0, 0, 0}, 3, {0.4f, 0.4f, 0.1f}, {}, {0, 0, 5});
+  add_joint(m.object, HingeJoint{.b = b, .axis = {0, 0, 1}, .damping = 0.4f});
+  m.run(1);
+  const double rate = 0.4 / box_inertia(3, 0.4, 0.4);
+  EXPECT_NEAR(m.spin(b).z, 5 * std::exp(-rate), 0.01 * 5 * std::exp(-rate));
+}
+
+/// What falls along a damped slider ends at m g / c.
+TEST(JointDamping, GivesASliderItsTerminalSpeed) {
+  Mechanism m;
+  const int b = m.box({0, 0, 0}, 2);
+  add_joint(m.object, SliderJoint{.b = b, .axis = {0, 1, 0}, .damping = 10});
+  m.run(2);
+  const double before = m.pose(b).position.y;
+  m.run(0.5);
+  EXPECT_NEAR((m.pose(b).position.y - before) / 0.5, -2 * gravity / 10, 0.01);
+  EXPECT_THROW(add_joint(m.object, SliderJoint{.b = b, .damping = -1}), Error);
+}
+
 /// Bars of 1 and 2 m between hinges, and a crank of 0.5 m that a motor turns: the loop closes in every position.
 TEST(JointLoops, AFourBarLinkageClosesAndFollowsItsCrank) {
   Mechanism m;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "pliant/body.h"
 #include "pliant/error.h"
 #include "pliant/mesh.h"
 #include "pliant/soft_body.h"
@@ -200,6 +202,115 @@ TEST(BreakForce, TakesTheUppermostLinkOfARope) {
   const std::vector<Vec3f> x = world.object(0).positions();
   EXPECT_LT(x[1].y, -0.3f);
   for (std::size_t i = 2; i < 6; ++i) EXPECT_NEAR(x[i - 1].y - x[i].y, 0.1f, 0.003f);
+}
+
+/// How many constraints are lost in a run of 60 frames: in the first frame with any, and in all.
+std::pair<int, int> losses_of(const Object& object) {
+  World world(scene_of(object, true));
+  std::pair<int, int> lost{};
+  for (int i = 0; i < 60; ++i) {
+    for (const Torn& torn : world.step(1.f / 60).torn) {
+      if (lost.second == 0) lost.first = torn.lost_constraints;
+      lost.second += torn.lost_constraints;
+    }
+  }
+  return lost;
+}
+
+/// A rope whose links break beyond a force.
+Object breakable_rope(const std::vector<Vec3f>& points, float alpha, float break_force, float mass) {
+  Object rope;
+  rope.name = "rope";
+  rope.positions = points;
+  rope.masses.assign(points.size(), mass);
+  ConstraintGroup links;
+  links.type = "distance";
+  for (int i = 0; i + 1 < static_cast<int>(points.size()); ++i) links.particles.insert(links.particles.end(), {i, i + 1});
+  links.stiffness = Stiffness::compliance(alpha);
+  links.break_force = break_force;
+  rope.constraints = {links};
+  return rope;
+}
+
+/// One iteration in two colours leaves every second link twice as long as its force would: multipliers tell the force.
+TEST(BreakForce, IsNoErrorOfTheSolve) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 6; ++i) points.push_back({0, -0.1f * static_cast<float>(i), 0});
+  Object rope = breakable_rope(points, 1e-5f, 8, 0.1f);  // 4.9 N at the first link
+  rope.pins = {{0}};
+  rope.damping = 100;
+  EXPECT_EQ(losses_of(rope), std::pair(0, 0));
+}
+
+/// All links of a taut rope bear one load: that one breaks relieves the others.
+TEST(BreakForce, TakesOneLinkOfARopeWithAWeight) {
+  std::vector<Vec3f> points;
+  for (int i = 0; i < 8; ++i) points.push_back({0, -0.2f * static_cast<float>(i), 0});
+  Object rope = breakable_rope(points, 1e-5f, 40, 0.02f);
+  rope.masses[7] = 5;  // 49 N
+  rope.pins = {{0}};
+  EXPECT_EQ(losses_of(rope), std::pair(1, 1));
+}
+
+/// A long straight rope rings like a bar: its links resist pressure, so the pull returns after four frames, and may break another.
+TEST(BreakForce, TakesOneLinkOfARopeTiedToABody) {
+  for (const int links : {4, 10, 40}) {
+    Object object = make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, {.position = {0, -1.1f, 0}, .mass = 5});
+    std::vector<Vec3f> points;
+    for (int i = 0; i <= links; ++i) points.push_back({0, -static_cast<float>(i) / static_cast<float>(links), 0});
+    const int first = append(object, breakable_rope(points, 1e-5f, 40, 0.02f));
+    object.pins = {{first}};
+    attach(object, {first + links}, 0);
+    const auto [at_first, in_all] = losses_of(object);
+    EXPECT_EQ(at_first, 1) << links << " links";
+    if (links < 40) {
+      EXPECT_EQ(in_all, 1) << links << " links";
+    }
+  }
+}
+
+/// The body swings on the half of the rope that is left, which may break later.
+TEST(BreakForce, TakesOneLinkAtATimeOfARopeWithABodyInTheMiddle) {
+  Object object = make_body({{Box{{0.15f, 0.15f, 0.15f}}}}, {.position = {0, 1.84f, 0}, .mass = 27});
+  std::vector<Vec3f> points;
+  for (int i = 0; i <= 40; ++i) points.push_back({-2 + 0.1f * static_cast<float>(i), 2, 0});
+  const int first = append(object, breakable_rope(points, 1e-6f, 300, 0.05f));
+  object.pins = {{first}, {first + 40}};
+  attach(object, {first + 20}, 0);
+  EXPECT_EQ(losses_of(object).first, 1);
+}
+
+/// A rope is no strut: what presses it breaks nothing.
+TEST(BreakForce, IsNoneOfWhatIsPressed) {
+  Object object;
+  object.positions = {{0, 0, 0}, {0, 1, 0}};
+  object.masses = {INFINITY, 1};
+  object.velocities = {{}, {0, -0.1f, 0}};
+  ConstraintGroup link;
+  link.type = "distance";
+  link.particles = {0, 1};
+  link.stiffness = Stiffness::compliance(1e-4f);
+  link.break_force = 5;  // of 9.8 N
+  object.constraints = {link};
+  object.damping = 400;
+  EXPECT_EQ(losses_of(object), std::pair(0, 0));
+}
+
+/// Threads side by side bear a part of the load each: all of them break at once.
+TEST(BreakForce, TakesAllThreadsSideBySide) {
+  Object object;
+  object.positions = {{0, 0, 0}, {0, -1, 0}, {1, 0, 0}, {1, -1, 0}};
+  object.masses = {INFINITY, 1, INFINITY, 1};
+  ConstraintGroup links;
+  links.type = "distance";
+  links.particles = {0, 1, 2, 3};
+  links.stiffness = Stiffness::compliance(1e-4f);
+  links.break_force = 5;
+  object.constraints = {links};
+  EXPECT_EQ(losses_of(object), std::pair(2, 2));
+  object.constraints[0].particles = {1, 0, 0, 3};
+  object.positions[3] = {0.1f, -1, 0};
+  EXPECT_EQ(losses_of(object), std::pair(2, 2)) << "two threads on one nail";
 }
 
 /// A button on a shirt.

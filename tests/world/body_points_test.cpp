@@ -42,6 +42,19 @@ Object body(const SolidShape& shape, const Vec3f& position, float mass) {
   return make_body({{shape}}, options);
 }
 
+/// Cloth between two boxes: its contact is with bodies alone, and counts.
+TEST(BodyPoints, AreCountedWhereBodiesSqueezeCloth) {
+  Scene scene;
+  scene.add(level_cloth(9, 0.4f, 0));
+  scene.add(body(Box{{0.5f, 0.1f, 0.5f}}, {0, -0.11f, 0}, INFINITY));
+  scene.add(body(Box{{0.15f, 0.1f, 0.15f}}, {0, 0.11f, 0}, 5));
+  World world(scene);
+  run(world, 30);
+  const Report report = world.step(dt);
+  EXPECT_GT(report.pairs.contacts, 8);
+  EXPECT_GE(report.contacts, report.pairs.contacts);
+}
+
 TEST(BodyPoints, EachShapeLiesInAHammock) {
   const std::vector<Vec3f> corners{{.2f, .2f, .2f}, {-.2f, -.2f, .2f}, {-.2f, .2f, -.2f}, {.2f, -.2f, -.2f}};
   const std::vector<SolidShape> shapes{Sphere{.2f},          Capsule{.1f, .1f}, Box{{.15f, .1f, .15f}},

@@ -312,6 +312,7 @@ void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
   finish_substep(log);
 }
 
-int BodySolver::contacts_that_press() const { return points_.impulses().contacts_that_press() + blocks_.pressing(); }
+int BodySolver::points_that_press() const { return points_.impulses().contacts_that_press(); }
+int BodySolver::contacts_that_press() const { return points_that_press() + blocks_.pressing(); }
 
 }  // namespace pliant

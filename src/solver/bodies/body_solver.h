@@ -84,6 +84,7 @@ class BodySolver {
   /// In ascending order of parts. The State takes them at a frame's end; the next frame makes new ones.
   std::vector<BodyContact>& contacts() { return contacts_.all(); }
   int contacts_that_press() const;
+  int points_that_press() const;  ///< of these, the contacts of particles, edges and triangles with solids
   /// Adds the impulses of the current substep, after respond, with those of impacts with restitution.
   void log_contacts(const Substep& s, ContactLog& log);
 

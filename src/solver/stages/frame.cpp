@@ -96,7 +96,9 @@ void count_contacts(Substep& s) {
   };
   for_each_tile(s, [&](int task) { count(s.work.tiles[task].contacts); });
   count(s.own->shape_contacts);
-  if (s.bodies != nullptr) s.report.contacts += s.bodies->contacts_that_press();
+  if (s.bodies == nullptr) return;
+  s.report.contacts += s.bodies->contacts_that_press();
+  s.report.pairs.contacts = s.bodies->points_that_press();
 }
 
 namespace {
@@ -159,6 +161,7 @@ void add(Substep& s, Report& sum) {
   if (s.fluids != nullptr) add(s.fluids->compression(), sum.compression);
   if (s.fluids != nullptr) add(s.fluids->viscosity(), sum);
   if (s.fluids != nullptr) add(s.fluids->tension(), sum);
+  sum.pairs.contacts += own.pairs.contacts;
   if (!s.has_pairs()) return;
   add(s.pairs->counts(), sum.pairs);
   warn_of_pairs(s.model, *s.pairs, sum.warnings);
