@@ -20,7 +20,7 @@ LeaveOutOptions leave_out_options_of(const JsonValue& at, const Object& object) 
 }
 
 /// "'a', 'b' and 3 more".
-std::string names_of_solids(const std::vector<LeftOut>& left_out) {
+std::string names_of_solids(const std::vector<PlacesInSolid>& left_out) {
   constexpr std::size_t most = 3;
   std::string text;
   for (std::size_t i = 0; i < std::min(most, left_out.size()); ++i)
@@ -51,7 +51,7 @@ void leave_out(const JsonDocument& document, const JsonValue& at, const JsonValu
   if (!(options.radius > 0)) return;
   const std::size_t before = object.positions.size() - static_cast<std::size_t>(object.flow.spare);
   std::vector<Vec3f> places(object.positions.begin(), object.positions.begin() + static_cast<std::ptrdiff_t>(before));
-  const std::vector<LeftOut> found = leave_out_solids(places, around, options);
+  const std::vector<PlacesInSolid> found = leave_out_solids(places, around, options);
   if (found.empty()) return;
   if (places.empty() && object.flow.emitters.empty())
     document.fail(fill, "all of its " + std::to_string(before) + " particles would overlap " + names_of_solids(found),

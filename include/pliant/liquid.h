@@ -57,7 +57,7 @@ struct LeaveOutOptions {
 };
 
 /// How many places were left out, because they lie in an object or collider.
-struct LeftOut {
+struct PlacesInSolid {
   std::string in;  ///< its name
   int places = 0;
 };
@@ -67,7 +67,7 @@ struct LeftOut {
 /// vessel. What groups, masks and `collides` let them pass is not solid. Overlaps below a hundredth of the radius are kept, so that a lattice
 /// may touch a wall. Returns what was left out, in the order of the places; a place in several solids counts once. Throws an Error if the
 /// radius is not positive and finite.
-std::vector<LeftOut> leave_out_solids(std::vector<Vec3f>& places, const Scene& scene, const LeaveOutOptions& options);
+std::vector<PlacesInSolid> leave_out_solids(std::vector<Vec3f>& places, const Scene& scene, const LeaveOutOptions& options);
 
 /// Makes a liquid of particles at given places, about a spacing apart. Each has the mass of a cube of that side, and touches colliders at
 /// half the spacing, without friction. Throws an Error that names an option that is out of range.

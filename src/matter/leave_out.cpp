@@ -202,8 +202,8 @@ void require_radius(const LeaveOutOptions& options) {
     throw Error({.element = "radius"}, "is " + std::to_string(options.radius), "give a positive, finite radius [m]");
 }
 
-void count(const std::string& name, std::vector<LeftOut>& counts) {
-  const auto known = std::find_if(counts.begin(), counts.end(), [&](const LeftOut& one) { return one.in == name; });
+void count(const std::string& name, std::vector<PlacesInSolid>& counts) {
+  const auto known = std::find_if(counts.begin(), counts.end(), [&](const PlacesInSolid& one) { return one.in == name; });
   if (known == counts.end())
     counts.push_back({name, 1});
   else
@@ -212,20 +212,21 @@ void count(const std::string& name, std::vector<LeftOut>& counts) {
 
 }  // namespace
 
-std::vector<LeftOut> find_in_solids(const std::vector<Vec3f>& places, const Scene& scene, const LeaveOutOptions& options,
-                                    MeshesToo meshes) {
+std::vector<PlacesInSolid> find_in_solids(const std::vector<Vec3f>& places, const Scene& scene,
+                                          const LeaveOutOptions& options, MeshesToo meshes) {
   require_radius(options);
   const SolidSearch search(solids_of(scene, options, places, meshes), reach_of(options));
-  std::vector<LeftOut> found;
+  std::vector<PlacesInSolid> found;
   for (const Vec3f& p : places)
     if (const std::string* const name = search.at(p)) count(*name, found);
   return found;
 }
 
-std::vector<LeftOut> leave_out_solids(std::vector<Vec3f>& places, const Scene& scene, const LeaveOutOptions& options) {
+std::vector<PlacesInSolid> leave_out_solids(std::vector<Vec3f>& places, const Scene& scene,
+                                            const LeaveOutOptions& options) {
   require_radius(options);
   const SolidSearch search(solids_of(scene, options, places, MeshesToo::yes), reach_of(options));
-  std::vector<LeftOut> left_out;
+  std::vector<PlacesInSolid> left_out;
   std::erase_if(places, [&](const Vec3f& p) {
     const std::string* const name = search.at(p);
     if (name != nullptr) count(*name, left_out);

@@ -11,7 +11,7 @@ namespace pliant {
 enum class MeshesToo { yes, no };
 
 /// What leave_out_solids would leave out of the places.
-std::vector<LeftOut> find_in_solids(const std::vector<Vec3f>& places, const Scene& scene, const LeaveOutOptions& options,
-                                    MeshesToo meshes);
+std::vector<PlacesInSolid> find_in_solids(const std::vector<Vec3f>& places, const Scene& scene,
+                                          const LeaveOutOptions& options, MeshesToo meshes);
 
 }  // namespace pliant

@@ -27,7 +27,7 @@ std::vector<Vec3f> beyond(const Vec3f& centre, float reach) {
 /// What is left of the fill in a scene, and how many places were left out.
 struct Left {
   std::vector<Vec3f> places;
-  std::vector<LeftOut> out;
+  std::vector<PlacesInSolid> out;
 };
 
 Left left_in(const Scene& scene, const LeaveOutOptions& options = {radius}) {
