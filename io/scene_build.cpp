@@ -179,11 +179,31 @@ void set_absorbency(const JsonValue& at, Object& object) {
   set(*found, "drag", absorbency.drag);
 }
 
-Object object_of(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, Names& names,
-                 std::vector<std::string>& repairs) {
-  const JsonValue& what = one_of(
-      at, {"cloth", "soft_body", "rope", "rod", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"});
-  BuiltObject built = build_matter(document, what, names.of(document, at, what.key), folder, repairs);
+const JsonValue& matter_of(const JsonValue& at) {
+  return one_of(at,
+                {"cloth", "soft_body", "rope", "rod", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"});
+}
+
+/// True if an object fills a box or mesh with particles, and leaves out those inside solids.
+bool leaves_out_solids(const JsonValue& at) {
+  const JsonValue* fill = matter_of(at).find("fill");
+  bool leaves_out = true;
+  if (fill != nullptr) set(*fill, "leave_out_solids", leaves_out);
+  return fill != nullptr && leaves_out;
+}
+
+/// Objects are described by `at`, and built by what lies around them: all that leaves nothing out itself.
+struct ObjectToBuild {
+  const JsonValue& at;
+  const std::string& name;
+  const Scene& around;
+};
+
+Object object_of(const JsonDocument& document, const ObjectToBuild& by, const MeshFolder& folder, SceneFile& file) {
+  const JsonValue& at = by.at;
+  std::vector<std::string>& repairs = file.repairs;
+  BuiltObject built = build_matter(document, matter_of(at), by.name, folder, repairs);
+  if (leaves_out_solids(at)) leave_out(document, at, *matter_of(at).find("fill"), by.around, built.object, file.left_out);
   add_parts(document, at, folder, built.object, repairs);
   set_joints(document, at, built.object);
   set_properties(document, at, built.object);
@@ -333,6 +353,28 @@ void require_known(const MeshFolder& folder, const JsonDocument& document, const
   }
 }
 
+/// The names of all objects.
+std::vector<std::string> names_of_objects(const JsonDocument& document, const std::vector<JsonValue>& items) {
+  Names names;
+  std::vector<std::string> all;
+  for (const JsonValue& item : items) all.push_back(names.of(document, item, matter_of(item).key));
+  return all;
+}
+
+enum class Fills { none, leave_out_solids };
+
+/// Builds the objects of a scene that leave out solids, or the others, and adds their particles to `particles`.
+void build_objects(const JsonDocument& document, const MeshFolder& folder, const std::vector<std::string>& names,
+                   Fills which, SceneFile& file, std::size_t& particles) {
+  const std::vector<JsonValue>& items = elements(document.root, "objects");
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (leaves_out_solids(items[i]) != (which == Fills::leave_out_solids)) continue;
+    file.scene.objects[i] = object_of(document, {items[i], names[i], file.scene}, folder, file);
+    particles += file.scene.objects[i].positions.size();
+    if (particles > largest_scene) fail_too_large(document, items[i]);
+  }
+}
+
 }  // namespace
 
 SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
@@ -346,13 +388,11 @@ SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
   set(root, "frames", scene.frames);
   if (const JsonValue* wind = root.find("wind")) scene.wind = wind_of(*wind);
   if (const JsonValue* settings = root.find("settings")) scene.settings = settings_of(document, *settings);
-  Names objects, colliders;
   std::size_t particles = 0;
-  for (const JsonValue& item : elements(root, "objects")) {
-    scene.objects.push_back(object_of(document, item, folder, objects, file.repairs));
-    particles += scene.objects.back().positions.size();
-    if (particles > largest_scene) fail_too_large(document, item);
-  }
+  const std::vector<std::string> names = names_of_objects(document, elements(root, "objects"));
+  scene.objects.resize(names.size());
+  build_objects(document, folder, names, Fills::none, file, particles);
+  Names colliders;
   for (const JsonValue& item : elements(root, "colliders")) {
     if (item.find("mesh") == nullptr) {
       scene.colliders.push_back(collider_of(document, item, colliders));
@@ -362,6 +402,7 @@ SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
     particles += scene.mesh_colliders.back().mesh.positions.size();
     if (particles > largest_scene) fail_too_large(document, item);
   }
+  build_objects(document, folder, names, Fills::leave_out_solids, file, particles);  // which are known now
   for (const JsonValue& item : elements(root, "pairs")) scene.pairs.push_back(pair_of(document, item, scene));
   file.gauges = build_gauges(document, root, scene);
   require_known(folder, document, scene);

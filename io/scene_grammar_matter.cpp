@@ -133,7 +133,10 @@ const Record& fill_record() {
              "Displaces each particle along each axis by a random length up to this many spacings, and widens the lattice "
              "by twice as much, so "
              "that none overlap. 0.05 lets grains that fall mix; a block that stands by itself needs 0.2 to collapse."),
-       field("seed", integer(0, 2147483647), 0, "Of the jitter: the same seed gives the same places.")},
+       field("seed", integer(0, 2147483647), 0, "Of the jitter: the same seed gives the same places."),
+       field("leave_out_solids", boolean(), true,
+             "Leaves out particles that would overlap colliders, rigid bodies, soft bodies or other closed surfaces of the "
+             "scene. A closed surface that encloses the whole fill is its vessel.")},
       {"min", "mesh"}};
   return result;
 }

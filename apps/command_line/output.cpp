@@ -111,6 +111,10 @@ void print_repairs(const std::vector<std::string>& repairs) {
     print((is_of_robot(repair) ? "doubtful: " : "repaired: ") + one_line(repair) + "\n");
 }
 
+void print_left_out(const std::vector<std::string>& left_out) {
+  for (const std::string& one : left_out) print("left out: " + one_line(one) + "\n");
+}
+
 std::string one_line(const std::string& text) {
   std::string line;
   for (const char character : text) {

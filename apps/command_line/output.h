@@ -25,6 +25,9 @@ bool is_of_robot(const std::string& repair);
 /// robot description.
 void print_repairs(const std::vector<std::string>& repairs);
 
+/// Prints "left out: ..." for each fill that leaves out what is solid (SceneFile::left_out).
+void print_left_out(const std::vector<std::string>& left_out);
+
 /// Prints what was written, "wrote draped.glb (1.2 MB)": a line for each of one or two files, one line for more. Units
 /// are decimal.
 void print_written(const std::vector<WrittenFile>& files);

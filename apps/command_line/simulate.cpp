@@ -56,6 +56,7 @@ SceneFile read_file_with(const std::string& path, const Overrides& overrides, bo
   const GiveBackMemory during;
   SceneFile file = read_scene_file(path, options_of(overrides.meshes));
   if (!quiet) print_repairs(file.repairs);
+  if (!quiet) print_left_out(file.left_out);
   Scene& scene = file.scene;
   if (overrides.frames) scene.frames = *overrides.frames;
   Settings& settings = scene.settings;

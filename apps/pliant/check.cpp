@@ -214,6 +214,7 @@ Checked check_scene(const std::string& path, double seconds) {
       of_meshes.push_back(repair);
   }
   print_repairs(of_meshes);
+  print_left_out(file.left_out);
   try_out(scene, seconds, checked);
   return checked;
 }

@@ -58,6 +58,8 @@ struct SceneFile {
   std::string description;  ///< the file's "description"; may be empty
   std::vector<std::string> repairs;
   std::vector<Gauge> gauges;  ///< the file's "gauges"; they measure the scene and do not change it
+  /// For each fill that leaves out solids: how many particles it left out, and what they would overlap.
+  std::vector<std::string> left_out{};
 };
 
 /// Reads a scene in strict JSON (docs/reference/scene-format.md). Paths of meshes are relative to the scene's folder;

@@ -1,6 +1,7 @@
 // Liquids as particles.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +48,26 @@ std::vector<Vec3f> fill_mesh(const TriangleMesh& mesh, float spacing, float clea
 /// grains stand on one another, and fall in layers; with a lattice 1.1 diameters apart and 0.05 diameters as `most` they do not, and none
 /// overlap. Throws an Error if `most` is negative or not finite.
 std::vector<Vec3f> jittered(std::vector<Vec3f> points, float most, int seed = 0);
+
+/// The particles for which leave_out_solids makes room.
+struct LeaveOutOptions {
+  float radius = 0;                      ///< of a particle: half the spacing of a liquid or gas, the radius of grains [m]
+  std::uint32_t groups = 1, mask = ~0u;  ///< bit masks of their object, as in Object
+  bool collides = true;                  ///< Object::collides of their object; false: they meet colliders alone
+};
+
+/// How many places were left out, because they lie in an object or collider.
+struct PlacesInSolid {
+  std::string in;  ///< its name
+  int places = 0;
+};
+
+/// Removes the places at which the ball of a particle would overlap what is solid in a scene at the start: colliders, rigid bodies, soft
+/// bodies, distance grids, terrain, and what other closed surfaces enclose, unless all places lie inside such a surface, which is then their
+/// vessel. What groups, masks and `collides` let them pass is not solid. Overlaps below a hundredth of the radius are kept, so that a lattice
+/// may touch a wall. Returns what was left out, in the order of the places; a place in several solids counts once. Throws an Error if the
+/// radius is not positive and finite.
+std::vector<PlacesInSolid> leave_out_solids(std::vector<Vec3f>& places, const Scene& scene, const LeaveOutOptions& options);
 
 /// Makes a liquid of particles at given places, about a spacing apart. Each has the mass of a cube of that side, and touches colliders at
 /// half the spacing, without friction. Throws an Error that names an option that is out of range.

@@ -1,6 +1,9 @@
 // Validates a scene before it is compiled.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "pliant/scene.h"
 
 namespace pliant {
@@ -23,5 +26,8 @@ void refuse_grave(const MeshCollider& collider);
 
 /// Throws an Error for initial intersections and enclosures, if the scene's settings refuse them; makes no other checks.
 void refuse_initial_intersections(const Scene& scene);
+
+/// For each liquid, gas or grains with particles that start inside primitive colliders or rigid bodies: a warning with their number.
+std::vector<std::string> warnings_of_starts_in_solids(const Scene& scene);
 
 }  // namespace pliant

@@ -96,6 +96,8 @@ void doubt_substeps_of_rods(Problems& problems, const Scene& scene);
 void doubt_jumps_of_volumes(Problems& problems, const Scene& scene);
 /// Doubts particles of liquids, gases and grains that start within one another, and emitters that shoot.
 void doubt_flows(Problems& problems, const Scene& scene);
+/// Doubts particles of liquids, gases and grains that start inside solids.
+void doubt_starts_in_solids(Problems& problems, const Scene& scene);
 /// Warns of joints that are probably not as intended.
 void doubt_joints(Problems& problems, const Object& object);
 

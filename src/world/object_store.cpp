@@ -11,6 +11,7 @@
 #include "math/motion.h"
 #include "matter/break_constraints.h"
 #include "solver/bodies/joint_load.h"
+#include "solver/fluids/fluid_overlaps.h"
 #include "solver/sweeps/sweep.h"
 #include "world/flow.h"
 #include "world/groups.h"
@@ -66,6 +67,7 @@ bool owns(const CompiledObject& object, const Channel& channel) {
   if (channel.name == temperature_channel) return object.gas.has_value();
   if (channel.name == age_channel) return object.tracers.has_value();
   if (channel.name == water_channel) return object.absorbency.is_used;
+  if (channel.name == overlap_channel) return false;                               // found again after an edit
   return channel.name != rest_time_channel && channel.name != rest_shift_channel;  // an edit wakes
 }
 

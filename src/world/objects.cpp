@@ -17,6 +17,7 @@
 #include "world/intersections.h"
 #include "world/object_store.h"
 #include "world/objects.h"
+#include "world/overlaps.h"
 #include "world/resting_grains.h"
 #include "world/tearing.h"
 
@@ -129,6 +130,7 @@ ObjectId World::add(const Object& object) {
   const ObjectId id = data_->ids.objects.add(number);
   keep_description(*data_, id.slot, &object);  // first, because the multipliers of what breaks are stored
   place_object(*data_, number);
+  mark_overlaps(*data_, number);
   return id;
 }
 
@@ -184,6 +186,7 @@ std::vector<int> edit_object(WorldData& world, ObjectId object, const Edit& edit
   Replacement by = compile_again(world, object, edit);
   keep_description(world, object.slot, &edit.object);
   replace_object(world, world.number(object), std::move(by.object), edit.from);
+  mark_overlaps(world, world.number(object));
   return std::move(by.news);
 }
 
@@ -191,6 +194,7 @@ void edit_object(WorldData& world, ObjectId object, Edit&& edit) {
   Replacement by = compile_again(world, object, edit);
   keep_description(world, object.slot, std::move(edit.object));
   replace_object(world, world.number(object), std::move(by.object), edit.from);
+  mark_overlaps(world, world.number(object));
 }
 
 std::vector<int> World::edit(ObjectId object, const Edit& edit) { return edit_object(*data_, object, edit); }

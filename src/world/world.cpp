@@ -14,6 +14,7 @@
 #include "world/flow.h"
 #include "world/groups.h"
 #include "world/object_store.h"
+#include "world/overlaps.h"
 #include "world/rest.h"
 #include "world/resting_grains.h"
 #include "world/soaking.h"
@@ -35,6 +36,7 @@ WorldData::WorldData(const Scene& scene, const Settings& given, const Settings& 
       open{given.sweep == Sweep::automatic, given.substeps == 0, departures(scene, given, with)},
       executor(with.threads),
       kernels(kernels_for(with)) {
+  warnings = warnings_of_starts_in_solids(scene);
   model.gravity = scene.gravity;
   model.wind = scene.wind;
   model.forces = scene.forces;
@@ -55,6 +57,7 @@ WorldData::WorldData(const Scene& scene, const Settings& given, const Settings& 
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) prepare_object(*this, number);
   keep_flowed(*this);
   follow_rest_factors(*this, 0);
+  mark_overlaps(*this, -1);
   bring_up_to_date(*this);
 }
 
@@ -129,6 +132,7 @@ Report World::step(float dt) {
     report.stopped = true;
     return report;
   }
+  report.warnings = std::exchange(data_->warnings, {});
   const double start = data_->state.time;
   let_flow(*data_, static_cast<double>(dt), report.flow);
   follow_rest_factors(*data_, data_->state.time + static_cast<double>(dt));
@@ -143,6 +147,7 @@ Report World::step(float dt) {
        data_->settings.sleep, changes_in_substeps(data_->model) ? &data_->model.objects : nullptr},
       dt, report);
   keep_flowed(*data_);
+  forget_overlaps(*data_);
   for (JointBreak& broken : report.broken_joints) broken.object = data_->ids.objects.id_of(broken.object.slot);
   if (!report.broken_joints.empty()) data_->groups.bodies_meet_others = true;
   data_->stopped = report.nonfinite.has_value();

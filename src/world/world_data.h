@@ -77,6 +77,7 @@ struct WorldData {
   OverstretchRecord overstretch;
   WorldEvents events;
   std::map<int, Object> descriptions;       ///< of objects that tear or are cut, by slot of their id
+  std::vector<std::string> warnings;        ///< for the Report of the next step
   bool stopped = false;                     ///< true after a value that is not finite, until a State is restored
   const std::atomic<bool>* stop = nullptr;  ///< flag given to World::stop_when
   bool may_drift = false;  ///< fixed particles may have a velocity from a frame in which the user moved them

@@ -56,6 +56,17 @@ TEST(InspectScene, NamesParticlesThatStartWithinOneAnother) {
   EXPECT_NE(words.find("of 'water'"), std::string::npos) << words;
 }
 
+TEST(InspectScene, NamesParticlesThatStartInSolids) {
+  const auto doubt = [](float height) {
+    Scene scene;
+    scene.add(drop("water", height, 0.01f));
+    scene.add(Collider{.name = "floor", .shape = Plane{}});
+    return finding(scene, "let a fill leave out solids");
+  };
+  EXPECT_EQ(doubt(0), "");  // half a spacing above the floor
+  EXPECT_NE(doubt(-0.015f).find("50 particles start inside 'floor'"), std::string::npos) << doubt(-0.015f);
+}
+
 TEST(InspectScene, NamesEmittersThatShoot) {
   const auto doubt = [](float flow) {
     LiquidOptions options{.fluid = {.spacing = 0.01f}, .capacity = 1000};

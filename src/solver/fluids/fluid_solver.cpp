@@ -96,6 +96,7 @@ void FluidSolver::begin_frame(const Substep& s) {
     pool->tension.begin_frame();
     pool->vorticity.begin_frame();
     if (!s.state.births.empty()) list_points(s.model, s.state, *pool);
+    pool->overlaps.begin_frame(s.state, pool->points);
   }
 }
 
@@ -123,6 +124,7 @@ void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
   pool.walls.find(s.context.executor, s.model.objects[at(pool.objects.front())], pool.neighbours, pool.places,
                   FluidBodies::bounds(s, pool.objects.front()), pool.law.reach, pool.law.reach / 2);
   pool.squares.assign(pool.walls.near_solids().empty() ? 0 : padded, 0);
+  pool.overlaps.find(s, pool);
 }
 
 /// Particles that are fixed do not move, but push others.
@@ -154,6 +156,7 @@ void FluidSolver::collide(Substep& s) {
 
 void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
   if (is_first) std::fill(pool.multipliers.begin(), pool.multipliers.end(), 0.f);
+  if (is_first) pool.overlaps.begin_substep(s, pool);
   const NeighbourLists& lists = pool.neighbours;
   const FluidBounds bounds = FluidBodies::bounds(s, pool.objects.front());
   for_groups(s.context.executor, "solve: places of liquids", lists, [&](int group, int first, int last) {
@@ -179,6 +182,7 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
     kernels.find_multipliers(a, lists.group(g), g);
   });
   for_groups(s.context.executor, "solve: density", lists, [&](int g, int, int) { kernels.move(a, lists.group(g), g); });
+  pool.overlaps.limit(s, pool, pool.weighted);
   if (s.work.contact_log != nullptr) log_pressure(s, pool, bounds, *s.work.contact_log);
   if (a.squares != nullptr) pool.bodies.push(s, pool.walls, pool.weighted, pool.lightness, pool.mass);
 }
@@ -191,7 +195,10 @@ void FluidSolver::project(Substep& s, bool is_first) {
 }
 
 void FluidSolver::respond(Substep& s, FunctionRef<Vec3f(int)> gravity) {
-  for (auto& pool : pools_) pool->vorticity.respond(s, *pool, gravity);
+  for (auto& pool : pools_) {
+    pool->vorticity.respond(s, *pool, gravity);
+    pool->overlaps.end_substep(s.state, *pool);
+  }
 }
 
 ViscositySolves FluidSolver::viscosity() const {

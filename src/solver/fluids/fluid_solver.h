@@ -10,6 +10,7 @@
 #include "model/model.h"
 #include "pliant/report.h"
 #include "solver/fluids/fluid_bodies.h"
+#include "solver/fluids/fluid_overlaps.h"
 #include "solver/fluids/fluid_walls.h"
 #include "solver/fluids/tension.h"
 #include "solver/fluids/viscosity.h"
@@ -36,6 +37,7 @@ struct FluidPool {
   FluidViscosity viscosity;
   FluidTension tension;
   FluidVorticity vorticity;
+  FluidOverlaps overlaps;
   float mass = 0;                             ///< of a particle of the lightest liquid [kg]; 0 if all are fixed
   std::vector<float> squares;                 ///< by slot: what bodies add to the squared gradients [1/m^2]
   std::vector<float> lightness_of_point;      ///< the least density over that of each point; empty if all have one
