@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -285,17 +286,25 @@ int shoot(const Floor& target, float size, float speed, float across, int seed) 
   return static_cast<int>(std::count_if(lowest.begin(), lowest.end(), [&](float y) { return !(y > -size); }));
 }
 
-TEST(BodyPath, NoTiltedSolidPassesThroughASurface) {
-  int seed = 1;
-  for (const Floor& target : targets())
-    for (const float size : {0.05f, 0.2f})
-      for (const float speed : {3.f, 9.f, 25.f})
-        for (const float across : {0.f, 0.5f})
-          EXPECT_EQ(shoot(target, size, speed, across, ++seed), 0)
-              << "solids of " << size << " m on " << target.name << " at " << speed << " m/s";
+/// How often all shots are taken, each time with other places and tilts: 5 376 of them.
+int rounds_of_shots() {
+  const char* const wanted = std::getenv("PLIANT_SHOTS");
+  return wanted != nullptr ? std::max(std::atoi(wanted), 1) : 1;
 }
 
-/// What is hit at an end at 100 m/s turns by more than a radian in a substep, which contacts that are linear in a substep do not see. 59 and 3 go in by more than their size.
+TEST(BodyPath, NoTiltedSolidPassesThroughASurface) {
+  int seed = 1;
+  for (int round = 0; round < rounds_of_shots(); ++round)
+    for (const Floor& target : targets())
+      for (const float size : {0.05f, 0.2f})
+        for (const float speed : {3.f, 9.f, 25.f})
+          for (const float across : {0.f, 0.5f})
+            EXPECT_EQ(shoot(target, size, speed, across, ++seed), 0)
+                << "solids of " << size << " m on " << target.name << " at " << speed << " m/s, seed " << seed;
+}
+
+/// What is hit at an end at 100 m/s turns by more than a radian in a substep, which contacts that are linear in a substep do not see: 60 of
+/// the small ones and 3 of the large ones go in by more than their size.
 TEST(BodyPath, FewSolidsPassAtAHundredMetresASecond) {
   int seed = 1000;
   for (const float size : {0.05f, 0.2f}) {
