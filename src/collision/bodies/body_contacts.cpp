@@ -209,7 +209,7 @@ struct BodyContacts::Task {
 
   void find(int pair, ContactsBefore& contacts, Found& found) const {
     const Pair& parts = of.pairs_.pairs()[at(pair)];
-    find(parts, contacts.find(of.parts_[at(parts.first)].id, of.parts_[at(parts.second)].id), found);
+    find(pair, contacts.find(of.parts_[at(parts.first)].id, of.parts_[at(parts.second)].id), found);
   }
 
   /// Finds the contacts of those pairs again of which a body touches a third one first.
@@ -226,8 +226,8 @@ struct BodyContacts::Task {
     };
     for (const Mark& mark : found.marks) {
       const Piece& piece = found.pieces[mark.pieces];
-      if (!(paths->first_turn(piece.a, piece.b) < mark.time)) continue;
-      if (!mark.is_stopped && !stops(found.made[mark.made], piece)) continue;
+      if (!(paths->first_turn(piece.a, piece.b, mark.pair) < mark.time)) continue;
+      if (!mark.is_stopped && !stops(found.made[mark.made], piece, mark.pair)) continue;
       copy_until(mark.pieces, mark.made);
       find(mark.pair, contacts, next);
       to = mark;
@@ -238,9 +238,9 @@ struct BodyContacts::Task {
     found = std::move(next);
   }
   /// True if a contact that was found at the start of the frame stops bodies on ways that turn.
-  bool stops(const BodyContact& contact, const Piece& parties) const {
+  bool stops(const BodyContact& contact, const Piece& parties, int pair) const {
     const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
-    return paths->between(parties.a, parties.b, {}).least_along(convert<double>(contact.normal)) +
+    return paths->between(parties.a, parties.b, pair, {}).least_along(convert<double>(contact.normal)) +
                static_cast<double>(gap) <
            0;
   }
@@ -288,10 +288,12 @@ struct BodyContacts::Task {
     return of.pairs_.are_apart(pair.first, pair.second, more_than_rounding * static_cast<float>(reach_of(pair, approach)));
   }
 
-  /// True if a body moves so far within the frame that it may meet triangles of a mesh other than those that it touches.
+  /// True if a body moves so far within the frame that it may meet triangles of a mesh other than those that it touches, or a convex part
+  /// elsewhere.
   bool may_meet_more(const Pair& pair, const BodyState& a, const BodyState& b, double size) const {
-    return of.parts_[at(pair.first)].mesh != nullptr &&
-           static_cast<double>(dt * length(a.velocity - b.velocity)) > still_share * size;
+    const BodyPart& one = of.parts_[at(pair.first)];
+    const double way = static_cast<double>(dt * length(a.velocity - b.velocity));
+    return !one.is_half_space && way > (one.mesh != nullptr ? still_share : fast_share) * size;
   }
 
   /// True if the contacts of a pair stay, or, where there are none, if no new ones are looked for.
@@ -315,7 +317,8 @@ struct BodyContacts::Task {
     });
   }
 
-  void find(const Pair& pair, std::span<const BodyContact> old, Found& found) const {
+  void find(int number, std::span<const BodyContact> old, Found& found) const {
+    const Pair& pair = of.pairs_.pairs()[at(number)];
     const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
     if (old.empty() && ((!is_renewed(one.body) && !is_renewed(other.body)) || is_out_of_reach(pair, one, other))) return;
     const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
@@ -365,14 +368,14 @@ struct BodyContacts::Task {
       found.made.push_back(contact);
       ++found.count;
     };
-    const SolidPath on{path_of(one.body, other.body), slop_share * size + slop_of_fall * fall(), 0.5 * fall()};
+    const SolidPath on{path_of(one.body, other.body, number), slop_share * size + slop_of_fall * fall(), 0.5 * fall()};
     const bool is_fast = length(on.path.end()) > fast_share * size;
     if (one.mesh == nullptr) {
       const Reach within{reach, turning, rocking_of(a, b, dt, faster)};
       const Posed placed = apart(relative, one.body, other.body, size);
       const Touch now = touch_of(one, other, placed, within);
       if (one.is_half_space) {
-        if (is_fast) note_first(first_on_plane(now, on), parties, a, found);
+        if (is_fast) note_first(first_on_plane(now, on), number, parties, found);
         return add(now, {}, 0);
       }
       if (has_changed_sides(now, a.pose, old)) {
@@ -382,7 +385,7 @@ struct BodyContacts::Task {
       if (!is_fast) return add(now, {}, 0);
       const PairTouch touching = touch_on_path(one, other, placed, within, now, on);
       found.any_stopped = touching.is_stopped;
-      note_first(touching.first, parties, a, found);
+      note_first(touching.first, number, parties, found);
       return add(touching.touch, touching.moved, 0);
     }
     const MeshSideKept kept = a.deforms ? MeshSideKept{} : side_kept(*one.mesh, other, relative, 2 * reach, old);
@@ -394,21 +397,23 @@ struct BodyContacts::Task {
     found.any_stopped = true;
     note_first(
         touch_mesh(other.shape, compose(relative, other.pose), *one.mesh, reach, touches, turning, is_fast ? &on : nullptr),
-        parties, a, found);
+        number, parties, found);
     for (const MeshTouch& touching : touches) add(touching.touch, touching.moved, touching.piece);
   }
 
   /// The way of b against a in the frame of a.
-  ContactPath path_of(int a, int b) const {
+  ContactPath path_of(int a, int b, int pair) const {
     const BodyState &one = bodies[at(a)], &other = bodies[at(b)];
     return paths == nullptr ? BodyPaths::straight(one, other, dt, one.pose.rotation)
-                            : paths->between(a, b, one.pose.rotation);
+                            : paths->between(a, b, pair, one.pose.rotation);
   }
   /// Twice what gravity may add to a way in the frame [m].
   double fall() const { return static_cast<double>(dt * faster); }
 
-  static void note_first(const PathContact& first, const Piece& of, const BodyState& a, Found& found) {
-    if (first.touches) found.first.push_back({of.a, of.b, first.time, rotate(a.pose.rotation, first.normal)});
+  void note_first(const PathContact& first, int pair, const Piece& parties, Found& found) const {
+    if (!first.touches) return;
+    const Quatd& axes = bodies[at(parties.a)].pose.rotation;
+    found.first.push_back({parties.a, parties.b, pair, first.time, rotate(axes, first.normal)});
   }
 };
 

@@ -27,6 +27,7 @@ struct BodyState {
   Vec3f spin{};                  ///< in world axes, but about axes about which the body is round [rad/s]
   bool is_fixed = false;         ///< two fixed bodies do not touch
   bool deforms = false;          ///< a mesh that moves by its vertices, so that no contact with it stays
+  bool yields = true;            ///< false: nothing that touches it moves it, as if it were fixed
   bool is_driven_round = false;  ///< it turns by itself, whatever touches it
 };
 

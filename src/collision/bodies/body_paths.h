@@ -11,11 +11,12 @@
 
 namespace pliant {
 
-/// The first touch of two bodies within a frame.
+/// The first touch of two parts of bodies within a frame.
 struct FirstTouch {
-  int a = 0, b = 0;
-  double time = 0;  ///< in the frame, from 0 to 1
-  Vec3d normal{};   ///< unit vector from a to b, in the world
+  int a = 0, b = 0;  ///< bodies
+  int pair = 0;      ///< of parts (BodyPairs::pairs)
+  double time = 0;   ///< in the frame, from 0 to 1
+  Vec3d normal{};    ///< unit vector from a to b, in the world
 };
 
 class BodyPaths {
@@ -23,21 +24,23 @@ class BodyPaths {
   /// Takes the touches of a frame of `dt` seconds. Of several of a body at one time, the first one counts.
   void begin(const std::vector<BodyState>& bodies, float dt, const std::vector<FirstTouch>& touches);
 
-  /// When the way of one of two bodies first turns because it touches a third one; beyond 1 if neither does in this frame.
-  double first_turn(int a, int b) const;
-  /// The way of b against a, in axes that are turned by `axes` against the world.
-  ContactPath between(int a, int b, const Quatd& axes) const;
+  /// When the way of one of two bodies first turns because of another pair of parts than this one; beyond 1 if neither does in this frame.
+  double first_turn(int a, int b, int pair) const;
+  /// The way of b against a until this pair of parts touches, in axes that are turned by `axes` against the world.
+  ContactPath between(int a, int b, int pair, const Quatd& axes) const;
   /// The same of bodies that touch nothing else.
   static ContactPath straight(const BodyState& a, const BodyState& b, float dt, const Quatd& axes);
 
  private:
   struct Turn {
-    int other = -1;  ///< the body that is touched; -1: none
+    int pair = -1;  ///< that touches; -1: none
     double time = 2;
     Vec3d change{};  ///< of the displacement that the whole frame would bring [m]
   };
-  void note(int body, int other, double time, const Vec3d& normal);
+  void note(int body, int other, const FirstTouch& touch, const Vec3d& normal);
   Vec3d displacement(int body) const;
+  bool is_held(int body) const;
+  bool turns(int body, int pair) const;
 
   const std::vector<BodyState>* bodies_ = nullptr;
   double dt_ = 0;

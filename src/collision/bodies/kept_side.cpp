@@ -96,7 +96,7 @@ MeshSideKept first_between(const BodyMesh& mesh, const Vec3d& from, const Vec3d&
   for (const int triangle : near) {
     const MeshFace& face = mesh.face(triangle);
     const double before = dot(face.normal, from - face.corners[0]), after = dot(face.normal, to - face.corners[0]);
-    if (!(before * after < 0)) continue;
+    if (before == 0 || before * after > 0) continue;
     const double share = before / (before - after);
     if (share >= first || !is_over(face, from + (to - from) * share, MeshSide::tolerance)) continue;
     first = share;
@@ -131,12 +131,15 @@ MeshSideKept side_kept(const BodyMesh& mesh, const BodyPart& b, const Posed& b_i
   if (before.empty() || mesh.is_terrain()) return {};
   const Vec3d centre = SolidInMesh(b.shape, compose(b_in_mesh, b.pose), 0).centre();
   const MeshContactBefore first(before.front(), b);
-  if (length(centre - first.centre) > farthest + 4 * first.size) return {};
+  const double ahead = std::fabs(static_cast<double>(before.front().gap[0]));  // it was found that far away
+  if (length(centre - first.centre) > farthest + 2 * ahead + 4 * first.size) return {};
   for (const BodyContact& contact : before) {
     const MeshContactBefore old(contact, b);
     const int triangle = contact.a.piece;
-    if (triangle >= mesh.triangle_count() || !(old.height(old.centre) < 0) || !(old.height(centre) < 0)) continue;
-    if (is_over(mesh.face(triangle), centre, old.size)) return {triangle, old.normal};
+    if (triangle < 0 || triangle >= mesh.triangle_count()) continue;
+    if (old.height(old.centre) > 0 || old.height(centre) > 0) continue;
+    const MeshFace& face = mesh.face(triangle);
+    if (is_over(face, centre, old.size)) return {triangle, dot(face.normal, old.normal) < 0 ? -face.normal : face.normal};
   }
   return first_between(mesh, first.centre, centre);
 }

@@ -19,6 +19,14 @@ Posed relative_pose(const Posed& a, const Posed& b) {
   return relative;
 }
 
+/// By how much the plane of a contact separates two parts: of its points, some may be cut off [m].
+double separation_along(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Vec3d& normal) {
+  const Posed of_b = compose(b_in_a, b.pose);
+  const Vec3d on_a = to_world(a.pose, support(a.shape, rotate(conjugate(a.pose.rotation), normal))),
+              on_b = to_world(of_b, support(b.shape, rotate(conjugate(of_b.rotation), -normal)));
+  return dot(normal, on_b - on_a) - static_cast<double>(a.shape.radius) - static_cast<double>(b.shape.radius);
+}
+
 double least_gap(const Touch& now) {
   double least = 1e300;
   for (int i = 0; i < now.count; ++i) least = std::min(least, now.points[at(i)].separation);
@@ -47,8 +55,9 @@ Touch touch_of(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const 
 
 PairTouch touch_on_path(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Reach& reach, const Touch& now,
                         const SolidPath& on) {
-  const double gap = least_gap(now);
-  if (now.count == 0 || !on.is_stopped(now.normal, gap)) return {now, {}, {}, false};
+  if (now.count == 0 || !(on.path.least_along(now.normal) < 0)) return {now, {}, {}, false};
+  const double gap = separation_along(a, b, b_in_a, now.normal);
+  if (!on.is_stopped(now.normal, gap)) return {now, {}, {}, false};
   const auto gap_at = [&](const Vec3d& displacement) -> PathGap {
     Posed moved = b_in_a;
     moved.position += displacement;

@@ -135,7 +135,8 @@ PathContact put_on_path(const SolidInMesh& solid, const BodyMesh& mesh, const st
     next = one.end;
   }
   out.insert(out.end(), points.begin() + static_cast<std::ptrdiff_t>(next), points.end());
-  if (!out.empty()) points.swap(out);
+  // Where something is touched, some contact has to hold the solid, be it in another direction.
+  if (!out.empty() || !first.touches) points.swap(out);
   return first;
 }
 

@@ -27,6 +27,7 @@ void FrameContacts::read_states(const Substep& s) {
   for (int place = 0; place < static_cast<int>(bodies_->places().size()); ++place) {
     states_.push_back(bodies_->state_at_start(s, place));
     BodyState& state = states_.back();
+    state.yields = !state.is_fixed;
     state.is_driven_round = state.is_fixed && length_squared(state.spin) > 0;
     is_fixed_.push_back(state.is_fixed ? 1 : 0);
   }
