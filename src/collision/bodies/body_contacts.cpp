@@ -21,7 +21,7 @@ namespace {
 
 constexpr int narrow_pairs_a_task = 64;
 /// Where solids move against each other by less than this share of the smaller part's size in a frame, directions hardly change.
-constexpr double fast_share = 0.12;
+constexpr double fast_share = 0.15;
 /// Solids that would go into each other by less than this share of the smaller part's size and this share of the way that gravity adds in a
 /// frame pass each other: what lies on one of two flush solids is pressed in by less.
 constexpr double slop_share = 0.005, slop_of_fall = 0.1;
