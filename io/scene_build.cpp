@@ -357,6 +357,7 @@ void require_known(const MeshFolder& folder, const JsonDocument& document, const
 std::vector<std::string> names_of_objects(const JsonDocument& document, const std::vector<JsonValue>& items) {
   Names names;
   std::vector<std::string> all;
+  all.reserve(items.size());
   for (const JsonValue& item : items) all.push_back(names.of(document, item, matter_of(item).key));
   return all;
 }

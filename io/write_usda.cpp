@@ -87,6 +87,7 @@ class Prim {
 
   static std::string counts_of(const std::vector<std::vector<int>>& lines) {
     std::vector<int> counts;
+    counts.reserve(lines.size());
     for (const auto& line : lines) counts.push_back(static_cast<int>(line.size()));
     return listed_numbers(counts);
   }

@@ -1,15 +1,14 @@
 #include "collision/bodies/body_contacts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
 #include <tuple>
 #include <utility>
 
+#include "collision/bodies/contact_points.h"
 #include "collision/bodies/kept_side.h"
-#include "collision/bodies/manifold.h"
 #include "collision/bodies/mesh_contacts.h"
 #include "collision/bodies/pair_touch.h"
 #include "core/at.h"
@@ -51,91 +50,6 @@ bool hardly_moved(const Posed& now, const BodyContact& contact, double size) {
 /// Normal and arms are those of the world, so a contact does not stay where both bodies turn together.
 bool hardly_turned(const Quatd& now, const BodyContact& contact) {
   return std::fabs(dot(now, convert<double>(contact.turned))) > still_cosine;
-}
-
-/// The gaps along the normal, which is turned into the axes of both bodies once for all points.
-void renew_gaps(const Posed& a, const Posed& b, BodyContact& c) {
-  const Vec3d normal = convert<double>(c.normal);
-  const Vec3d in_a = rotate(conjugate(a.rotation), normal), in_b = rotate(conjugate(b.rotation), normal);
-  const double between = dot(normal, b.position - a.position);
-  for (std::size_t i = 0; i < at(c.count); ++i)
-    c.gap[i] = static_cast<float>(between +
-                                  (dot(in_b, convert<double>(c.anchor_b[i])) - dot(in_a, convert<double>(c.anchor_a[i]))));
-}
-
-void set_directions(BodyContact& c, const Vec3d& normal) {
-  const Vec3d size = abs(normal);
-  const Vec3d axis = size.x <= size.y && size.x <= size.z ? Vec3d{1, 0, 0}
-                     : size.y <= size.z                   ? Vec3d{0, 1, 0}
-                                                          : Vec3d{0, 0, 1};
-  const Vec3d first = unit_or(cross(normal, axis), axis);
-  c.normal = convert<float>(normal);
-  c.tangent1 = convert<float>(first);
-  c.tangent2 = convert<float>(cross(normal, first));
-}
-
-/// Moves the centre of a contact to that of its touching points.
-void move_centre(const std::array<Vec3f, 4>& places, BodyContact& c) {
-  const std::array<bool, 4> touches = touching_points({c.count, c.x, c.y, c.gap});
-  const auto count = std::count(touches.begin(), touches.end(), true);
-  if (count == c.count) return;
-  Vec3f centre{};
-  for (std::size_t i = 0; i < 4; ++i)
-    if (touches[i]) centre += places[i] * (1 / static_cast<float>(count));
-  c.arm_a += centre;
-  c.arm_b += centre;
-  for (std::size_t i = 0; i < at(c.count); ++i) {
-    c.x[i] -= dot(centre, c.tangent1);
-    c.y[i] -= dot(centre, c.tangent2);
-  }
-}
-
-/// Places the points of a new contact, which b touches when it has moved by so much in the frame of a [m].
-void set_points(const Touch& found, const Vec3d& moved, const Posed& a, const Posed& b, BodyContact& c) {
-  c.count = found.count;
-  set_directions(c, rotate(a.rotation, found.normal));
-  const Posed there{b.position + rotate(a.rotation, moved), b.rotation};
-  const double ahead = dot(found.normal, moved);
-  Vec3d centre{};
-  for (int i = 0; i < found.count; ++i) {
-    const TouchPoint& point = found.points[at(i)];
-    centre += to_world(a, (point.on_a + point.on_b) * 0.5) * (1. / found.count);
-  }
-  c.arm_a = convert<float>(centre - a.position);
-  c.arm_b = convert<float>(centre - there.position);
-  std::array<Vec3f, 4> places{};
-  for (std::size_t i = 0; i < at(found.count); ++i) {
-    const TouchPoint& point = found.points[i];
-    const Vec3f& place = places[i] = convert<float>(to_world(a, (point.on_a + point.on_b) * 0.5) - centre);
-    c.x[i] = dot(place, c.tangent1);
-    c.y[i] = dot(place, c.tangent2);
-    c.gap[i] = static_cast<float>(point.separation - ahead);
-    c.anchor_a[i] = convert<float>(point.on_a);
-    c.anchor_b[i] = convert<float>(to_local(there, to_world(a, point.on_b)));
-    c.feature[i] = point.feature;
-  }
-  move_centre(places, c);
-}
-
-/// True if a body and the pair have turned by less than a tenth of a radian between two contacts (cosine of half the angle).
-bool turned_little(const BodyContact& old, const BodyContact& now) {
-  constexpr float straight_enough = 0.99875f;
-  return std::fabs(dot(old.rotation, now.rotation)) > straight_enough &&
-         std::fabs(dot(old.turned, now.turned)) > straight_enough;
-}
-
-/// Hands the impulses of an earlier contact of the same parts to the points that are the same.
-void take_impulses(const BodyContact& old, BodyContact& c) {
-  for (std::size_t i = 0; i < at(c.count); ++i)
-    for (std::size_t j = 0; j < at(old.count); ++j)
-      if (c.feature[i] == old.feature[j]) c.impulse[i] = old.impulse[j];
-  c.substep = old.substep;
-  if (!turned_little(old, c)) return;
-  const Vec3f friction = old.tangent1 * old.friction_impulse[0] + old.tangent2 * old.friction_impulse[1];
-  c.friction_impulse = {dot(friction, c.tangent1), dot(friction, c.tangent2)};
-  c.twist_impulse = old.twist_impulse;
-  const Vec3f rolling = old.tangent1 * old.rolling_impulse[0] + old.tangent2 * old.rolling_impulse[1];
-  c.rolling_impulse = {dot(rolling, c.tangent1), dot(rolling, c.tangent2)};
 }
 
 auto solids_of(const BodyContact& c) { return std::tuple{c.a.owner, c.a.solid, c.b.owner, c.b.solid}; }
@@ -317,6 +231,24 @@ struct BodyContacts::Task {
     });
   }
 
+  /// A pair whose contacts are found anew.
+  struct Meeting {
+    int number;  ///< of the pair
+    const BodyPart &one, &other;
+    const BodyState &a, &b;
+    std::span<const BodyContact> old;
+    Posed relative;  ///< of b in the frame of a
+    double size, reach, turning;
+    SolidPath on;
+    bool is_fast;
+  };
+
+  static void note_depth(const BodyContact& contact, const Piece& parties, double size, Found& found) {
+    const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
+    const float share = -gap / static_cast<float>(size);
+    if (share > found.deepest.share) found.deepest = {parties.a, parties.b, -gap, share};
+  }
+
   void find(int number, std::span<const BodyContact> old, Found& found) const {
     const Pair& pair = of.pairs_.pairs()[at(number)];
     const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
@@ -324,19 +256,22 @@ struct BodyContacts::Task {
     const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
     const bool stays_anyway = !is_renewed(one.body) && !is_renewed(other.body) && (far >= unlimited || !one.is_convex());
     Posed relative = stays_anyway ? Posed{} : relative_to(a.pose, b.pose);
-    const double size = size_of(pair);
-    const auto note_depth = [&](const BodyContact& contact) {
-      const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
-      const float share = -gap / static_cast<float>(size);
-      if (share > found.deepest.share) found.deepest = {one.body, other.body, -gap, share};
-    };
     if (stays_anyway || stay(pair, old, a, b, relative)) {
       found.pieces.push_back({old, one.body, other.body});
       found.count += old.size();
-      std::for_each(old.begin(), old.end(), note_depth);
+      for (const BodyContact& contact : old) note_depth(contact, found.pieces.back(), size_of(pair), found);
       return;
     }
     relative.rotation = normalise(relative.rotation);
+    const Meeting meeting = meeting_of(number, old, relative);
+    one.mesh != nullptr ? meet_mesh(meeting, found) : meet(meeting, found);
+  }
+
+  Meeting meeting_of(int number, std::span<const BodyContact> old, const Posed& relative) const {
+    const Pair& pair = of.pairs_.pairs()[at(number)];
+    const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
+    const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
+    const double size = size_of(pair);
     const Vec3f velocity = a.velocity - b.velocity;
     const auto is_close = [&](const BodyContact& contact) {
       const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
@@ -347,58 +282,64 @@ struct BodyContacts::Task {
         one.is_half_space && std::any_of(old.begin(), old.end(), is_close)
             ? std::fabs(dot(velocity, rotate(convert<float>(compose(a.pose, one.pose)).rotation, Vec3f{0, 1, 0})))
             : length(velocity);
-    const double reach = reach_of(pair, approach);
     // An impact may turn the whole approach into spin. Of two opposite points one may rise as the other sinks.
     const double turning =
         static_cast<double>(2 * dt * (approach + turning_of(pair.first, a) + turning_of(pair.second, b)));
-    const Piece parties{{}, one.body, other.body};
-    const auto add = [&](const Touch& touching, const Vec3d& moved, int piece) {
-      if (touching.count == 0) return;
-      BodyContact contact;
-      contact.a = one.id;
-      contact.a.piece = piece;
-      contact.b = other.id;
-      contact.position = convert<float>(relative.position);
-      contact.rotation = convert<float>(relative.rotation);
-      contact.turned = convert<float>(a.pose.rotation);
-      set_points(touching, moved, a.pose, b.pose, contact);
-      if (const BodyContact* alike = like(contact, old)) take_impulses(*alike, contact);
-      note_depth(contact);
-      found.pieces.push_back(parties);
-      found.made.push_back(contact);
-      ++found.count;
-    };
     const SolidPath on{path_of(one.body, other.body, number), slop_share * size + slop_of_fall * fall(), 0.5 * fall()};
     const bool is_fast = length(on.path.end()) > fast_share * size;
-    if (one.mesh == nullptr) {
-      const Reach within{reach, turning, rocking_of(a, b, dt, faster)};
-      const Posed placed = apart(relative, one.body, other.body, size);
-      const Touch now = touch_of(one, other, placed, within);
-      if (one.is_half_space) {
-        if (is_fast) note_first(first_on_plane(now, on), number, parties, found);
-        return add(now, {}, 0);
-      }
-      if (has_changed_sides(now, a.pose, old)) {
-        const Vec3d kept = rotate(conjugate(a.pose.rotation), convert<double>(old.front().normal));
-        return add(touch_along(one, other, relative, kept, turning), {}, 0);
-      }
-      if (!is_fast) return add(now, {}, 0);
-      const PairTouch touching = touch_on_path(one, other, placed, within, now, on);
-      found.any_stopped = touching.is_stopped;
-      note_first(touching.first, number, parties, found);
-      return add(touching.touch, touching.moved, 0);
+    return {number, one, other, a, b, old, relative, size, reach_of(pair, approach), turning, on, is_fast};
+  }
+
+  /// Adds a contact that b touches when it has moved by so much in the frame of a [m].
+  static void add(const Meeting& m, const Touch& touching, const Vec3d& moved, int piece, Found& found) {
+    if (touching.count == 0) return;
+    BodyContact contact;
+    contact.a = m.one.id;
+    contact.a.piece = piece;
+    contact.b = m.other.id;
+    contact.position = convert<float>(m.relative.position);
+    contact.rotation = convert<float>(m.relative.rotation);
+    contact.turned = convert<float>(m.a.pose.rotation);
+    set_points(touching, moved, m.a.pose, m.b.pose, contact);
+    if (const BodyContact* alike = like(contact, m.old)) take_impulses(*alike, contact);
+    found.pieces.push_back({{}, m.one.body, m.other.body});
+    note_depth(contact, found.pieces.back(), m.size, found);
+    found.made.push_back(contact);
+    ++found.count;
+  }
+
+  /// Two convex parts, or a half-space and one.
+  void meet(const Meeting& m, Found& found) const {
+    const Reach within{m.reach, m.turning, rocking_of(m.a, m.b, dt, faster)};
+    const Posed placed = apart(m.relative, m.one.body, m.other.body, m.size);
+    const Touch now = touch_of(m.one, m.other, placed, within);
+    if (m.one.is_half_space) {
+      if (m.is_fast) note_first(first_on_plane(now, m.on), m, found);
+      return add(m, now, {}, 0, found);
     }
-    const MeshSideKept kept = a.deforms ? MeshSideKept{} : side_kept(*one.mesh, other, relative, 2 * reach, old);
+    if (has_changed_sides(now, m.a.pose, m.old)) {
+      const Vec3d kept = rotate(conjugate(m.a.pose.rotation), convert<double>(m.old.front().normal));
+      return add(m, touch_along(m.one, m.other, m.relative, kept, m.turning), {}, 0, found);
+    }
+    if (!m.is_fast) return add(m, now, {}, 0, found);
+    const PairTouch touching = touch_on_path(m.one, m.other, placed, within, now, m.on);
+    found.any_stopped = touching.is_stopped;
+    note_first(touching.first, m, found);
+    add(m, touching.touch, touching.moved, 0, found);
+  }
+
+  void meet_mesh(const Meeting& m, Found& found) const {
+    const BodyMesh& mesh = *m.one.mesh;
+    const Posed pose = compose(m.relative, m.other.pose);
+    const MeshSideKept kept = m.a.deforms ? MeshSideKept{} : side_kept(mesh, m.other, m.relative, 2 * m.reach, m.old);
     if (kept.triangle >= 0) {
-      const MeshTouch touching = touch_side(other.shape, compose(relative, other.pose), *one.mesh, kept, reach, turning);
-      return add(touching.touch, {}, touching.piece);
+      const MeshTouch touching = touch_side(m.other.shape, pose, mesh, kept, m.reach, m.turning);
+      return add(m, touching.touch, {}, touching.piece, found);
     }
     std::vector<MeshTouch> touches;
     found.any_stopped = true;
-    note_first(
-        touch_mesh(other.shape, compose(relative, other.pose), *one.mesh, reach, touches, turning, is_fast ? &on : nullptr),
-        number, parties, found);
-    for (const MeshTouch& touching : touches) add(touching.touch, touching.moved, touching.piece);
+    note_first(touch_mesh(m.other.shape, pose, mesh, m.reach, touches, m.turning, m.is_fast ? &m.on : nullptr), m, found);
+    for (const MeshTouch& touching : touches) add(m, touching.touch, touching.moved, touching.piece, found);
   }
 
   /// The way of b against a in the frame of a.
@@ -410,10 +351,9 @@ struct BodyContacts::Task {
   /// Twice what gravity may add to a way in the frame [m].
   double fall() const { return static_cast<double>(dt * faster); }
 
-  void note_first(const PathContact& first, int pair, const Piece& parties, Found& found) const {
-    if (!first.touches) return;
-    const Quatd& axes = bodies[at(parties.a)].pose.rotation;
-    found.first.push_back({parties.a, parties.b, pair, first.time, rotate(axes, first.normal)});
+  static void note_first(const PathContact& first, const Meeting& m, Found& found) {
+    if (first.touches)
+      found.first.push_back({m.one.body, m.other.body, m.number, first.time, rotate(m.a.pose.rotation, first.normal)});
   }
 };
 
