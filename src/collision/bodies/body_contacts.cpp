@@ -19,10 +19,11 @@ namespace pliant {
 namespace {
 
 constexpr int narrow_pairs_a_task = 64;
-/// Where solids move against each other by less than this share of the smaller part's size in a frame, directions hardly change.
+/// Where solids move against each other by less than this share of the smaller part's size in a frame, directions
+/// hardly change.
 constexpr double fast_share = 0.15;
-/// Solids that would go into each other by less than this share of the smaller part's size and this share of the way that gravity adds in a
-/// frame pass each other: what lies on one of two flush solids is pressed in by less.
+/// Solids that would go into each other by less than this share of the smaller part's size and this share of the path
+/// that gravity adds in a frame pass each other: what lies on one of two flush solids is pressed in by less.
 constexpr double slop_share = 0.005, slop_of_fall = 0.1;
 constexpr float unlimited = 1e30f;  ///< [m]
 /// A contact stays while its bodies have moved less against each other since it began than this share of the smaller part's size, and
@@ -151,7 +152,7 @@ struct BodyContacts::Task {
     for (const Piece& piece : next.pieces) next.count += piece.stays.empty() ? 1 : piece.stays.size();
     found = std::move(next);
   }
-  /// True if a contact that was found at the start of the frame stops bodies on ways that turn.
+  /// True if a contact that was found at the start of the frame stops bodies on paths that turn.
   bool stops(const BodyContact& contact, const Piece& parties, int pair) const {
     const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
     return paths->between(parties.a, parties.b, pair, {}).least_along(convert<double>(contact.normal)) +
@@ -202,8 +203,8 @@ struct BodyContacts::Task {
     return of.pairs_.are_apart(pair.first, pair.second, more_than_rounding * static_cast<float>(reach_of(pair, approach)));
   }
 
-  /// True if a body moves so far within the frame that it may meet triangles of a mesh other than those that it touches, or a convex part
-  /// elsewhere.
+  /// True if a body moves so far within the frame that it may meet triangles of a mesh other than those that it
+  /// touches, or a convex part elsewhere.
   bool may_meet_more(const Pair& pair, const BodyState& a, const BodyState& b, double size) const {
     const BodyPart& one = of.parts_[at(pair.first)];
     const double way = static_cast<double>(dt * length(a.velocity - b.velocity));
@@ -231,7 +232,7 @@ struct BodyContacts::Task {
     });
   }
 
-  /// A pair whose contacts are found anew.
+  /// A pair whose contacts are searched for again.
   struct Meeting {
     int number;  ///< of the pair
     const BodyPart &one, &other;
@@ -342,13 +343,13 @@ struct BodyContacts::Task {
     for (const MeshTouch& touching : touches) add(m, touching.touch, touching.moved, touching.piece, found);
   }
 
-  /// The way of b against a in the frame of a.
+  /// The path of b against a in the frame of a.
   ContactPath path_of(int a, int b, int pair) const {
     const BodyState &one = bodies[at(a)], &other = bodies[at(b)];
     return paths == nullptr ? BodyPaths::straight(one, other, dt, one.pose.rotation)
                             : paths->between(a, b, pair, one.pose.rotation);
   }
-  /// Twice what gravity may add to a way in the frame [m].
+  /// Twice what gravity may add to a path in the frame [m].
   double fall() const { return static_cast<double>(dt * faster); }
 
   static void note_first(const PathContact& first, const Meeting& m, Found& found) {
@@ -380,7 +381,7 @@ void BodyContacts::find(Executor& executor, const Task& task_of_pair) {
   for (const Found& found : found_) first_.push_back(first_.back() + found.count);
 }
 
-/// Contacts in the direction of a way that ends at something else are found once more.
+/// Contacts in the direction of a path that ends at something else are found once more.
 void BodyContacts::find_on_paths(Executor& executor, Task task) {
   touches_.clear();
   for (const Found& found : found_) touches_.insert(touches_.end(), found.first.begin(), found.first.end());

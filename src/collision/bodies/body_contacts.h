@@ -70,7 +70,7 @@ class BodyContacts {
     int pair = 0;
     std::size_t pieces = 0, pieces_end = 0, made = 0, made_end = 0;
     bool is_stopped = false;  ///< PairTouch::is_stopped; true of all with meshes
-    double time = 1;          ///< of the first touch on the way
+    double time = 1;          ///< of the first touch on the path
   };
   /// What a task has found, in the order of pairs.
   struct Found {

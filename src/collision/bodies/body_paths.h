@@ -1,7 +1,7 @@
-// The ways of bodies over a frame: straight, until they first touch something, then along it.
+// The paths of bodies over a frame: straight, until they first touch something, then along it.
 //
-// A ball that lands on a floor of two boxes does not go on below it to the side of the second one. So the direction of a contact is
-// looked for on ways that end at what is touched first.
+// A ball that lands on a floor of two boxes does not go on below it to the side of the second one. So the direction of
+// a contact is looked for on paths that end at what is touched first.
 #pragma once
 
 #include <vector>
@@ -24,9 +24,10 @@ class BodyPaths {
   /// Takes the touches of a frame of `dt` seconds. Of several of a body at one time, the first one counts.
   void begin(const std::vector<BodyState>& bodies, float dt, const std::vector<FirstTouch>& touches);
 
-  /// When the way of one of two bodies first turns because of another pair of parts than this one; beyond 1 if neither does in this frame.
+  /// When the path of one of two bodies first turns because of another pair of parts than this one; beyond 1 if neither
+  /// does in this frame.
   double first_turn(int a, int b, int pair) const;
-  /// The way of b against a until this pair of parts touches, in axes that are turned by `axes` against the world.
+  /// The path of b against a until this pair of parts touches, in axes that are turned by `axes` against the world.
   ContactPath between(int a, int b, int pair, const Quatd& axes) const;
   /// The same of bodies that touch nothing else.
   static ContactPath straight(const BodyState& a, const BodyState& b, float dt, const Quatd& axes);

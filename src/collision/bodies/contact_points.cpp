@@ -40,7 +40,8 @@ void move_centre(const std::array<Vec3f, 4>& places, BodyContact& c) {
   }
 }
 
-/// True if a body and the pair have turned by less than a tenth of a radian between two contacts (cosine of half the angle).
+/// True if a body and the pair have turned by less than a tenth of a radian between two contacts (cosine of half the
+/// angle).
 bool turned_little(const BodyContact& old, const BodyContact& now) {
   constexpr float straight_enough = 0.99875f;
   return std::fabs(dot(old.rotation, now.rotation)) > straight_enough &&

@@ -26,8 +26,8 @@ struct MeshSideKept {
   Vec3d normal{};     ///< unit vector to that side, in the frame of the mesh
 };
 
-/// The triangle through which the centre of a part b has gone since its contacts with a mesh were found, or before, if it still is behind it.
-/// What has moved by more than `farthest` besides four times its size [m] has been put there.
+/// The triangle through which the centre of a part b has gone since its contacts with a mesh were found, or before, if
+/// it still is behind it. What has moved by more than `farthest` besides four times its size [m] has been put there.
 MeshSideKept side_kept(const BodyMesh& mesh, const BodyPart& b, const Posed& b_in_mesh, double farthest,
                        std::span<const BodyContact> before);
 

@@ -28,8 +28,8 @@ Posed relative_to(const Posed& a, const Posed& b);
 /// Contact points of two parts, or of a half-space and a part, as they are now.
 Touch touch_of(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Reach& reach);
 
-/// The same for a part b that moves along a path in the frame of body a. `now` is the contact as they are now; where it would stop b on
-/// its path, the contact is that of the first touch, or of the place where both pass nearest.
+/// The same for a part b that moves along a path in the frame of body a. `now` is the contact as they are now; where it
+/// would stop b on its path, the contact is that of the first touch, or of the place where both pass nearest.
 PairTouch touch_on_path(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Reach& reach, const Touch& now,
                         const SolidPath& on);
 

@@ -129,7 +129,8 @@ void add_points_above(const Facing& at, const TriangleNearest& nearest, std::vec
   const MeshFace& face = at.face();
   const Feature part = at.flat_part();
   const std::size_t first = points.size();
-  // Nothing that is over the triangle is nearer than the nearest place; what is has been cut off by a valley's plane alone.
+  // Nothing that is over the triangle is nearer than the nearest place; what is has been cut off by a valley's plane
+  // alone.
   const double least = nearest.separation > 0 ? nearest.separation - MeshSide::tolerance : -1e300;
   const Corners corners = over_triangle(face, part, at.is_flipped);
   for (std::size_t i = 0; i < corners.count; ++i) {

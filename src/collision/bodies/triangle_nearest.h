@@ -18,7 +18,8 @@ struct TriangleNearest {
 /// normal of either or across an edge of each, others by convex_distance.
 TriangleNearest nearest_on(const MeshFace& face, const SolidInMesh& solid, double reach, bool is_one_sided);
 
-/// The same by supports alone, however far apart they are, and with no direction preferred; for a solid that is displaced [m].
+/// The same by supports alone, however far apart they are, and with no direction preferred; for a solid that is
+/// displaced [m].
 TriangleNearest exactly_nearest_on(const MeshFace& face, const SolidInMesh& solid, const Vec3d& displacement);
 
 /// The triangle's normal on the side of a point; that by its winding if it has one side.

@@ -70,8 +70,8 @@ BoxBounds swept(const SolidInMesh& solid, const ContactPath& path, double margin
   return all;
 }
 
-/// The triangles that may be met on a path, in the order of `near`, which is that of the points: those whose planes the solid passes lower
-/// than `height` [m].
+/// The triangles that may be met on a path, in the order of `near`, which is that of the points: those whose planes the
+/// solid passes lower than `height` [m].
 std::vector<Met> met_on(const Way& way, const ContactPath& path, const std::vector<int>& near,
                         const std::vector<TrianglePoint>& points, double height) {
   const BoxBounds box = swept(way.solid, path, way.mesh.thickness() + way.on.sag);
