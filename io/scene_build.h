@@ -22,8 +22,8 @@ struct BuiltObject {
 BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, const std::string& name,
                          const MeshFolder& folder, std::vector<std::string>& repairs);
 
-/// Removes the particles of an object's record `at` that its `fill` puts into what is solid in `around`, and says how many in `left_out`.
-/// Call it before anything refers to particles. Throws an Error if all are.
+/// Removes the particles of an object's record `at` that its `fill` puts into what is solid in `around`, and says how
+/// many in `left_out`. Call it before anything refers to particles. Throws an Error if all are.
 void leave_out(const JsonDocument& document, const JsonValue& at, const JsonValue& fill, const Scene& around,
                Object& object, std::vector<std::string>& left_out);
 

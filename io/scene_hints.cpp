@@ -59,7 +59,8 @@ std::vector<Reached> reached_once() {
   return all;
 }
 
-/// The first member of a record whose name means the same as `wanted`, as other programs say it; empty if there is none.
+/// The first member of a record whose name means the same as `wanted`, as other programs say it; empty if there is
+/// none.
 std::string same_meaning(const std::string& wanted, const Record& record) {
   using Pair = std::array<const char*, 2>;
   static constexpr std::array<Pair, 8> pairs{Pair{"damping", "friction"},     Pair{"translate", "position"},

@@ -16,8 +16,9 @@ std::size_t edit_distance(const std::string& a, const std::string& b);
 /// there is none, the first name that contains `wanted`; else empty.
 std::string nearest_name(const std::string& wanted, const std::vector<std::string>& names);
 
-/// Advice for a member `wanted` that `record` does not have: a name of the record that is similar in spelling or meaning; a record that has
-/// the name, or a similar one, below it or of those that a scene has once ("settings.substeps"); or all names of the record.
+/// Advice for a member `wanted` that `record` does not have: a name of the record that is similar in spelling or
+/// meaning; a record that has the name, or a similar one, below it or of those that a scene has once
+/// ("settings.substeps"); or all names of the record.
 std::string hint_for(const std::string& wanted, const Record& record);
 
 }  // namespace pliant::scene_file

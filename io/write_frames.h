@@ -64,7 +64,8 @@ struct Frame {
   /// The triangles of each object that is remeshed, whose positions are then its vertices, without velocities; those of others are empty.
   /// Empty if no object is remeshed.
   std::vector<std::vector<std::array<int, 3>>> triangles{};
-  /// The lines of each object that is relinked, by its particles; those of others are empty. Empty if no object is relinked.
+  /// The lines of each object that is relinked, by its particles; those of others are empty. Empty if no object is
+  /// relinked.
   std::vector<std::vector<std::vector<int>>> lines{};
 };
 
@@ -91,7 +92,8 @@ class FormatWriter {
 std::vector<FrameObject> describe(const Scene& scene);
 FrameObject describe(const Object& object);
 
-/// The group of constraints whose links are the lines of an object: its first one of distance constraints; -1 if it has none.
+/// The group of constraints whose links are the lines of an object: its first one of distance constraints; -1 if it has
+/// none.
 int line_group_of(const Object& object);
 /// The lines that the links of a group form.
 std::vector<std::vector<int>> lines_of(const Object& object, int group);
@@ -145,8 +147,8 @@ std::unique_ptr<FormatWriter> make_pvd_writer(const std::string& path, const Obj
 std::unique_ptr<FormatWriter> make_surface_writer(const Objects& objects,
                                                   const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
 
-/// A writer of a format whose lines cannot change. Each link of an object that is relinked gets two vertices of its own, which are in one
-/// place from when it breaks. `make` makes it for given objects.
+/// A writer of a format whose lines cannot change. Each link of an object that is relinked gets two vertices of its
+/// own, which are in one place from when it breaks. `make` makes it for given objects.
 std::unique_ptr<FormatWriter> make_segment_writer(const Objects& objects,
                                                   const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
 

@@ -1,5 +1,5 @@
-// Ropes that break, for formats whose lines stay the same: each link has two vertices of its own. Those of a link that broke are in one
-// place, so it is not seen.
+// Ropes that break, for formats whose lines stay the same: each link has two vertices of its own. Those of a link that
+// broke are in one place, so it is not seen.
 #include <algorithm>
 #include <array>
 #include <utility>

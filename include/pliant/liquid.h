@@ -62,11 +62,12 @@ struct PlacesInSolid {
   int places = 0;
 };
 
-/// Removes the places at which the ball of a particle would overlap what is solid in a scene at the start: colliders, rigid bodies, soft
-/// bodies, distance grids, terrain, and what other closed surfaces enclose, unless all places lie inside such a surface, which is then their
-/// vessel. What groups, masks and `collides` let them pass is not solid. Overlaps below a hundredth of the radius are kept, so that a lattice
-/// may touch a wall. Returns what was left out, in the order of the places; a place in several solids counts once. Throws an Error if the
-/// radius is not positive and finite.
+/// Removes the places at which the ball of a particle would overlap what is solid in a scene at the start: colliders,
+/// rigid bodies, soft bodies, distance grids, terrain, and what other closed surfaces enclose, unless all places lie
+/// inside such a surface, which is then their vessel. What groups, masks and `collides` let them pass is not solid.
+/// Overlaps below a hundredth of the radius are kept, so that a lattice may touch a wall. Returns what was left out, in
+/// the order of the places; a place in several solids counts once. Throws an Error if the radius is not positive and
+/// finite.
 std::vector<PlacesInSolid> leave_out_solids(std::vector<Vec3f>& places, const Scene& scene, const LeaveOutOptions& options);
 
 /// Makes a liquid of particles at given places, about a spacing apart. Each has the mass of a cube of that side, and touches colliders at

@@ -45,8 +45,9 @@ struct ConstraintGroup {
   /// of "fibre" is multiplied: linear between keyframes, constant before the first and after the last. Their times increase. It changes
   /// in each substep.
   std::vector<RestKeyframe> keyframes{};
-  /// Force at which one of them breaks, of links in a row in a step only the most loaded: World::step removes it, see Report::torn. Of "distance",
-  /// "distance_limit", "point_on_triangle" and "point_in_tetrahedron" with a compliance, by which the force is known; 0: they hold [N]
+  /// Force at which one of them breaks, of links in a row in a step only the most loaded: World::step removes it, see
+  /// Report::torn. Of "distance", "distance_limit", "point_on_triangle" and "point_in_tetrahedron" with a compliance,
+  /// by which the force is known; 0: they hold [N]
   float break_force = 0;
 };
 

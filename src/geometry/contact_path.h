@@ -1,7 +1,7 @@
 // Where a convex solid that moves without turning first touches another one, or passes nearest to it.
 //
-// The separation of two convex solids is a convex function of their displacement, so Newton's steps along a straight leg never pass the first
-// touch; where there is none, a sign of the slope tells on which side the nearest place is.
+// The separation of two convex solids is a convex function of their displacement, so Newton's steps along a straight
+// leg never pass the first touch; where there is none, a sign of the slope tells on which side the nearest place is.
 #pragma once
 
 #include <array>
@@ -92,8 +92,8 @@ struct PathContact {
   Vec3d normal{};        ///< there
 };
 
-/// Finds where solids whose separation is `gap_at(displacement)` first touch, if they go in by more than `slop` [m] then; else where they
-/// pass nearest.
+/// Finds where solids whose separation is `gap_at(displacement)` first touch, if they go in by more than `slop` [m]
+/// then; else where they pass nearest.
 template <class GapAt>
 class PathSearch {
  public:

@@ -1,4 +1,5 @@
-// Warnings about liquids, gases and grains: particles that start within one another, emitters that shoot, and numbers of no known matter.
+// Warnings about liquids, gases and grains: particles that start within one another, emitters that shoot, and numbers
+// of no known matter.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

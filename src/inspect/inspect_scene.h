@@ -27,7 +27,8 @@ void refuse_grave(const MeshCollider& collider);
 /// Throws an Error for initial intersections and enclosures, if the scene's settings refuse them; makes no other checks.
 void refuse_initial_intersections(const Scene& scene);
 
-/// For each liquid, gas or grains with particles that start inside primitive colliders or rigid bodies: a warning with their number.
+/// For each liquid, gas or grains with particles that start inside primitive colliders or rigid bodies: a warning with
+/// their number.
 std::vector<std::string> warnings_of_starts_in_solids(const Scene& scene);
 
 }  // namespace pliant

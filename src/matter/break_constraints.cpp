@@ -48,8 +48,8 @@ class ForceShares {
   }
 
  private:
-  /// Multipliers are the forces of the substep, those of constraints that one iteration does not meet too. Elongations are taken where
-  /// rounding changes multipliers by more than this share of the limit, as with many short substeps.
+  /// Multipliers are the forces of the substep, those of constraints that one iteration does not meet too. Elongations
+  /// are taken where rounding changes multipliers by more than this share of the limit, as with many short substeps.
   static constexpr double coarse = 0.01;
 
   /// C of a length, which breaks by a pull alone; |C| of other types [m].
@@ -124,8 +124,8 @@ std::vector<Overload> find_overloads(const Object& object, const KnownForces& kn
   return found;
 }
 
-/// Constraints that bear one load in series: links that can break, joined by free particles at which no third one meets them,
-/// and a tie that holds the end of such a row.
+/// Constraints that bear one load in series: links that can break, joined by free particles at which no third one meets
+/// them, and a tie that holds the end of such a row.
 class Series {
  public:
   explicit Series(const Object& object)
@@ -184,7 +184,8 @@ class Series {
   std::vector<std::vector<std::size_t>> links_;  ///< at each particle: the links that can break
 };
 
-/// Of each row keeps the constraint with the greatest share, the first of equal ones: that it breaks relieves the others.
+/// Of each row keeps the constraint with the greatest share, the first of equal ones: that it breaks relieves the
+/// others.
 void keep_one_of_each_row(const Object& object, std::vector<Overload>& overloads) {
   Series series(object);
   std::map<std::size_t, Overload> greatest;  // of each row

@@ -29,9 +29,10 @@ struct KnownForces {
 /// By how much rounding in the solve changes the elongation of a constraint between points at most that far apart [m].
 double rounding_of_elongation(double distance);
 
-/// The Edit that removes the constraints whose force is beyond that at which they break; nothing if all hold. Multipliers tell the
-/// force, or where rounding makes them coarse |C| over the compliance. Lengths break by a pull alone. Of links in a row, as those of a rope, only the one with the
-/// greatest force over its limit is removed, because that relieves the others.
+/// The Edit that removes the constraints whose force is beyond that at which they break; nothing if all hold.
+/// Multipliers tell the force, or where rounding makes them coarse |C| over the compliance. Lengths break by a pull
+/// alone. Of links in a row, as those of a rope, only the one with the greatest force over its limit is removed,
+/// because that relieves the others.
 std::optional<Edit> break_constraints(const Object& object, const KnownForces& known);
 
 }  // namespace pliant

@@ -7,7 +7,8 @@
 
 namespace pliant {
 
-/// Whether mesh colliders and closed surfaces are asked, which takes time to prepare, or primitive colliders and bodies alone.
+/// Whether mesh colliders and closed surfaces are asked, which takes time to prepare, or primitive colliders and bodies
+/// alone.
 enum class MeshesToo { yes, no };
 
 /// What leave_out_solids would leave out of the places.

@@ -86,8 +86,9 @@ TEST(BodyContacts, ARenewedBodyMeetsWhatWasOutOfReach) {
   EXPECT_EQ(scene.contacts[1].b.solid, 2);
 }
 
-/// Balls that overlap by chance, of which half turn around within the frame: so few of them that the tree is asked, or many. They are slow:
-/// the direction of a contact of what is fast follows from what both touch first, which is known only of bodies that are renewed.
+/// Balls that overlap by chance, of which half turn around within the frame: so few of them that the tree is asked, or
+/// many. They are slow: the direction of a contact of what is fast follows from what both touch first, which is known
+/// only of bodies that are renewed.
 TEST(BodyContacts, RenewedOnesAreThoseOfANewSearch) {
   for (const int every : {10, 2, 1}) {
     testing_support::Random random(7);

@@ -80,7 +80,8 @@ TEST(SceneFill, IsRefusedInsideASolid) {
   }
 }
 
-/// The water that is left has the volume V and the ball sinks in by its mass: the level is (V + 0.3 of the ball) / 1 m^2.
+/// The water that is left has the volume V and the ball sinks in by its mass: the level is (V + 0.3 of the ball) / 1
+/// m^2.
 TEST(SceneFill, FloatsABallWithoutAFountain) {
   World world(parse(ball_in_water()));
   float highest = 0;

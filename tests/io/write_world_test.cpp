@@ -88,8 +88,8 @@ TEST(FrameWriter, RefusesASceneThatTheWorldWasNotMadeFrom) {
   EXPECT_TRUE(folder.names().empty());
 }
 
-/// A rope of three links, held at its first two particles: the weight of the third breaks the second link in the first frame. A box falls
-/// beside it.
+/// A rope of three links, held at its first two particles: the weight of the third breaks the second link in the first
+/// frame. A box falls beside it.
 Scene breaking(float break_force) {
   Scene scene;
   Object rope = make_rope({{0, 3, 0}, {0, 2, 0}, {0, 1, 0}, {0, 0.5f, 0}});

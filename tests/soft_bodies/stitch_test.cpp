@@ -252,7 +252,8 @@ TEST(BreakForce, TakesOneLinkOfARopeWithAWeight) {
   EXPECT_EQ(losses_of(rope), std::pair(1, 1));
 }
 
-/// A long straight rope rings like a bar: its links resist pressure, so the pull returns after four frames, and may break another.
+/// A long straight rope rings like a bar: its links resist pressure, so the pull returns after four frames, and may
+/// break another.
 TEST(BreakForce, TakesOneLinkOfARopeTiedToABody) {
   for (const int links : {4, 10, 40}) {
     Object object = make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, {.position = {0, -1.1f, 0}, .mass = 5});

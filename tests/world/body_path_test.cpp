@@ -1,5 +1,6 @@
-// Tests that the direction of a contact is that of the place where bodies touch on their way, and not of where they were when it was
-// found: nothing rises from a floor of flush solids, nothing is turned aside by what it misses, and nothing passes through.
+// Tests that the direction of a contact is that of the place where bodies touch on their way, and not of where they
+// were when it was found: nothing rises from a floor of flush solids, nothing is turned aside by what it misses, and
+// nothing passes through.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -172,8 +173,8 @@ TEST(BodyPath, WhatMissesASolidIsNotTurnedAside) {
         }
 }
 
-/// A ball that lands slides on, wherever the joint of the floor is. Where it lands within a few millimetres of the joint, the edge beyond is
-/// a contact of the same substep, and takes up to 4 % of the speed.
+/// A ball that lands slides on, wherever the joint of the floor is. Where it lands within a few millimetres of the
+/// joint, the edge beyond is a contact of the same substep, and takes up to 4 % of the speed.
 TEST(BodyPath, ALandingNearAJointKeepsTheSpeedAlongTheFloor) {
   const Slider ball = sliders()[0];
   for (const Floor& floor : floors())
@@ -188,7 +189,8 @@ TEST(BodyPath, ALandingNearAJointKeepsTheSpeedAlongTheFloor) {
     }
 }
 
-/// The impact of a ball on a step turns its speed into the direction of the tangent there: v (1 - s / r) along it, for a step of height s.
+/// The impact of a ball on a step turns its speed into the direction of the tangent there: v (1 - s / r) along it, for
+/// a step of height s.
 TEST(BodyPath, AStepStopsABallAsItsHeightSays) {
   for (const float step : {0.001f, 0.03f}) {
     Scene scene;
@@ -202,7 +204,8 @@ TEST(BodyPath, AStepStopsABallAsItsHeightSays) {
   }
 }
 
-// ------------------------------------------------------------------------------------------------ nothing passes through
+// ------------------------------------------------------------------------------------------------ nothing passes
+// through
 
 std::vector<SolidShape> tumblers(float r) {
   return {Box{{r, r, r}},
@@ -258,7 +261,8 @@ std::vector<Floor> targets() {
           {"plane", [](Scene& s) { s.add(Collider{}); }}};
 }
 
-/// Shoots 64 solids at a target, each at its own place, tilt and height. Returns how many of them went in by more than their size.
+/// Shoots 64 solids at a target, each at its own place, tilt and height. Returns how many of them went in by more than
+/// their size.
 int shoot(const Floor& target, float size, float speed, float across, int seed) {
   Scene scene;
   scene.gravity = {};
@@ -292,8 +296,8 @@ int rounds_of_shots() {
   return wanted != nullptr ? std::max(std::atoi(wanted), 1) : 1;
 }
 
-/// Of small solids at 25 m/s one in some thousands is turned so fast by the impact that it goes in by its size: none of those here, and fewer
-/// than one a round of many.
+/// Of small solids at 25 m/s one in some thousands is turned so fast by the impact that it goes in by its size: none of
+/// those here, and fewer than one a round of many.
 TEST(BodyPath, NoTiltedSolidPassesThroughASurface) {
   int seed = 1, passed = 0;
   const int rounds = rounds_of_shots();
@@ -310,8 +314,8 @@ TEST(BodyPath, NoTiltedSolidPassesThroughASurface) {
   EXPECT_LT(passed, rounds) << "of " << 5376 * rounds;
 }
 
-/// What is hit at an end at 100 m/s turns by more than a radian in a substep, which contacts that are linear in a substep do not see: 60 of
-/// the small ones and 3 of the large ones go in by more than their size.
+/// What is hit at an end at 100 m/s turns by more than a radian in a substep, which contacts that are linear in a
+/// substep do not see: 60 of the small ones and 3 of the large ones go in by more than their size.
 TEST(BodyPath, FewSolidsPassAtAHundredMetresASecond) {
   int seed = 1000;
   for (const float size : {0.05f, 0.2f}) {

@@ -21,9 +21,11 @@ PLIANT_HD bool all_zero(float value) { return value == 0; }
 constexpr float tiny = 1e-30f;
 /// Later than any arrival [s].
 constexpr float never = 1e30f;
-/// Passes over the points of a manifold that bounce together: with four, of points that arrive as one, the wrong ones keep an impulse.
+/// Passes over the points of a manifold that bounce together: with four, of points that arrive as one, the wrong ones
+/// keep an impulse.
 constexpr int passes_of_impact = 16;
-/// Points that arrive within this share of the substep bounce together; of all at once, those that arrive late would be thrown by the first.
+/// Points that arrive within this share of the substep bounce together; of all at once, those that arrive late would be
+/// thrown by the first.
 constexpr float together_share = 0.02f;
 
 template <class R>

@@ -1,9 +1,10 @@
 // Limits how fast particles of a liquid separate that overlap at the start.
 //
-// A particle whose density is far above that at rest is pushed out of the others within a few substeps, and what a substep corrects becomes
-// velocity: 216 particles within 5 mm flew 58 m. So a particle that overlaps since it was placed, and each that has such a neighbour, moves
-// in a substep no farther than predicted, or than the parting speed leads. So no correction makes it faster than that. Impacts are not
-// limited: which particles overlap since they were placed is a channel of the State, which exists only while some do.
+// A particle whose density is far above that at rest is pushed out of the others within a few substeps, and what a
+// substep corrects becomes velocity: 216 particles within 5 mm flew 58 m. So a particle that overlaps since it was
+// placed, and each that has such a neighbour, moves in a substep no farther than predicted, or than the parting speed
+// leads. So no correction makes it faster than that. Impacts are not limited: which particles overlap since they were
+// placed is a channel of the State, which exists only while some do.
 #pragma once
 
 #include <cstdint>
