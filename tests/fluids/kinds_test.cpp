@@ -19,7 +19,7 @@ std::string number(float value) {
 }
 
 TEST(KindsOfLiquid, AreThoseOfThePage) {
-  std::ifstream file(PLIANT_SOURCE_DIR "/docs/guide/liquids.md");
+  std::ifstream file(test::in_tree("docs/guide/liquids.md"));
   std::stringstream page;
   page << file.rdbuf();
   std::string table = "| kind | density, kg/m^3 | viscosity, Pa s | surface tension, N/m |\n|---|---|---|---|\n";
@@ -34,7 +34,7 @@ TEST(KindsOfLiquid, AreThoseOfThePage) {
 }
 
 TEST(KindsOfLiquid, AreInTheTableOfMaterials) {
-  std::ifstream file(PLIANT_SOURCE_DIR "/docs/guide/materials.md");
+  std::ifstream file(test::in_tree("docs/guide/materials.md"));
   std::stringstream page;
   page << file.rdbuf();
   for (const LiquidKind& of : liquids()) {

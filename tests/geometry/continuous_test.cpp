@@ -289,7 +289,7 @@ struct Counts {
 
 template <bool edges>
 void check_queries(const char* kind) {
-  const std::string root = PLIANT_SHARED_DATA "/ccd/sample-queries";
+  const std::string root = test::in_shared_data("ccd/sample-queries");
   if (!std::filesystem::exists(root)) GTEST_SKIP() << "no query sets beside this tree";
   Counts sum;
   for (const validate::CollisionQuery& query : validate::read_query_sets(root, kind)) {

@@ -101,7 +101,7 @@ void coarsen(MeshCollider& collider) {
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names(std::begin(contact_scenes), std::end(contact_scenes));
-  for (const auto& entry : std::filesystem::directory_iterator(PLIANT_SOURCE_DIR "/scenes")) {
+  for (const auto& entry : std::filesystem::directory_iterator(test::in_tree("scenes"))) {
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
@@ -123,7 +123,7 @@ std::vector<std::string> case_names() {
 Case make_case(const std::string& name) {
   for (const SweepWay& way : sweep_ways())
     if (name == sweep_prefix + way.name) return {name, scene_of(way), sweep_frames};
-  Case found{name, read_scene(PLIANT_SOURCE_DIR "/scenes/" + name + ".json"), scene_frames};
+  Case found{name, read_scene(test::in_tree("scenes/" + name + ".json")), scene_frames};
   if (name.find('/') != std::string::npos) found.frames = contact_frames;
   if (name.rfind("tears/", 0) == 0 || name == "bags/seeping") found.frames = tearing_frames;
   for (MeshCollider& collider : found.scene.mesh_colliders) coarsen(collider);

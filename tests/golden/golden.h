@@ -11,7 +11,7 @@
 
 namespace pliant::golden {
 
-inline const char* const hash_file = PLIANT_SOURCE_DIR "/tests/golden/hashes.txt";
+inline const std::string hash_file = test::in_tree("tests/golden/hashes.txt");
 
 /// True if the environment has PLIANT_UPDATE_GOLDEN=1, which rewrites hashes.txt.
 inline bool updating() { return std::getenv("PLIANT_UPDATE_GOLDEN") != nullptr; }

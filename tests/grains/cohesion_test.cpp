@@ -173,7 +173,7 @@ std::string number(float value) {
 }
 
 TEST(KindsOfGrains, AreThoseOfThePage) {
-  std::ifstream file(PLIANT_SOURCE_DIR "/docs/guide/grains.md");
+  std::ifstream file(test::in_tree("docs/guide/grains.md"));
   std::stringstream page;
   page << file.rdbuf();
   std::string table = "| kind | density, kg/m^3 | friction | cohesion, Pa |\n|---|---|---|---|\n";

@@ -16,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string shared_data = PLIANT_SHARED_DATA;
-
 /// For each file that must be rejected, by its path in the collection: a part of the error message.
 const std::map<std::string, std::string> refused_files = {
     {"nasty_mesh/assimp/Cube.off", "is an OFF file"},
@@ -69,10 +67,10 @@ bool is_of_another_kind(const fs::path& path) {
 std::vector<std::string> all_files() {
   std::vector<std::string> files;
   for (const char* folder : {"nasty_mesh", "surface", "cloth"}) {
-    if (!fs::exists(shared_data + "/" + folder)) continue;
-    for (const auto& entry : fs::recursive_directory_iterator(shared_data + "/" + folder))
+    if (!fs::exists(test::in_shared_data(folder))) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(test::in_shared_data(folder)))
       if (entry.is_regular_file() && !is_of_another_kind(entry.path()))
-        files.push_back(fs::relative(entry.path(), shared_data).string());
+        files.push_back(fs::relative(entry.path(), test::in_shared_data("")).string());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -85,7 +83,7 @@ struct Row {
 /// The counts in the manifest, which another program made from the raw files.
 std::map<std::string, Row> manifest() {
   std::map<std::string, Row> rows;
-  std::ifstream in(shared_data + "/MANIFEST.tsv");
+  std::ifstream in(test::in_shared_data("MANIFEST.tsv"));
   for (std::string line; std::getline(in, line);) {
     std::vector<std::string> fields;
     std::stringstream cut(line);
@@ -101,14 +99,14 @@ std::map<std::string, Row> manifest() {
 
 TEST(MeshFiles, EachIsReadAsTheManifestCountsItOrRefusedForItsReason) {
   const std::vector<std::string> files = all_files();
-  if (files.empty()) GTEST_SKIP() << "the collection is not here: " << shared_data;
+  if (files.empty()) GTEST_SKIP() << "the collection is not here: " << test::in_shared_data("");
   const std::map<std::string, Row> rows = manifest();
   for (const std::string& name : files) {
     SCOPED_TRACE(name);
     const auto reason = refused_files.find(name);
     try {
-      const MeshFile raw = read_mesh_file(shared_data + "/" + name, as_it_is),
-                     mended = read_mesh_file(shared_data + "/" + name);
+      const MeshFile raw = read_mesh_file(test::in_shared_data(name), as_it_is),
+                     mended = read_mesh_file(test::in_shared_data(name));
       EXPECT_EQ(reason, refused_files.end()) << "was read though it should be refused";
       expect_sound(mended.mesh);
       const Row& row = rows.at(name);
@@ -125,14 +123,14 @@ TEST(MeshFiles, EachIsReadAsTheManifestCountsItOrRefusedForItsReason) {
         ADD_FAILURE() << error.what();
       else
         EXPECT_TRUE(contains(error.what(), reason->second));
-      EXPECT_TRUE(contains(error.what(), shared_data + "/" + name));
+      EXPECT_TRUE(contains(error.what(), test::in_shared_data(name)));
     }
   }
 }
 
 TEST(MeshFiles, TableNamesNoFileThatIsGone) {
   const std::vector<std::string> files = all_files();
-  if (files.empty()) GTEST_SKIP() << "the collection is not here: " << shared_data;
+  if (files.empty()) GTEST_SKIP() << "the collection is not here: " << test::in_shared_data("");
   for (const auto& [name, reason] : refused_files)
     EXPECT_TRUE(std::binary_search(files.begin(), files.end(), name)) << name;
 }
@@ -141,7 +139,7 @@ TEST(MeshFiles, ClothAndSurfacesHaveNothingGrave) {
   for (const std::string& name : all_files()) {
     if (name.find("nasty") == 0) continue;
     SCOPED_TRACE(name);
-    for (const Finding& finding : inspect(read_mesh(shared_data + "/" + name)))
+    for (const Finding& finding : inspect(read_mesh(test::in_shared_data(name))))
       EXPECT_FALSE(finding.grave) << finding.message;
   }
 }
@@ -155,9 +153,9 @@ TEST(MeshFiles, SelfIntersectionsAreThoseOfTheManifest) {
       {"surface/pbd/bunny_10k.obj", ""},
   };
   for (const auto& [name, places] : expected) {
-    if (!fs::exists(shared_data + "/" + name)) GTEST_SKIP() << "the collection is not here: " << shared_data;
+    if (!fs::exists(test::in_shared_data(name))) GTEST_SKIP() << "the collection is not here: " << test::in_shared_data("");
     std::string found;
-    for (const Finding& finding : inspect(read_mesh(shared_data + "/" + name)))
+    for (const Finding& finding : inspect(read_mesh(test::in_shared_data(name))))
       if (finding.message.find("passes through itself") == 0) found = finding.message;
     EXPECT_EQ(found.empty(), places.empty()) << name << ": " << found;
     EXPECT_TRUE(contains(found, places)) << name;
@@ -169,8 +167,8 @@ TEST(MeshFiles, SeamsCloseOnReading) {
   for (const char* name : {"nasty_mesh/assimp/cube_uv.ply", "nasty_mesh/mujoco/duplicate_vertices.stl",
                            "nasty_mesh/geometry-central/stl_box_binary.stl", "surface/mujoco/cube_cup.obj",
                            "nasty_mesh/mujoco/duplicate.obj"}) {
-    if (!fs::exists(shared_data + "/" + name)) GTEST_SKIP() << "the collection is not here: " << shared_data;
-    for (const Finding& finding : inspect(read_mesh(shared_data + "/" + name)))
+    if (!fs::exists(test::in_shared_data(name))) GTEST_SKIP() << "the collection is not here: " << test::in_shared_data("");
+    for (const Finding& finding : inspect(read_mesh(test::in_shared_data(name))))
       EXPECT_FALSE(contains(finding.message, "border")) << name;
   }
 }

@@ -20,7 +20,7 @@ namespace {
 
 std::vector<std::string> all_scenes() {
   std::vector<std::string> names;
-  const std::filesystem::path folder = PLIANT_SOURCE_DIR "/scenes";
+  const std::filesystem::path folder = test::in_tree("scenes");
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
     if (entry.path().extension() == ".json") names.push_back(std::filesystem::relative(entry.path(), folder).string());
   std::sort(names.begin(), names.end());
@@ -31,7 +31,7 @@ class Resume : public testing::TestWithParam<std::string> {};
 
 /// With PLIANT_RESUME_FRAMES=all a scene runs to its end and is saved ten times.
 TEST_P(Resume, EqualsTheRunThatNeverStopped) {
-  const Scene scene = read_scene(PLIANT_SOURCE_DIR "/scenes/" + GetParam());
+  const Scene scene = read_scene(test::in_tree("scenes/" + GetParam()));
   const bool all = std::getenv("PLIANT_RESUME_FRAMES") != nullptr;
   const int frames = all ? scene.frames : testing_support::fewer_if_sanitized(6, 3), saves = all ? 10 : 2;
   std::mt19937 random(static_cast<unsigned>(GetParam().size()) * 31 + GetParam()[0]);

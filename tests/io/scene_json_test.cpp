@@ -24,7 +24,7 @@ std::string json_message(const std::string& text) {
 std::vector<fs::path> suite() {
   std::vector<fs::path> files;
   std::error_code absent;
-  for (const auto& entry : fs::directory_iterator(PLIANT_SHARED_DATA "/json/JSONTestSuite", absent))
+  for (const auto& entry : fs::directory_iterator(test::in_shared_data("json/JSONTestSuite"), absent))
     files.push_back(entry.path());
   return files;
 }

@@ -285,7 +285,7 @@ TEST(SceneRead, ReportsWhatWasMendedInAMesh) {
 
 TEST(SceneRead, ReadsEverySceneOfTheProject) {
   int scenes = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(PLIANT_SOURCE_DIR "/scenes")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(test::in_tree("scenes"))) {
     if (entry.path().extension() != ".json") continue;
     SCOPED_TRACE(entry.path());
     const SceneFile file = read_scene_file(entry.path(), false);
@@ -356,7 +356,7 @@ TEST(SceneSchema, NamesEveryConstraintType) {
 
 class SceneDocument : public testing::Test {
  protected:
-  static constexpr const char* path = PLIANT_SOURCE_DIR "/docs/reference/scene-format.md";
+  const std::string path = test::in_tree("docs/reference/scene-format.md");
   static constexpr const char* begin = "<!-- reference: begin -->\n";
   static constexpr const char* end = "<!-- reference: end -->\n";
 };

@@ -40,7 +40,7 @@ inline Error scene_error(const std::string& text, const std::string& folder = ".
 inline std::string scene_message(const std::string& text) { return scene_error(text).what(); }
 
 /// A scene in which every field of the format occurs, except mesh files.
-inline std::string full_scene() { return text_of(PLIANT_SOURCE_DIR "/tests/io/every_field.json"); }
+inline std::string full_scene() { return text_of(test::in_tree("tests/io/every_field.json")); }
 
 /// The object of a name, which must be there.
 inline const Object& named(const Scene& scene, const std::string& name) {

@@ -299,7 +299,7 @@ TEST(TetrahedralFiles, NeverCrash) {
 
 /// Every real mesh is read. Where the meshes are not there, this says so; the tests above hold without them.
 TEST(TetrahedralFiles, OfResearchCodesAreRead) {
-  const fs::path folder = fs::path(PLIANT_SOURCE_DIR) / ".." / "shared" / "data" / "tet";
+  const fs::path folder = test::in_shared_data("tet");
   if (!fs::exists(folder)) GTEST_SKIP() << "the meshes are not there";
   int read = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -21,7 +21,7 @@
 namespace pliant {
 namespace {
 
-constexpr const char* arm_path = PLIANT_SOURCE_DIR "/tests/io/arm.urdf";
+const std::string arm_path = test::in_tree("tests/io/arm.urdf");
 
 /// Skips where the library was built without an XML reader.
 class Urdf : public testing::Test {
@@ -163,7 +163,7 @@ TEST_F(Urdf, MovesWhereItsMotorsDrive) {
   options.targets["elbow"] = 1;
   Scene scene;
   scene.gravity = {};
-  scene.add(read_urdf(PLIANT_SOURCE_DIR "/scenes/bodies/arm.urdf", options));
+  scene.add(read_urdf(test::in_tree("scenes/bodies/arm.urdf"), options));
   World world(scene);
   for (int frame = 0; frame < 120; ++frame) ASSERT_TRUE(world.step(scene.frame_time).ok());
   const Object& arm = scene.objects[0];
@@ -341,7 +341,7 @@ TEST_F(Urdf, RefusesTargetsThatNoMotorReaches) {
     try {
       static_cast<void>(
           parse_scene(R"({"objects": [{"name": "r", "urdf": {"file": "arm.urdf", "targets": [)" + target + "]}}]}",
-                      "x.json", PLIANT_SOURCE_DIR "/tests/io"));
+                      "x.json", test::in_tree("tests/io")));
     } catch (const Error& error) {
       return error.what();
     }
@@ -362,7 +362,7 @@ TEST_F(Urdf, IsAnObjectOfASceneFile) {
   const auto scene = [](const std::string& members) {
     return R"({"objects": [{"name": "robot", "colour": [0, 0, 1], "urdf": {"file": "arm.urdf")" + members + "}}]}";
   };
-  const std::string folder = PLIANT_SOURCE_DIR "/tests/io";
+  const std::string folder = test::in_tree("tests/io");
   const std::string targets =
       R"(, "targets": [{"joint": "shoulder", "angle": 90}, {"joint": "grip", "displacement": 0.05}])";
   const Object robot =

@@ -34,7 +34,7 @@ std::string table() {
 }
 
 TEST(Fabrics, DocumentedTableIsTheTruth) {
-  std::ifstream file(PLIANT_SOURCE_DIR "/docs/guide/materials.md");
+  std::ifstream file(test::in_tree("docs/guide/materials.md"));
   ASSERT_TRUE(file) << "docs/guide/materials.md is missing";
   std::stringstream text;
   text << file.rdbuf();

@@ -24,8 +24,8 @@ constexpr float speed = 4;  ///< of the fall [m/s]
 
 std::vector<std::string> mesh_paths() {
   std::vector<std::string> paths;
-  for (const char* folder : {"/cloth", "/surface"}) {
-    const std::filesystem::path root = PLIANT_SHARED_DATA + std::string(folder);
+  for (const char* folder : {"cloth", "surface"}) {
+    const std::filesystem::path root = test::in_shared_data(folder);
     if (!std::filesystem::is_directory(root)) continue;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
       const std::string suffix = entry.path().extension().string();

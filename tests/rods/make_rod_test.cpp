@@ -160,7 +160,7 @@ std::string number(float value) {
 
 TEST(RodMaterials, AreThoseOfTheGuide) {
   EXPECT_NE(refusal([] { rod_material("spaghetti"); }).find("bamboo"), std::string::npos);
-  std::ifstream file(PLIANT_SOURCE_DIR "/docs/guide/rods.md");
+  std::ifstream file(test::in_tree("docs/guide/rods.md"));
   std::ostringstream text;
   text << file.rdbuf();
   for (const RodMaterial& m : rod_materials()) {

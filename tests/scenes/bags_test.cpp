@@ -63,7 +63,7 @@ Count count(const World& world, std::vector<char>& was_over_rim) {
 
 TEST_P(Bag, HoldsWhatIsPouredIntoIt) {
   constexpr double spilled = 0.005;  // share
-  const Scene scene = read_scene(std::string(PLIANT_SOURCE_DIR "/scenes/") + GetParam() + ".json");
+  const Scene scene = read_scene(test::in_tree("scenes/" + std::string(GetParam()) + ".json"));
   World world(scene);
   std::vector<char> was_over_rim;
   Count now;
@@ -92,7 +92,7 @@ double height_above(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f&
 TEST(GrainBag, KeepsGrainsARadiusFromTheCloth) {
   constexpr double radius = 0.01;
   constexpr int frames = 60, settled = 20;
-  const Scene scene = read_scene(PLIANT_SOURCE_DIR "/scenes/bags/gravel.json");
+  const Scene scene = read_scene(test::in_tree("scenes/bags/gravel.json"));
   World world(scene);
   double least = INFINITY;
   for (int frame = 0; frame < frames; ++frame) {

@@ -40,7 +40,7 @@ Expectation expectation_of(const std::string& scene) {
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(PLIANT_SOURCE_DIR "/scenes/contact"))
+  for (const auto& entry : fs::directory_iterator(test::in_tree("scenes/contact")))
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ContactScene, testing::ValuesIn(scene_names()),
                          [](const auto& scene) { return scene.param; });
 
 TEST_P(ContactScene, CrossesNothingThatItDoesNotSay) {
-  const Scene scene = read_scene(PLIANT_SOURCE_DIR "/scenes/contact/" + GetParam() + ".json");
+  const Scene scene = read_scene(test::in_tree("scenes/contact/" + GetParam() + ".json"));
   const Expectation expected = expectation_of(GetParam());
   World world(scene);
   const Surfaces surfaces(scene);

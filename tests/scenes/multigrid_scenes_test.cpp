@@ -12,7 +12,7 @@ namespace {
 
 /// Cloth is pulled over the edge of a box until it slides off.
 TEST(MultigridScenes, PullClothOverAnEdgeWithoutTearingIt) {
-  Scene scene = read_scene(PLIANT_SOURCE_DIR "/scenes/contact/box_edge.json");
+  Scene scene = read_scene(test::in_tree("scenes/contact/box_edge.json"));
   scene.settings.sweep = Sweep::multigrid;
   scene.settings.substeps = 10;
   scene.settings.record_multipliers = true;

@@ -162,7 +162,7 @@ std::string number(float value) {
 }
 
 TEST(ElasticSolids, AreThoseOfTheGuide) {
-  std::ifstream file(PLIANT_SOURCE_DIR "/docs/guide/soft_bodies.md");
+  std::ifstream file(test::in_tree("docs/guide/soft_bodies.md"));
   std::ostringstream text;
   text << file.rdbuf();
   for (const ElasticSolid& s : elastic_solids()) {

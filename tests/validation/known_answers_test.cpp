@@ -17,7 +17,7 @@ class KnownAnswers : public testing::TestWithParam<std::string> {};
 TEST_P(KnownAnswers, EveryRowPasses) {
   Options options;
   options.name = GetParam();
-  const std::string queries = PLIANT_SHARED_DATA "/ccd/sample-queries";
+  const std::string queries = test::in_shared_data("ccd/sample-queries");
   if (std::filesystem::exists(queries)) options.queries = queries;
   const Result result = run_validation(options);
   EXPECT_FALSE(result.rows.empty());
@@ -33,7 +33,7 @@ std::vector<std::string> names() {
 TEST(QuerySets, AreRefusedWhereThereAreNone) {
   Options options;
   options.name = "collision";
-  options.queries = PLIANT_SOURCE_DIR "/scenes";
+  options.queries = test::in_tree("scenes");
   try {
     run_validation(options);
     FAIL();

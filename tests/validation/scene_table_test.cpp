@@ -36,7 +36,7 @@ TEST(DrapedMeshes, AMeshOfAnySizeStandsOnTheGroundUnderTheSheet) {
 }
 
 TEST(DrapedMeshes, AFolderWithoutMeshesIsRefused) {
-  for (const char* folder : {PLIANT_SOURCE_DIR "/docs", PLIANT_SOURCE_DIR "/no_such_folder"}) {
+  for (const std::string& folder : {test::in_tree("docs"), test::in_tree("no_such_folder")}) {
     try {
       draped_meshes(folder);
       FAIL() << folder;
@@ -47,7 +47,7 @@ TEST(DrapedMeshes, AFolderWithoutMeshesIsRefused) {
 }
 
 TEST(DrapedMeshes, EachMeshOfAFolderBecomesASceneInOrderOfItsPath) {
-  const std::vector<NamedScene> scenes = draped_meshes(PLIANT_SOURCE_DIR "/scenes/contact");
+  const std::vector<NamedScene> scenes = draped_meshes(test::in_tree("scenes/contact"));
   ASSERT_GE(scenes.size(), 2U);
   EXPECT_TRUE(std::is_sorted(scenes.begin(), scenes.end(),
                              [](const NamedScene& a, const NamedScene& b) { return a.name < b.name; }));
