@@ -169,6 +169,7 @@ void RunReport::add(const Report& report, const World& world) {
       milliseconds_.empty() ? report.iterations.smallest : std::min(iterations_.smallest, report.iterations.smallest);
   iterations_.largest = std::max(iterations_.largest, report.iterations.largest);
   add_pairs(pairs_, report.pairs);
+  lost_momentum_ += report.lost_momentum;
   if (report.widest_tie.gap * widest_tie_.length > widest_tie_.gap * report.widest_tie.length || widest_tie_.body < 0) {
     widest_tie_ = report.widest_tie;
     frame_of_tie_ = report.frame;
@@ -265,6 +266,8 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["constraints"] = constraints_by_type(world);
   json["contacts"] = last_.contacts;
   json["pairs"] = pairs_json(pairs_);
+  json["lost_momentum"] = {
+      {"filter", lost_momentum_.filter}, {"guards", lost_momentum_.guards}, {"sleep", lost_momentum_.sleep}};
   json["ms_per_frame"] = {{"median", median_milliseconds()}, {"p95", p95_milliseconds()}};
   json["phases_ms"] = Json::object();
   for (const auto& [phase, sum] : phase_sums_) json["phases_ms"][phase] = sum / frames;

@@ -61,7 +61,8 @@ class RunReport {
   std::int64_t frame_of_mean_ = 0, frame_of_largest_ = 0;
   TetrahedraMeasure worst_tetrahedra_;  ///< of the frame with the most inverted ones, or with the smallest
   std::int64_t frame_of_tetrahedra_ = 0;
-  PairReport pairs_;  ///< candidates, contacts and intersections of the last frame; other counts summed
+  LostMomentum lost_momentum_;  ///< of all frames
+  PairReport pairs_;            ///< candidates, contacts and intersections of the last frame; other counts summed
   std::vector<double> milliseconds_;
   std::map<std::string, double> phase_sums_;
   std::vector<std::string> hashes_;

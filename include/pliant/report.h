@@ -204,6 +204,21 @@ struct TensionActs {
   }
 };
 
+/// Linear momentum that a frame took from objects beyond what forces, constraints and contacts did. Of each substep and group of objects
+/// the length of the sum over particles, added up [kg m/s].
+struct LostMomentum {
+  double filter = 0;  ///< by truncated steps, where something fixed acts on the objects: elsewhere they take none
+  double guards = 0;  ///< by the guards of energy, which turn a share of the corrections into velocity
+  double sleep = 0;   ///< by rigid bodies that fall asleep
+
+  LostMomentum& operator+=(const LostMomentum& other) {
+    filter += other.filter;
+    guards += other.guards;
+    sleep += other.sleep;
+    return *this;
+  }
+};
+
 /// The result of a step. A step never throws, except for exceptions of the user's force fields.
 struct Report {
   std::int64_t frame = 0;
@@ -224,10 +239,11 @@ struct Report {
   ViscositySolves viscosity;                   ///< of liquids
   TensionActs tension;                         ///< of liquids
   FlowReport flow;                             ///< of liquids and grains whose particles come and go
-  int sleeping_bodies = 0;                     ///< rigid bodies that sleep at the end of the step (SleepOptions)
-  int sleeping_grains = 0;                     ///< grains that do
-  std::vector<Torn> torn;                      ///< objects that tore or were cut, by object
-  std::vector<JointBreak> broken_joints;       ///< joints that broke in this step, by object and index
+  LostMomentum lost_momentum;
+  int sleeping_bodies = 0;                ///< rigid bodies that sleep at the end of the step (SleepOptions)
+  int sleeping_grains = 0;                ///< grains that do
+  std::vector<Torn> torn;                 ///< objects that tore or were cut, by object
+  std::vector<JointBreak> broken_joints;  ///< joints that broke in this step, by object and index
   std::optional<NonFinite> nonfinite;
   bool stopped = false;  ///< true if World::stop_when ended the step before the frame was complete
   std::vector<std::string> warnings;

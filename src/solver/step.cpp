@@ -9,7 +9,7 @@
 //     solve         iterations x (constraints in the order of the sweep, acceleration, tethers, contacts)
 //     solve again   chains and contacts in turn, where surfaces press on one another; contacts yield a little
 //     limit         the few distances that are still far too long are shortened
-//     filter        steps that would make surfaces cross are truncated
+//     filter        steps that would make surfaces cross are truncated; of what is free, velocities are not
 //     guard         where the substep has become shorter, corrections may not increase energy
 //     yield         what is deformed too far keeps some of it (Plasticity)
 //     update        v from the corrections, x += displacement; restitution at colliders; joints of fast wheels
@@ -25,6 +25,7 @@
 
 #include "solver/bodies/body_solver.h"
 #include "solver/bodies/tie_gaps.h"
+#include "solver/free_objects.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -60,13 +61,16 @@ bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   solve(s);
   solve_again(s);
   limit(s);
+  s.own->free_is_known = false;
   if (s.bodies != nullptr) s.bodies->stop_passing(s);
   if (stops()) s.substeps = s.number + 1;
   filter(s);
   if (s.bodies != nullptr) s.bodies->hold_bodies(s);
+  take_from_velocities(s);
   if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
   guard_energy(s);
   guard_bodies(s);
+  note_guards(s);
   yield(s);
   if (!update(s)) return false;
   respond(s);

@@ -76,6 +76,9 @@ struct SubstepScratch {
   ContactSolver shape_contact_solver;
   std::vector<AlignedVector<float>> chains;  ///< for each thread that solves chains, room for the longest
   std::vector<float> demands;                ///< substeps that constraints demand (substep_law.h)
+  bool free_is_known = false;
+  FreeBodies free;  ///< objects on which nothing fixed acts in the substep (free_objects.h)
+  std::vector<VertexDisplacement> without_velocity;  ///< of displacements, what is not to become velocity
   ImpactScratch impacts;
   LimitScratch limit;                  ///< the limit of overstretch
   std::vector<RigidStep> rigid_steps;  ///< [object] if it is inflated (momentum.h)

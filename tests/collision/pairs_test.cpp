@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <random>
@@ -101,10 +102,16 @@ std::vector<PairStencil> all_pairs(const PairModel& model) {
   return pairs;
 }
 
+const auto none_free = []() -> const FreeBodies& {
+  static const FreeBodies none;
+  return none;
+};
+
 /// Bodies in given motion. It does with particles what a World does, without constraints.
 class Soup {
  public:
-  Soup(const std::vector<Body>& bodies, bool filter = true)
+  /// `are_free`: nothing fixed acts on bodies that can move, so the filter keeps their momentum.
+  Soup(const std::vector<Body>& bodies, bool filter = true, bool are_free = false)
       : bodies_(bodies),
         model_(model_of(bodies, filter)),
         pairs_(all_pairs(model_)),
@@ -115,6 +122,8 @@ class Soup {
         velocities_(positions_.size()),
         intersections_(model_.elements.triangles, model_.elements.vertex_count) {
     for (std::size_t i = 0; i < velocities_.size(); ++i) velocities_[i] = velocity_at(static_cast<int>(i));
+    for (int body = 0; are_free && body < static_cast<int>(bodies.size()); ++body)
+      free_.push_back({bodies[body].movable ? body : -1, 1e30f});
   }
 
   /// Makes a substep: predict, find contacts, project, filter, update; checks everything on the way.
@@ -137,9 +146,13 @@ class Soup {
     for (std::size_t i = 0; i < positions_.size(); ++i)
       if (positions_[i].w > 0 && random() % 4 == 0) disturb(displacements_[i], random_place(random, 4 * jitter * h));
     const std::vector<Record> solved = displacements_;
-    system_.filter(executor_, particles);
+    system_.filter(executor_, particles, find_free_);
     check_against_a_new_system(predicted, solved);
     check_distances();
+    if (std::none_of(bodies_.begin(), bodies_.end(), [](const Body& body) { return !body.movable; }))
+      check_momentum(solved);
+    for (const auto& [vertex, d] : system_.without_velocity()) disturb(remainders_[vertex], convert<double>(d));
+    without_velocity += system_.without_velocity().size();
     update();
   }
 
@@ -162,7 +175,7 @@ class Soup {
   }
 
   static constexpr double h = 1. / 1200;
-  std::size_t most_contacts = 0;
+  std::size_t most_contacts = 0, without_velocity = 0;
 
  private:
   Vec3d velocity_at(int vertex) const {
@@ -232,11 +245,14 @@ class Soup {
     for (std::size_t i = 0; i < fresh.contacts().size(); ++i)
       ASSERT_EQ(fresh.contacts()[i].point, system_.contacts()[i].point) << "in the same order";
     moved = solved;
-    fresh.filter(executor_, particles);
+    fresh.filter(executor_, particles, find_free_);
     for (std::size_t i = 0; i < moved.size(); ++i)
       ASSERT_TRUE(moved[i].x == displacements_[i].x && moved[i].y == displacements_[i].y &&
                   moved[i].z == displacements_[i].z)
           << "particle " << i;
+    ASSERT_EQ(fresh.without_velocity().size(), system_.without_velocity().size());
+    for (std::size_t i = 0; i < fresh.without_velocity().size(); ++i)
+      ASSERT_TRUE(fresh.without_velocity()[i] == system_.without_velocity()[i]) << "of " << i;
   }
 
   /// The positions of a pair's four vertices at the start and at the end.
@@ -261,6 +277,28 @@ class Soup {
     }
   }
 
+  /// What becomes velocity has the linear and angular momentum that was there before the filter, and no more energy.
+  void check_momentum(const std::vector<Record>& solved) {
+    if (free_.empty()) return;
+    std::vector<Record> wanted = displacements_;
+    for (const auto& [vertex, d] : system_.without_velocity()) disturb(wanted[vertex], convert<double>(-d));
+    Vec3d linear{}, angular{};
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const Vec3d was{double(solved[i].x), double(solved[i].y), double(solved[i].z)},
+          is{double(wanted[i].x), double(wanted[i].y), double(wanted[i].z)};
+      const Vec3d arm = place(static_cast<int>(i)) - place(0);
+      linear += is - was;
+      angular += cross(arm, is - was);
+      before += dot(was, was);
+      after += dot(is, is);
+    }
+    const double rounded = 3e-6 * std::sqrt(before);
+    ASSERT_LE(std::sqrt(dot(linear, linear)), rounded);
+    ASSERT_LE(std::sqrt(dot(angular, angular)), rounded);
+    ASSERT_LE(after, before * (1 + 1e-6));
+  }
+
   void update() {
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       Record &x = positions_[i], &d = displacements_[i], &r = remainders_[i];
@@ -277,6 +315,8 @@ class Soup {
   SurfaceContact system_;
   Executor executor_{1};
   bool first_ = true;
+  FreeBodies free_;
+  std::function<const FreeBodies&()> find_free_ = [this]() -> const FreeBodies& { return free_; };
   std::vector<Record> positions_, remainders_, displacements_;
   std::vector<Vec3d> velocities_;
   IntersectionFinder intersections_;
@@ -327,24 +367,34 @@ INSTANTIATE_TEST_SUITE_P(
         Way{"negative", 2, {}, {-30, -20, -40}, 2, 3, false}, Way{"head_on", 0, {}, {50, 50, 50}, 2, 4.0113, false}),
     [](const auto& named) { return named.param.name; });
 
-TEST_P(PairsOf, AreThoseOfBruteForceAndNothingCrosses) {
-  for (std::uint64_t seed = 1; seed <= (GetParam().bodies < 3 && GetParam().jitter > 0 ? 2u : 1u); ++seed) {
+/// Free bodies are the same but for the filter, so fewer substeps do.
+void expect_right_pairs_and_no_crossing(const Way& way, bool are_free) {
+  for (std::uint64_t seed = 1; seed <= (way.bodies < 3 && way.jitter > 0 && !are_free ? 2u : 1u); ++seed) {
     Random random(seed);
-    Soup soup(bodies_of(GetParam()));
+    Soup soup(bodies_of(way), true, are_free);
     ASSERT_EQ(soup.crossings(), 0u);
-    const int substeps = GetParam().at.y == 1e4 ? 200 : 40;  // in each, bodies move by half a rounding of their positions
-    for (int substep = 0; substep < substeps && soup.counts().unresolvable == 0 && !HasFatalFailure(); ++substep) {
-      soup.step(random, GetParam().jitter);
+    const int substeps =
+        (way.at.y == 1e4 ? 200 : 40) / (are_free ? 2 : 1);  // in each, bodies move by half a rounding of their positions
+    for (int substep = 0; substep < substeps && soup.counts().unresolvable == 0 && !testing::Test::HasFatalFailure();
+         ++substep) {
+      soup.step(random, way.jitter);
       // A kinematic body can catch what lies between it and another one; other pairs must always be resolvable.
-      ASSERT_TRUE(GetParam().immovable || soup.counts().unresolvable == 0);
-      const bool flat = GetParam().jitter == 0;  // then exact signs are those of zeros, which are slow to compute
+      ASSERT_TRUE(way.immovable || soup.counts().unresolvable == 0);
+      const bool flat = way.jitter == 0;  // then exact signs are those of zeros, which are slow to compute
       if (soup.counts().unresolvable == 0 && (!flat || substep == substeps - 1)) {
         ASSERT_EQ(soup.crossings(), 0u) << "seed " << seed << ", substep " << substep;
       }
     }
-    EXPECT_TRUE(GetParam().jitter == 0 || soup.most_contacts > 0);
+    EXPECT_TRUE(way.jitter == 0 || are_free || soup.most_contacts > 0);
+    if (are_free && way.jitter >= 10) {
+      EXPECT_GT(soup.without_velocity, 0u) << "the filter had nothing to do";
+    }
   }
 }
+
+TEST_P(PairsOf, AreThoseOfBruteForceAndNothingCrosses) { expect_right_pairs_and_no_crossing(GetParam(), false); }
+
+TEST_P(PairsOf, KeepTheirMomentumWhereNothingIsFixed) { expect_right_pairs_and_no_crossing(GetParam(), true); }
 
 TEST(Pairs, CrossWithoutTheFilter) {
   Random random(1);
@@ -399,7 +449,7 @@ TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
     const auto step = [&](SurfaceContact& system) {
       system.detect(executor, particles);
       for (Contact& contact : system.contacts()) project_contact(contact, particles.displacements);
-      system.filter(executor, particles);
+      system.filter(executor, particles, none_free);
       return system.counts().truncated;
     };
     SurfaceContact system(model);
@@ -447,7 +497,7 @@ TEST(Pairs, OutliveWhatIsNotFinite) {
       if (spoilt) displacements[7] = {0, bad, 0, 0};
       system.detect(executor, particles);
       for (Contact& contact : system.contacts()) project_contact(contact, particles.displacements);
-      system.filter(executor, particles);
+      system.filter(executor, particles, none_free);
       if (!spoilt) {
         for (const Record& d : displacements) ASSERT_TRUE(std::isfinite(d.y));
       }

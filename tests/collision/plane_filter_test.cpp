@@ -84,7 +84,7 @@ Separation filter(Case& c, std::array<float, 4>& shares) {
   SeparatingSlab slab;
   shares = {1, 1, 1, 1};
   const PairDistance at = pair_distance(c.pair, c.positions);
-  const Separation found = plan_separation(c.pair, at, c.positions, c.displacements, c.least, slab, shares);
+  const Separation found = plan_separation(c.pair, at, c.positions, c.displacements, {}, c.least, slab, shares);
   for (int i = 0; i < 4; ++i)
     if (found == Separation::planned && ends_beyond(slab, i, c.positions, c.displacements, shares[i])) shares[i] = 0;
   for (int i = 0; i < 4; ++i) {

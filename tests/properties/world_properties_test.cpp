@@ -59,7 +59,6 @@ RC_GTEST_PROP(Worlds, GoOnFromTheirFile, ()) {
 RC_GTEST_PROP(Worlds, WithoutGravityKeepTheirMomentum, ()) {
   Scene scene = small_scene();
   scene.gravity = {};
-  scene.settings.contact_filter = false;  // the filter truncates steps of single vertices, which changes momentum
   scene.colliders.clear();
   for (Object& object : scene.objects) {
     object.pins.clear();

@@ -11,10 +11,11 @@ namespace {
 
 constexpr double nearest_to_a_side = 0.1, largest_slab = 0.98;
 
-/// Returns the position at the substep's end, rounded as the State stores it, relative to the start of particle `origin`.
-Vec3d end_of(const Record& x, const Record& d, float share, const Record& origin) {
-  const float ex = x.x + d.x * share, ey = x.y + d.y * share, ez = x.z + d.z * share;
-  return {double(ex) - double(origin.x), double(ey) - double(origin.y), double(ez) - double(origin.z)};
+/// Returns the position at the substep's end in the frame, rounded as the State stores it, relative to the start of particle `origin`.
+Vec3d end_of(const Record& x, const Record& d, const Vec3f& frame, const Record& origin) {
+  const float ex = x.x + d.x, ey = x.y + d.y, ez = x.z + d.z;
+  return {(double(ex) - double(frame.x)) - double(origin.x), (double(ey) - double(frame.y)) - double(origin.y),
+          (double(ez) - double(frame.z)) - double(origin.z)};
 }
 
 Vec3d start_of(const Record& x, const Record& origin) {
@@ -31,13 +32,14 @@ struct Heights {
   double first_fixed_low = 1e300, second_fixed_high = -1e300;  // extreme heights of kinematic particles
 };
 
-Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* positions, const Record* displacements) {
+Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* positions, const Record* displacements,
+                   const Vec3f& frame) {
   Heights h;
   const Record& origin = positions[pair.vertex[0]];
   for (int i = 0; i < 4; ++i) {
     const Record &x = positions[pair.vertex[i]], &d = displacements[pair.vertex[i]];
     h.start[i] = dot(normal, start_of(x, origin));
-    h.end[i] = dot(normal, end_of(x, d, 1, origin));
+    h.end[i] = dot(normal, end_of(x, d, frame, origin));
     if (i < pair.first_side) {
       h.lowest_first = std::min(h.lowest_first, h.start[i]);
       h.lowest_first_ever = std::min(h.lowest_first_ever, std::min(h.start[i], h.end[i]));
@@ -56,8 +58,9 @@ Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* p
 }  // namespace
 
 Separation plan_separation(const PairStencil& pair, const PairDistance& at, const Record* positions,
-                           const Record* displacements, double least, SeparatingSlab& slab, std::array<float, 4>& shares) {
-  const Heights h = heights_of(pair, at.normal, positions, displacements);
+                           const Record* displacements, const Vec3f& frame, double least, SeparatingSlab& slab,
+                           std::array<float, 4>& shares) {
+  const Heights h = heights_of(pair, at.normal, positions, displacements, frame);
   const double gap = h.lowest_first - h.highest_second;
   if (!(gap > 0)) return Separation::unresolvable;
   const double thickness = std::min(least, largest_slab * gap), half = 0.5 * thickness;
@@ -71,7 +74,7 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
   // Kinematic particles cannot be limited, so the plane gives way to them.
   middle = std::min(middle, h.first_fixed_low - half);
   middle = std::max(middle, h.second_fixed_high + half);
-  slab = {pair, at.normal, middle + half, middle - half};
+  slab = {pair, at.normal, frame, at.weight, gap, thickness, middle + half, middle - half};
   // Rounding tolerance: a particle that exceeds its limit by no more than this counts as on its side.
   const double slop = 1e-14 * (std::abs(middle) + std::abs(h.lowest_first) + std::abs(h.highest_second) + half);
   bool unresolvable = false;
@@ -95,7 +98,8 @@ bool ends_beyond(const SeparatingSlab& slab, int which, const Record* positions,
   const std::int32_t vertex = slab.pair.vertex[which];
   const Record& x = positions[vertex];
   if (!(x.w > 0)) return false;
-  const double end = dot(slab.normal, end_of(x, displacements[vertex], share, positions[slab.pair.vertex[0]]));
+  const Record d = truncated(displacements[vertex], slab.frame, share);
+  const double end = dot(slab.normal, end_of(x, d, slab.frame, positions[slab.pair.vertex[0]]));
   return which < slab.pair.first_side ? end < slab.above : end > slab.below;
 }
 

@@ -14,7 +14,11 @@ namespace pliant {
 struct SeparatingSlab {
   PairStencil pair;
   Vec3d normal{};
-  double above = 0, below = 0;  ///< heights along the normal above the pair's first particle at the start [m]
+  Vec3f frame{};                   ///< displacement of the frame of reference in which the plane stands still [m]
+  std::array<double, 4> weight{};  ///< of the closest points at the start, as in PairDistance
+  double gap = 0;                  ///< along the normal at the start [m]
+  double thickness = 0;            ///< the smallest gap that the filter permits [m]
+  double above = 0, below = 0;     ///< heights along the normal above the pair's first particle at the start [m]
 };
 
 /// The result of planning a separating margin for a pair.
@@ -24,10 +28,17 @@ enum class Separation {
   unresolvable  ///< no plane separates the pair: it touches at the start, or a kinematic vertex moves too far
 };
 
+/// The displacement of which only a share of its motion in a frame of reference is left.
+inline Record truncated(const Record& d, const Vec3f& frame, float share) {
+  if (share == 1) return d;
+  return {frame.x + (d.x - frame.x) * share, frame.y + (d.y - frame.y) * share, frame.z + (d.z - frame.z) * share, 0};
+}
+
 /// Computes the separating margin of a pair at distance `at`, of thickness min(least, 0.98 gap), and for each particle
-/// the share of its step that stays on its side (1 for zero inverse mass). Steps are those of rounded positions.
+/// the share of its step in the frame that stays on its side (1 for zero inverse mass). Steps are those of rounded positions.
 Separation plan_separation(const PairStencil& pair, const PairDistance& at, const Record* positions,
-                           const Record* displacements, double least, SeparatingSlab& slab, std::array<float, 4>& shares);
+                           const Record* displacements, const Vec3f& frame, double least, SeparatingSlab& slab,
+                           std::array<float, 4>& shares);
 
 /// True if particle `which` of the pair ends on the wrong side of its limit, after rounding, when its displacement is
 /// scaled by `share`.

@@ -181,7 +181,8 @@ void SurfaceContact::limit_untangling(Record* velocities, FunctionRef<Vec3f(int 
 
 // ---------------------------------------------------------------- filter
 
-void SurfaceContact::filter(Executor& executor, const PairParticles& particles) {
+void SurfaceContact::filter(Executor& executor, const PairParticles& particles,
+                            FunctionRef<const FreeBodies&()> find_free) {
   pushing_ = 0;
   has_impacts_ = false;
   births_ = particles.births;
@@ -190,7 +191,8 @@ void SurfaceContact::filter(Executor& executor, const PairParticles& particles) 
     has_impacts_ = has_impacts_ || is_impact(contact);
   }
   const auto exempt = [&](const PairStencil& pair) { return is_exempt(pair); };
-  is_bounded_ = model_.filter ? filter_.apply(executor, lists_, particles, exempt) : lists_.measure(executor, particles);
+  is_bounded_ =
+      model_.filter ? filter_.apply(executor, lists_, particles, find_free, exempt) : lists_.measure(executor, particles);
   if (is_bounded_) lists_.advance();
 }
 

@@ -50,8 +50,15 @@ class SurfaceContact {
   /// so that the filter may fail, and the dynamic bodies in contact with them. Then project their contacts again, which
   /// propagates the push. Returns false if there are none.
   bool find_overrun(const PairParticles& particles, std::vector<char>& is_overrun) const;
-  /// Truncates displacements that would make surfaces cross.
-  void filter(Executor& executor, const PairParticles& particles);
+  /// Truncates displacements that would make surfaces cross. Of free bodies it keeps the momentum: without_velocity().
+  /// `find_free` is called if any step is truncated.
+  void filter(Executor& executor, const PairParticles& particles, FunctionRef<const FreeBodies&()> find_free);
+  /// The displacement, in the last filter, of the frame in which steps of a body were truncated [m].
+  const Vec3f& frame_of(int body) const { return filter_.frames().of_body(body); }
+  /// What is not to become velocity of the displacements after the filter.
+  const std::vector<VertexDisplacement>& without_velocity() const { return filter_.without_velocity(); }
+  /// The momentum that the filter took from what is not free [kg m/s].
+  const Vec3d& lost_momentum() const { return filter_.lost_momentum(); }
   /// Measures the remaining penetration of contacts; call it after a frame's last substep.
   void measure_overlaps(const PairParticles& particles);
   /// True if a contact of this substep is an impact (is_impact); valid after the filter.

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "collision/narrow/contact.h"
+#include "core/islands.h"
 #include "model/model.h"
 #include "solver/bodies/body_links.h"
 #include "solver/bodies/contact_bodies.h"
-#include "solver/bodies/islands.h"
 
 namespace pliant {
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solver/bodies/body_math.h"
+#include "solver/free_objects.h"
 #include "solver/substep.h"
 
 namespace pliant {
@@ -26,20 +27,30 @@ std::string name_of(const Model& model, const TouchedBody& body) {
   return words_of_body(object.bodies, body.body, object.name);
 }
 
-/// Puts a body, and with both sides the points, back to where they were at the substep's start.
+/// Puts a point back to where it was at the substep's start. If nothing fixed acts on it, it keeps its velocity.
+void stay(Substep& s, int point) {
+  Record& d = s.work.displacements[at(point)];
+  const Record& start = s.state.remainders[at(point)];
+  const Vec3f moved = xyz(start) - xyz(d);
+  if (moved != Vec3f{} && is_free(s, s.model.object_of(point))) s.own->without_velocity.emplace_back(point, moved);
+  d = start;
+}
+
+/// Puts a body, and with both sides the points, back to where they were at the substep's start. Without the points, it goes with the frame in which
+/// their steps were truncated.
 void take_back(Substep& s, const BodySolids& solids, const Contact& contact, bool both_sides) {
   const TouchedBody& body = solids.body_of(contact);
   if (s.state.positions[at(body.particle)].w > 0) {
     const std::size_t frame = at(body.frame);
     const Quatf& start = solids.pose_at_start(solids.number_of(contact)).rotation;
-    s.work.displacements[at(body.particle)] = s.state.remainders[at(body.particle)];
+    const Vec3f moved = both_sides || !s.has_pairs() ? Vec3f{} : s.pairs->frame_of(body.object);
+    s.work.displacements[at(body.particle)] = plus(s.state.remainders[at(body.particle)], moved);
     s.state.frames.orientations[frame] = {start.x, start.y, start.z, start.w};
     s.work.frames.corrections[frame] = plus({}, -xyz(s.work.frames.predicted[frame]));
   }
   if (!both_sides) return;
   for (std::size_t i = 0; i < contact.point.size(); ++i)
-    if (contact.weight[i] != 0 && s.state.positions[at(contact.point[i])].w > 0)
-      s.work.displacements[at(contact.point[i])] = s.state.remainders[at(contact.point[i])];
+    if (contact.weight[i] != 0 && s.state.positions[at(contact.point[i])].w > 0) stay(s, contact.point[i]);
 }
 
 /// What else presses on a vertex that a body presses on; empty if nothing does.
@@ -124,15 +135,46 @@ std::string cause_of(const Substep& s, int vertex, const std::string& other) {
 
 }  // namespace
 
+void BodyPassing::begin_alone(const Substep& s, const BodySolids& solids) {
+  before_alone_.clear();
+  before_alone_.reserve(solids.bodies().size());
+  for (const TouchedBody& body : solids.bodies())
+    before_alone_.emplace_back(s.work.displacements[at(body.particle)], s.work.frames.corrections[at(body.frame)]);
+}
+
+/// What moves bodies alone takes momentum from them. Of those on which nothing fixed acts it moves positions, and no velocities.
+void BodyPassing::end_alone(Substep& s, const BodySolids& solids) {
+  Vec3d lost{};
+  for (std::size_t b = 0; b < before_alone_.size(); ++b) {
+    const TouchedBody& body = solids.bodies()[b];
+    const auto& [displacement, correction] = before_alone_[b];
+    const Vec3f moved = xyz(s.work.displacements[at(body.particle)]) - xyz(displacement);
+    if (!is_free(s, body.object)) {
+      if (const float w = s.state.positions[at(body.particle)].w; w > 0)
+        lost += convert<double>(moved) * (1 / (double(w) * double(s.h)));
+      continue;
+    }
+    if (moved != Vec3f{}) s.own->without_velocity.emplace_back(body.particle, moved);
+    Record& corrections = s.work.frames.corrections[at(body.frame)];
+    Record& predicted = s.work.frames.predicted[at(body.frame)];
+    predicted = plus(predicted, xyz(corrections) - xyz(correction));
+    corrections = correction;
+  }
+  before_alone_.clear();
+  s.report.lost_momentum.filter += length(lost);
+}
+
 void BodyPassing::stop_passing(Substep& s, const Parts& parts) {
   const Stopwatch stopwatch(s.context.executor.timings(), "bodies: filter");
   is_done_ = false;
   for (int round = 0; round < most_rounds_of_passing && !is_done_; ++round) {
+    if (round == rounds_of_both_sides) begin_alone(s, parts.solids);
     const Stop by = round < rounds_of_both_sides ? Stop::both_sides
                     : round < rounds_of_impulses ? Stop::bodies
                                                  : Stop::back;
     is_done_ = !stop_once(s, parts, round == 0, by);
   }
+  end_alone(s, parts.solids);
   kept_.clear();
   for (const SurfaceTile& tile : parts.surfaces.tiles())
     if (!tile.solids.empty())
@@ -155,9 +197,11 @@ bool BodyPassing::has_moved(const Substep& s, const SurfaceTiles& surfaces) cons
 
 void BodyPassing::hold_bodies(Substep& s, const Parts& parts) {
   const Stopwatch stopwatch(s.context.executor.timings(), "bodies: filter");
-  bool goes_on = !is_done_ || has_moved(s, parts.surfaces);
+  bool goes_on = !is_done_ || has_moved(s, parts.surfaces) || !s.own->without_velocity.empty();
+  begin_alone(s, parts.solids);
   for (int round = 0; round < most_rounds_of_holding && goes_on; ++round)
     goes_on = stop_once(s, parts, round == 0, round < rounds_of_both_sides ? Stop::bodies : Stop::bodies_back);
+  end_alone(s, parts.solids);
   filter_.end_substep(!goes_on);
 }
 

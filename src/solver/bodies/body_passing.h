@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/bodies/passing_filter.h"
@@ -43,6 +44,8 @@ class BodyPassing {
   enum class Stop { both_sides, bodies, back, bodies_back };
 
   bool stop_once(Substep& s, const Parts& parts, bool is_first, Stop by);
+  void begin_alone(const Substep& s, const BodySolids& solids);
+  void end_alone(Substep& s, const BodySolids& solids);
   void note_moved(const Substep& s, const Parts& parts, std::size_t first);
   bool has_moved(const Substep& s, const SurfaceTiles& surfaces) const;
 
@@ -50,8 +53,10 @@ class BodyPassing {
   std::vector<char> moved_vertices_, moved_solids_;  ///< by the last round
   std::vector<int> listed_vertices_;                 ///< the former as a list
   float farthest_ = 0;                               ///< largest displacement of these [m]
-  std::vector<Record> kept_;                         ///< displacements of tiles near solids after stop_passing
-  bool is_done_ = false;                             ///< stop_passing has left nothing that would pass
+  /// Where bodies were before they were moved alone, by displacement and correction of their rotation.
+  std::vector<std::pair<Record, Record>> before_alone_;
+  std::vector<Record> kept_;  ///< displacements of tiles near solids after stop_passing
+  bool is_done_ = false;      ///< stop_passing has left nothing that would pass
 };
 
 }  // namespace pliant

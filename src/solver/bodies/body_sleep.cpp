@@ -217,14 +217,18 @@ int BodySleep::fall_asleep(Substep& s, const Frame& frame) {
     if (is_free(body) && !(rest_time(s, body) >= s.context.sleep.time && rest_time(s, body) > 0))
       is_awake[at(islands_.find(body))] = 1;
   auto sleeping = static_cast<int>(held_.all().size());
+  Vec3d lost{};
   for (int body = 0; body < count(); ++body) {
     if (!is_free(body) || is_awake[at(islands_.find(body))] != 0) continue;
     const BodyPlace& place = bodies_->places()[at(body)];
     rest_time(s, body) = asleep;
+    lost += convert<double>(xyz(s.state.velocities[at(place.particle)])) *
+            (1 / double(s.state.positions[at(place.particle)].w));
     s.state.remainders[at(place.particle)] = s.state.velocities[at(place.particle)] = {};
     s.state.frames.angular_velocities[at(place.frame)] = {};
     ++sleeping;
   }
+  s.report.lost_momentum.sleep += length(lost);
   return sleeping;
 }
 

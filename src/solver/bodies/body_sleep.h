@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/islands.h"
 #include "model/model.h"
 #include "pliant/state.h"
 #include "solver/bodies/body_islands.h"
 #include "solver/bodies/contact_bodies.h"
 #include "solver/bodies/held_bodies.h"
-#include "solver/bodies/islands.h"
 
 namespace pliant {
 

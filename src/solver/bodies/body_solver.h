@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "collision/narrow/contact.h"
+#include "core/islands.h"
 #include "model/model.h"
 #include "solver/bodies/body_islands.h"
 #include "solver/bodies/body_motions.h"
@@ -17,7 +18,6 @@
 #include "solver/bodies/contact_bodies.h"
 #include "solver/bodies/depenetration.h"
 #include "solver/bodies/frame_contacts.h"
-#include "solver/bodies/islands.h"
 #include "solver/bodies/manifold_blocks.h"
 #include "solver/bodies/manifolds.h"
 #include "solver/bodies/velocity_shares.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "constraints/registry.h"
-#include "solver/bodies/islands.h"
+#include "core/islands.h"
 #include "solver/bodies/rod_bundle.h"
 #include "solver/visit.h"
 

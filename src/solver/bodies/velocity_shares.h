@@ -12,6 +12,7 @@ class VelocityShares {
  public:
   /// Sets all shares to 1.
   void clear() { of_object_.clear(); }
+  bool are_one() const { return of_object_.empty(); }
 
   void set_points(const Model& model, int object, float share) { of(model, object).points = share; }
 

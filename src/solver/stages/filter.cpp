@@ -1,4 +1,6 @@
+#include "math/vector.h"
 #include "solver/drivers/contacts.h"
+#include "solver/free_objects.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -20,7 +22,10 @@ void filter(Substep& s) {
   std::vector<char> is_overrun;
   for (int round = 0; round < most_rounds_of_contacts && pairs.find_overrun(all_particles(s), is_overrun); ++round)
     project_contacts_of(s, "solve: contacts among surfaces", is_overrun, 0);
-  pairs.filter(s.context.executor, all_particles(s));
+  pairs.filter(s.context.executor, all_particles(s), [&]() -> const FreeBodies& { return free_objects(s); });
+  s.report.lost_momentum.filter += length(pairs.lost_momentum());
+  s.own->without_velocity.insert(s.own->without_velocity.end(), pairs.without_velocity().begin(),
+                                 pairs.without_velocity().end());
   if (s.is_last() || ends_quarter(s)) pairs.measure_overlaps(all_particles(s));
 }
 

@@ -155,6 +155,7 @@ void add(Substep& s, Report& sum) {
   sum.substeps = std::max(sum.substeps, s.made);
   sum.contacts += own.contacts;
   std::move(own.convergence.begin(), own.convergence.end(), std::back_inserter(sum.convergence));
+  sum.lost_momentum += own.lost_momentum;
   sum.sleeping_bodies += own.sleeping_bodies;
   std::move(own.broken_joints.begin(), own.broken_joints.end(), std::back_inserter(sum.broken_joints));
   std::move(own.warnings.begin(), own.warnings.end(), std::back_inserter(sum.warnings));

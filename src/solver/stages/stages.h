@@ -44,6 +44,9 @@ void guard_energy(Substep& s);
 /// The same for each set of objects that are in contact with rigid bodies (stages/guard_bodies.cpp).
 void guard_bodies(Substep& s);
 
+/// After both guards: adds to the Report what momentum they take (stages/note_guards.cpp).
+void note_guards(Substep& s);
+
 /// Rest data of plastic constraints follow what is deformed too far.
 void yield(Substep& s);
 

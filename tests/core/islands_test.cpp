@@ -1,5 +1,5 @@
 // Tests the union of islands against a search by brute force.
-#include "solver/bodies/islands.h"
+#include "core/islands.h"
 
 #include <gtest/gtest.h>
 

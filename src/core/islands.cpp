@@ -1,4 +1,4 @@
-#include "solver/bodies/islands.h"
+#include "core/islands.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,0 +1,148 @@
+#include "solver/free_objects.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "core/islands.h"
+#include "math/functions.h"
+#include "solver/bodies/body_math.h"
+#include "solver/bodies/body_solver.h"
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+/// Islands of objects that touch, and which of the objects something fixed acts on.
+class TouchingObjects {
+ public:
+  explicit TouchingObjects(const Substep& s) : s_(s), is_held_(s.model.objects.size(), 1) {
+    islands_.reset(static_cast<int>(is_held_.size()));
+    for_objects(s, [&](int object) { is_held_[at(object)] = 0; });
+  }
+
+  void hold(int object) { is_held_[at(object)] = 1; }
+  void touch_colliders() {
+    for_each_tile(s_, [&](int task) {
+      if (!s_.work.tiles[at(task)].contacts.empty()) hold(s_.model.tiles()[at(task)].object);
+    });
+    for (const Contact& contact : s_.own->shape_contacts) hold(s_.model.object_of(contact.point[0]));
+  }
+  void touch(const std::vector<Contact>& surfaces) {
+    for (const Contact& contact : surfaces)
+      for (std::size_t i = 1; i < contact.point.size(); ++i)
+        if (contact.weight[i] != 0)
+          islands_.unite(s_.model.object_of(contact.point[0]), s_.model.object_of(contact.point[i]));
+  }
+  void touch(BodySolver& bodies) {
+    for (const BodyContact& contact : bodies.contacts())
+      for (const int owner : {contact.a.owner, contact.b.owner})
+        if (owner >= 0) hold(owner);
+    for (const Contact& contact : bodies.point_contacts())
+      islands_.unite(s_.model.object_of(contact.point[0]), bodies.touched_bodies()[at(bodies.body_of(contact))].object);
+  }
+
+  /// [object] the first of its island, or -1 if one of the island is held.
+  std::vector<int> groups() {
+    std::vector<char> is_held(is_held_.size(), 0);
+    for (int object = 0; object < islands_.size(); ++object)
+      if (is_held_[at(object)] != 0) is_held[at(islands_.find(object))] = 1;
+    for (int object = 0; object < islands_.size();
+         ++object)  // all their particles are read, so where nothing else holds them
+      if (char& held = is_held[at(islands_.find(object))]; held == 0) held = static_cast<char>(has_fixed(object));
+    std::vector<int> group;
+    group.reserve(is_held.size());
+    for (int object = 0; object < islands_.size(); ++object) {
+      const int first = islands_.find(object);
+      group.push_back(is_held[at(first)] != 0 ? -1 : first);
+    }
+    return group;
+  }
+
+ private:
+  bool has_fixed(int object) const {
+    const AdvanceArguments a = object_particles(s_, object);
+    return s_.model.objects[at(object)].is_collider ||
+           std::any_of(a.positions + a.first, a.positions + a.last, [](const Record& x) { return !(x.w > 0); });
+  }
+
+  const Substep& s_;
+  Islands islands_;
+  std::vector<char> is_held_;  ///< [object]
+};
+
+/// The distance of two boxes along the axis on which they are farthest apart [m].
+float distance(const PointBounds& a, const BoundingBox<float>& b) {
+  const Vec3f apart = max(xyz(a.low) - b.high, b.low - xyz(a.high));
+  return max(max(apart.x, apart.y), apart.z);
+}
+
+/// How high a box lies above a half-space y <= 0 [m].
+float height(const PointBounds& box, const Pose<float>& pose) {
+  float lowest = 1e30f;
+  for (int corner = 0; corner < 8; ++corner)
+    lowest =
+        min(lowest, to_local(pose, {(corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
+                                    (corner & 4) != 0 ? box.high.z : box.low.z})
+                        .y);
+  return lowest;
+}
+
+/// The least distance of a box from a solid in the substep [m]; infinite where they do not meet.
+float distance(const CompiledObject& object, const PointBounds& box, const MovingCollider& solid) {
+  if (solid.field != nullptr && ((object.groups & solid.mask) == 0 || (solid.groups & object.mask) == 0)) return 1e30f;
+  if (solid.field == nullptr && solid.shape.kind == ShapeKind::plane)
+    return min(height(box, solid.before), height(box, solid.after)) - solid.thickness;
+  return distance(box, solid.swept);
+}
+
+/// Where a tile has less room to colliders, or to rigid bodies of other groups, than the free object, takes that. Particles have their thickness.
+void take_room(const Substep& s, int task, FreeBodies& free) {
+  const PointBounds& box = s.work.tiles[at(task)].bounds;
+  const CompiledObject& object = object_of(s, task);
+  FreeBody& of = free[at(s.model.tiles()[at(task)].object)];
+  const auto take = [&](const MovingCollider& solid) {
+    of.room = min(of.room, distance(object, box, solid) - object.thickness);
+  };
+  for (const MovingCollider& collider : s.own->colliders) take(collider);
+  if (s.bodies == nullptr) return;
+  const BodySolids& solids = s.bodies->solids();
+  for (std::size_t i = 0; i < solids.moving().size(); ++i)
+    if (free[at(solids.bodies()[at(solids.body_of_solid()[i])].object)].group != of.group) take(solids.moving()[i]);
+}
+
+FreeBodies find_free_objects(Substep& s) {
+  TouchingObjects touching(s);
+  touching.touch_colliders();
+  if (s.has_pairs()) touching.touch(s.pairs->contacts());
+  if (s.bodies != nullptr) touching.touch(*s.bodies);
+  const std::vector<int> groups = touching.groups();
+  FreeBodies free;
+  free.reserve(groups.size());
+  for (const int group : groups) free.push_back({group, 1e30f});
+  for_each_tile(s, [&](int task) {
+    if (free[at(s.model.tiles()[at(task)].object)].group >= 0) take_room(s, task, free);
+  });
+  return free;
+}
+
+}  // namespace
+
+const FreeBodies& free_objects(Substep& s) {
+  if (!s.own->free_is_known) s.own->free = find_free_objects(s);
+  s.own->free_is_known = true;
+  return s.own->free;
+}
+
+bool is_free(Substep& s, int object) { return free_objects(s)[at(object)].group >= 0; }
+
+void take_from_velocities(Substep& s) {
+  for (const auto& [particle, d] : s.own->without_velocity) {
+    Record& r = s.state.remainders[at(particle)];
+    r = {r.x + d.x, r.y + d.y, r.z + d.z, r.w};
+  }
+  s.own->without_velocity.clear();
+}
+
+}  // namespace pliant
