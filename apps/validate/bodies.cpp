@@ -102,6 +102,19 @@ Vec3f slid(double degrees, double speed, int frames) {
   return world.object(0).positions()[0];
 }
 
+/// The fastest speed after a frame of a box that friction holds [m/s].
+double fastest_on_incline() {
+  Scene scene = with_ground(0.9, 0, 40);
+  scene.add(with_friction(make_body({{Box{}}}, at({0, 0.5f, 0})), 0.9));
+  World world(scene);
+  double fastest = 0;
+  for (int i = 0; i < 30; ++i) {
+    world.step(frame_time);
+    fastest = std::max(fastest, length_of(world.object(0).velocities()[0]));
+  }
+  return fastest;
+}
+
 /// Where a solid is after it has been pushed along x for 2 s, on a plane or on a flat mesh with edges every 0.3 m.
 Vec3f pushed(const SolidShape& shape, bool is_on_mesh) {
   Scene scene = with_ground(0.1);
@@ -135,6 +148,8 @@ void body_friction_rows(Result& result) {
                           "friction 0.6; moves by 2 cm within 5 s"));
   rows.push_back(at_most("bodies: engine, creep of a box on an incline of 29 degrees", 1e-3,
                          std::fabs(static_cast<double>(slid(29, 0, 600).x)), "m", "friction 0.6, 10 s"));
+  rows.push_back(at_most("bodies: engine, speed of a box that begins at rest on an incline of 40 degrees", 1e-3,
+                         fastest_on_incline(), "m/s", "friction 0.9, half a second"));
   const double a = standard_gravity * (std::sin(40 * pi / 180) - 0.6 * std::cos(40 * pi / 180));
   rows.push_back(relative("bodies: engine, way of a box on an incline of 40 degrees", a * 2,
                           static_cast<double>(slid(40, 0, 120).x), 1e-2, "m",
@@ -287,6 +302,7 @@ void body_rows(Result& result, bool) {
   body_friction_rows(result);
   body_mesh_rows(result);
   body_impact_rows(result);
+  impact_of_body_rows(result);
   rest_rows(result);
 }
 

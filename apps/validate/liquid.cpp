@@ -242,6 +242,7 @@ void liquid_rows(Result& result, bool) {
   add_dam_rows(result);
   column_rows(result);
   momentum_rows_of_liquid(result);
+  overlapping_liquid_rows(result);
   viscous_liquid_rows(result);
 }
 

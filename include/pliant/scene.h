@@ -228,7 +228,8 @@ struct Settings {
   /// The least number of substeps of a frame where they follow the State, rounded up to a multiple of four; up to
   /// most_substeps. 0: 12, or 8 for cloth that only hangs by tethers. No effect elsewhere.
   int least_substeps = 0;
-  /// What happens to surfaces that intersect initially.
+  /// What happens to surfaces that intersect initially. Those that only touch, at a distance of 0, are held on the side of
+  /// the normals of colliders, of closed surfaces, or of the earlier object, unless they are refused.
   enum class Intersections {
     leave,     ///< nothing: contact ignores them until they are apart
     untangle,  ///< they, and vertices inside closed mesh colliders, are moved apart at `untangling_speed`

@@ -75,17 +75,18 @@ void name_crossings(Problems& problems, const Surfaces& all, const Crossings& cr
         "contact ignores these intersections until the surfaces are apart: move one of them, or repair the mesh");
 }
 
-/// Reports surfaces at distance 0 as grave: contact cannot know on which side to keep them.
+/// Reports surfaces at distance 0 as grave: which side they are on is a guess (world/touching_starts.h).
 void refuse_touching(Problems& problems, const Surfaces& all, const Crossings& touching) {
   const Intersection& first = touching.first;
   const Triangle& t = all.triangles[static_cast<std::size_t>(first.triangle)];
   problems.at(all.parts[static_cast<std::size_t>(all.part_of(first.a))].name);
-  problems.grave("edge " + all.local(first.a) + "-" + all.local(first.b),
-                 "touches triangle (" + all.local(t[0]) + ", " + all.local(t[1]) + ", " + all.local(t[2]) + ") of " +
-                     all.name(all.part_of(t[0])) + " at the start, at a distance of 0, one of " +
-                     std::to_string(touching.count) + (touching.count == 1 ? " place" : " places"),
-                 "contact cannot tell on which side to keep it, so it may pass through: move one of them by their "
-                 "thickness, or set initial_intersections to \"leave\"");
+  problems.grave(
+      "edge " + all.local(first.a) + "-" + all.local(first.b),
+      "touches triangle (" + all.local(t[0]) + ", " + all.local(t[1]) + ", " + all.local(t[2]) + ") of " +
+          all.name(all.part_of(t[0])) + " at the start, at a distance of 0, one of " + std::to_string(touching.count) +
+          (touching.count == 1 ? " place" : " places"),
+      "its side is not known: move one of them by their thickness, or set initial_intersections to \"leave\", which "
+      "holds it on the side of the normals");
 }
 
 // ---------------------------------------------------------------- inside
@@ -217,8 +218,9 @@ void doubt_touching(Problems& problems, const Scene& scene, const Surfaces& all,
                             " m that the two keep, the nearest " + words(least) + " m from it",
                         least > 0
                             ? "contact pushes it away in the first frames: start farther apart, or reduce the thickness"
-                            : "at a distance of 0 contact cannot tell on which side to keep it, so it may pass "
-                              "through: move one of the two by their thickness");
+                            : "at a distance of 0 it is held on the side of the normals of colliders, then of closed "
+                              "surfaces, then of the earlier object: start farther apart, or turn that mesh over if "
+                              "this is the wrong side");
     }
   }
 }

@@ -19,6 +19,7 @@
 #include "world/resting_grains.h"
 #include "world/soaking.h"
 #include "world/tearing.h"
+#include "world/touching_starts.h"
 
 namespace pliant {
 
@@ -52,6 +53,7 @@ WorldData::WorldData(const Scene& scene, const Settings& given, const Settings& 
   }
   for (const MeshCollider& collider : scene.mesh_colliders)
     ids.mesh_colliders.add(add_to_model(*this, collider, compile(collider)));
+  part_touching_starts(model);
   open_liquids(*this);
   state = initial_state(model);
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) prepare_object(*this, number);

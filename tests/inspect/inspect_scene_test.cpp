@@ -96,7 +96,7 @@ TEST(InspectScene, NamesFoldsOfWhatCollidesWithItself) {
   }));
 }
 
-TEST(InspectScene, SaysThatContactHasNoSideAtDistanceZero) {
+TEST(InspectScene, SaysOnWhichSideContactHoldsAtDistanceZero) {
   Scene scene;
   scene.add_cloth(sheet(0), {});
   scene.objects[0].collides = true;
@@ -105,10 +105,10 @@ TEST(InspectScene, SaysThatContactHasNoSideAtDistanceZero) {
   floor.name = "floor";
   floor.mesh = sheet(0);
   scene.add(floor);
-  EXPECT_NE(finding(scene, "cannot tell on which side"), "");
+  EXPECT_NE(finding(scene, "held on the side of the normals"), "");
   EXPECT_EQ(finding(scene, "pushes it away"), "");
   scene.mesh_colliders[0].mesh = sheet(-0.005f);
-  EXPECT_EQ(finding(scene, "cannot tell on which side"), "");
+  EXPECT_EQ(finding(scene, "held on the side of the normals"), "");
   EXPECT_NE(finding(scene, "pushes it away"), "");
 }
 

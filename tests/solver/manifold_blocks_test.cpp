@@ -67,6 +67,7 @@ Manifold random_manifold(int a, int b, std::mt19937& random) {
   }
   m.friction_impulse = {uniform_float(random, -0.1f, 0.1f), uniform_float(random, -0.1f, 0.1f)};
   m.twist_impulse = uniform_float(random, -0.1f, 0.1f);
+  m.settles = random() % 3 == 0 ? uniform_float(random, 0.01f, 1) : 0;
   return m;
 }
 

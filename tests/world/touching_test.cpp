@@ -1,9 +1,12 @@
-// Tests surfaces at distance 0 at the start, or inside a closed surface: inspect() names them, and a World rejects them
-// if the scene says so.
+// Tests surfaces at distance 0 at the start, or inside a closed surface: inspect() names them, a World rejects them if the
+// scene says so, and else holds them on the side of the normals of what is fixed for them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "pliant/error.h"
 #include "world/surface_support.h"
@@ -73,6 +76,183 @@ TEST(Touching, WhatIsInsideAClosedMeshIsDoubted) {
   EXPECT_TRUE(says(scene, "is inside of closed collider 'ball' at the start"));
   for (Vec3f& p : scene.objects[0].positions) p.y += 3;
   EXPECT_FALSE(says(scene, "is inside of"));
+}
+
+// ------------------------------------------------------------------------------------------------ held on a side
+
+/// Runs a second. Expects no crossing after any frame, and no warning.
+void run_held(const Scene& scene, World& world) {
+  Watch watch(world, scene);
+  std::size_t most = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    const Report report = world.step(1.f / 60);
+    for (const std::string& warning : report.warnings) ADD_FAILURE() << warning;
+    most = std::max(most, watch.crossings(world));
+  }
+  EXPECT_EQ(most, 0u);
+}
+
+struct Heights {
+  float lowest = 1e9f, highest = -1e9f;
+};
+
+Heights heights(const World& world, int object) {
+  Heights out;
+  for (const Vec3f& p : world.object(object).positions()) {
+    out.lowest = std::min(out.lowest, p.y);
+    out.highest = std::max(out.highest, p.y);
+  }
+  return out;
+}
+
+TriangleMesh turned_over(TriangleMesh mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+/// The normal says on which side, so a mesh that is turned over holds the sheet below it.
+TEST(TouchingStart, IsHeldByAMeshOnTheSideOfItsNormal) {
+  for (const bool is_over : {true, false}) {
+    Scene scene = lying(0, false);
+    if (!is_over) {
+      scene.mesh_colliders[0].mesh = turned_over(scene.mesh_colliders[0].mesh);
+      scene.gravity = -scene.gravity;
+    }
+    World world(scene);
+    run_held(scene, world);
+    const auto [lowest, highest] = heights(world, 0);
+    EXPECT_GT(is_over ? lowest : -highest, 1e-4f);
+    EXPECT_LT(is_over ? highest : -lowest, 0.006f) << "thrown";
+  }
+}
+
+/// As of a sheet on an inclined mesh, where vertices are on either side of it by rounding.
+TEST(TouchingStart, IsHeldWhereRoundingDecides) {
+  Scene scene = lying(0, false);
+  const float c = std::cos(0.3f), s = std::sin(0.3f);
+  const auto incline = [&](std::vector<Vec3f>& places) {
+    for (Vec3f& p : places) p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+  };
+  incline(scene.objects[0].positions);
+  incline(scene.mesh_colliders[0].mesh.positions);
+  scene.objects[0].static_friction = scene.objects[0].kinetic_friction = 1;
+  scene.mesh_colliders[0].static_friction = scene.mesh_colliders[0].kinetic_friction = 1;
+  World world(scene);
+  run_held(scene, world);
+  for (const Vec3f& p : world.object(0).positions()) {
+    EXPECT_GT(c * p.y - s * p.x, 1e-4f);
+    EXPECT_LT(c * p.y - s * p.x, 0.006f);
+  }
+}
+
+/// Sheets with the same vertices, and with others.
+TEST(TouchingStart, OfALaterClothIsHeldAboveAnEarlierOne) {
+  for (const int columns : {5, 4}) {
+    Scene scene;
+    scene.settings = settings_of(4);
+    scene.add(Collider{});
+    scene.add(named_cloth(sheet(5, 0.2f, 0.01f), "first"));
+    scene.add(named_cloth(sheet(columns, columns == 5 ? 0.2f : 0.17f, 0.01f), "second"));
+    World world(scene);
+    run_held(scene, world);
+    EXPECT_GT(heights(world, 1).lowest, heights(world, 0).highest);
+    EXPECT_LT(heights(world, 1).highest, 0.015f) << "thrown";
+  }
+}
+
+TEST(TouchingStart, OfManyLayersKeepsTheirOrder) {
+  Scene scene = lying(0, false);
+  for (const char* name : {"second", "third", "fourth"}) scene.add(named_cloth(sheet(5, 0.2f, 0), name));
+  World world(scene);
+  run_held(scene, world);
+  for (int layer = 1; layer < 4; ++layer)
+    EXPECT_GT(heights(world, layer).lowest, heights(world, layer - 1).highest) << layer;
+}
+
+/// The upper half of a ball's own mesh, as a cap that was modelled on it.
+TEST(TouchingStart, IsHeldOutsideAClosedBody) {
+  for (const bool is_dynamic : {false, true}) {
+    TriangleMesh ball = sphere_mesh(2), cap;
+    for (Vec3f& p : ball.positions) p = p * 0.1f;
+    for (const auto& t : ball.triangles)
+      if (std::all_of(t.begin(), t.end(), [&](int v) { return ball.positions[static_cast<std::size_t>(v)].y > 0.01f; }))
+        cap.triangles.push_back(t);
+    std::vector<int> number(ball.positions.size(), -1);
+    for (auto& t : cap.triangles)
+      for (int& v : t) {
+        int& now = number[static_cast<std::size_t>(v)];
+        if (now < 0) {
+          now = static_cast<int>(cap.positions.size());
+          cap.positions.push_back(ball.positions[static_cast<std::size_t>(v)]);
+        }
+        v = now;
+      }
+    Scene scene;
+    scene.settings = settings_of(8);
+    scene.gravity = {};
+    scene.add(named_cloth(cap, "cap"));  // before the ball, which is closed, and so fixed for it
+    if (is_dynamic) {
+      scene.add(named_cloth(ball, "ball"));
+    } else {
+      MeshCollider collider;
+      collider.mesh = ball;
+      scene.add(collider);
+    }
+    World world(scene);
+    run_held(scene, world);
+    for (const Vec3f& p : world.object(0).positions()) EXPECT_GT(std::sqrt(length_squared(p)), 0.1001f);
+  }
+}
+
+/// What hangs from a ceiling does not jump through it, whatever its normals say.
+TEST(TouchingStart, StaysOnTheSideOfTheRest) {
+  Scene scene;
+  scene.settings = settings_of(4);
+  scene.gravity = {};
+  TriangleMesh curtain = grid_mesh(5, 5, 0.2f, 0.2f);
+  for (Vec3f& p : curtain.positions) p = {p.x, p.z - 0.1f, 0.013f};
+  scene.add(named_cloth(curtain, "curtain"));
+  MeshCollider ceiling;
+  ceiling.mesh = sheet(3, 0.6f, 0);
+  scene.add(ceiling);
+  World world(scene);
+  run_held(scene, world);
+  EXPECT_LT(heights(world, 0).highest, -1e-4f);
+}
+
+TEST(TouchingStart, LeavesPinsAndOtherStartsWhereTheyAre) {
+  Scene scene = lying(0, false);
+  scene.objects[0].pins = {{0}};
+  const Vec3f corner = scene.objects[0].positions[0];
+  World pinned(scene);
+  EXPECT_EQ(pinned.object(0).positions()[0].y, corner.y);
+  EXPECT_GT(pinned.object(0).positions()[12].y, 1e-3f);
+  const Scene near = lying(1e-4f, false);
+  World world(near);
+  for (const Vec3f& p : world.object(0).positions()) EXPECT_EQ(p.y, 1e-4f);
+}
+
+/// Another layer that is closer than the thickness is no place to go through.
+TEST(TouchingStart, DoesNotPassALayerThatIsNear) {
+  Scene scene = lying(0, false);
+  scene.add(named_cloth(sheet(5, 0.2f, 5e-4f), "above"));
+  World world(scene);
+  run_held(scene, world);
+  EXPECT_GT(heights(world, 1).lowest, heights(world, 0).lowest);
+  EXPECT_GT(heights(world, 0).lowest, 0);
+}
+
+TEST(TouchingStart, IsTheSameInAWorldOfItsLayout) {
+  const Scene scene = lying(0, true);
+  World world(scene);
+  for (int frame = 0; frame < 5; ++frame) world.step(1.f / 60);
+  World again(scene, world.layout());
+  again.restore(world.state());
+  for (int frame = 0; frame < 5; ++frame) world.step(1.f / 60), again.step(1.f / 60);
+  for (int object = 0; object < 2; ++object) {
+    const std::vector<Vec3f> a = world.object(object).positions(), b = again.object(object).positions();
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_TRUE(a[i].x == b[i].x && a[i].y == b[i].y && a[i].z == b[i].z);
+  }
 }
 
 }  // namespace

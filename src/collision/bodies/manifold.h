@@ -31,6 +31,7 @@ struct Manifold {
   std::array<float, 4> gap{};              ///< separations at the frame's start [m]
   float friction = 0, restitution = 0;     ///< coefficients [-]
   float sliding = 1;                       ///< kinetic over static friction [-]
+  float settles = 0;                       ///< of a contact that begins at rest: speed at which it slides [m/s]; else 0
   float rolling = 0, spinning = 0;         ///< greatest torque against rolling and spinning, per normal force [m]
 
   std::array<float, 4> impulse{};           ///< of the points along the normal, in a substep [N s]

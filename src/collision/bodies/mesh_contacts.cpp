@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "collision/bodies/triangle_contact.h"
 #include "math/vector.h"
@@ -66,6 +67,22 @@ std::vector<Cluster> clusters_of(const std::vector<TrianglePoint>& points, doubl
   return clusters;
 }
 
+/// Puts four points in order around their area, as those of other contacts are: passes of the solver count on points 0 and 2
+/// being opposite each other, as 1 and 3 are. Those of a mesh come triangle by triangle, and a flat impact would turn a solid.
+Touch around(Touch touch) {
+  if (touch.count < 4) return touch;
+  auto& p = touch.points;
+  const auto apart = [&](std::size_t a, std::size_t b) { return length(p[a].on_b - p[b].on_b); };
+  const double now = apart(0, 2) + apart(1, 3), swapped_1_2 = apart(0, 1) + apart(2, 3),
+               swapped_2_3 = apart(0, 3) + apart(1, 2);
+  constexpr double longer = 1 + 1e-6;
+  if (swapped_1_2 > longer * std::max(now, swapped_2_3))
+    std::swap(p[1], p[2]);
+  else if (swapped_2_3 > longer * now)
+    std::swap(p[2], p[3]);
+  return touch;
+}
+
 /// Four points of a cluster with the mean of their normals, so that a solid on a curved mesh is not held by one triangle's.
 Touch touch_of(const Cluster& cluster) {
   Vec3d sum{};
@@ -80,7 +97,7 @@ Touch touch_of(const Cluster& cluster) {
     point.on_a = point.on_b - normal * point.separation;
     points.push_back(point);
   }
-  return four_of(points, normal);
+  return around(four_of(points, normal));
 }
 
 /// The triangle of terrain above the centre of a solid that has sunk below it, else -1.

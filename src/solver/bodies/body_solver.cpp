@@ -29,6 +29,15 @@ void fetch(const BodyContact& contact) {
     __builtin_prefetch(first + byte);
 }
 
+/// The speed above which a contact slides that begins where bodies are at rest against each other (Manifold::settles), else 0.
+/// `fall` is what gravity adds to velocities in a substep [m/s].
+float settling_speed(const BodyContact& contact, const Manifold& m, const BodyState& a, const BodyState& b, float fall) {
+  constexpr float at_rest = 2, slides = 0.01f;  // times `fall`
+  if (contact.substep > 0 || !(m.friction > 0)) return 0;
+  const Vec3f motion = (b.velocity + cross(b.spin, m.arm_b)) - (a.velocity + cross(a.spin, m.arm_a));
+  return length_squared(motion) <= (at_rest * fall) * (at_rest * fall) ? slides * fall : 0;
+}
+
 /// Turns the arm of a body that is driven round by half of what it turns about the contact normal in `left` seconds, so that displacement and
 /// friction of linear motion along the arm follow the chord of its circle, and what rides on a turntable does not drift outward. Spin about
 /// other axes, as of a roller, moves the surface along itself.
@@ -82,6 +91,7 @@ void BodySolver::make_manifolds(const Substep& s) {
   const std::vector<std::pair<int, int>>& bodies_of = contacts_.bodies();
   colours_.colour(bodies_of, contacts_.is_fixed());
   const double left = time_left(s);
+  const float fall = s.h * length(s.model.gravity);
   is_separating_.resize(bodies_of.size());
   contacts_.count_overlaps(overlaps_);
   const auto prefetch = [&](int i) { fetch(contacts_.all()[at(i)]); };
@@ -91,6 +101,7 @@ void BodySolver::make_manifolds(const Substep& s) {
     const bool separates = limit_depths(motions_.all()[at(a)], motions_.all()[at(b)], contacts_.size(i),
                                         std::max(overlaps_[at(a)], overlaps_[at(b)]), pressed_by_, s.h, m);
     is_separating_[at(i)] = separates ? 1 : 0;
+    m.settles = settling_speed(contacts_.all()[at(i)], m, contacts_.states()[at(a)], contacts_.states()[at(b)], fall);
     turn_arm(contacts_.states()[at(a)], m.normal, left, m.arm_a);
     turn_arm(contacts_.states()[at(b)], m.normal, left, m.arm_b);
     return m;

@@ -55,6 +55,7 @@ void ManifoldBlocks::fill_block(int number, const ManifoldColours& colours, std:
     if (is_fixed[at(m.b)] == 0) block.moves_b |= 1u << lane;
     if (m.restitution > 0) block.bounces = 1;
     if (m.rolling > 0) block.rolls = 1;
+    if (m.settles > 0) block.settles = 1;
   }
 }
 

@@ -24,6 +24,8 @@ constexpr float never = 1e30f;
 /// Passes over the points of a manifold that bounce together: with four, of points that arrive as one, the wrong ones
 /// keep an impulse.
 constexpr int passes_of_impact = 16;
+/// Most passes over a contact that begins at rest.
+constexpr int passes_of_settling = 8;
 /// Points that arrive within this share of the substep bounce together; of all at once, those that arrive late would be
 /// thrown by the first.
 constexpr float together_share = 0.02f;
@@ -290,6 +292,36 @@ PLIANT_HD void velocity_pass(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b,
       m, a, b, [&](int i) __attribute__((always_inline))->Aim<R> {
         return {max(get<R>(m.gap_now[i]), R(0.f)) * R(numbers.inverse_h), R(1.f), R(0.f)};
       });
+}
+
+/// Solves contacts that begin at rest (Manifold::settles) to the end where two passes have left them sliding. A pass of
+/// friction gives a body spin that the points then take back, so a cube keeps 0.6 of what gravity adds along an incline.
+/// Later substeps start with what the earlier ones found; the first one would let it slip.
+template <class R, int lanes>
+PLIANT_HD void settle(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const PassNumbers& numbers) {
+  const R slow = get<R>(m.settles), zero(0.f);
+  const Vec3<R> normal = get<R>(m.normal);
+  for (int pass = 0; pass < passes_of_settling; ++pass) {
+    const Vec3<R> velocity = approach(m, a, b), along = velocity - normal * dot(velocity, normal);
+    const R excess = select(slow > zero, max(sqrt(dot(along, along)) - slow, zero), zero);
+    if (all_zero(excess)) return;
+    const auto slides = excess > zero;
+    const Motion<R> old_a = a, old_b = b;
+    const PointImpulses<R> impulse = impulses_of<R>(m);
+    const R friction[2] = {get<R>(m.friction_impulse[0]), get<R>(m.friction_impulse[1])};
+    const R twist = get<R>(m.twist_impulse);
+    velocity_pass(m, a, b, numbers);
+    PLIANT_UNROLL
+    for (int i = 0; i < 4; ++i) store_row(m.impulse[i], select(slides, get<R>(m.impulse[i]), impulse.at[i]));
+    PLIANT_UNROLL
+    for (int i = 0; i < 2; ++i)
+      store_row(m.friction_impulse[i], select(slides, get<R>(m.friction_impulse[i]), friction[i]));
+    store_row(m.twist_impulse, select(slides, get<R>(m.twist_impulse), twist));
+    a.velocity = select(slides, a.velocity, old_a.velocity);
+    a.spin = select(slides, a.spin, old_a.spin);
+    b.velocity = select(slides, b.velocity, old_b.velocity);
+    b.spin = select(slides, b.spin, old_b.spin);
+  }
 }
 
 /// Friction of an impact, at the centre: stops sliding, inside of a disc of the normal impulse times the coefficient.

@@ -101,6 +101,7 @@ void velocity_pass_blocks(const BlockRange& range, const PassNumbers& numbers) {
       range, [&](ManifoldBlock & block, Motion<Wide> & a, Motion<Wide> & b) __attribute__((always_inline)) {
         if (block.rolls != 0) resist_rolling(block.rows, a, b);
         velocity_pass(block.rows, a, b, numbers);
+        if (block.settles != 0) settle(block.rows, a, b, numbers);
       });
 }
 

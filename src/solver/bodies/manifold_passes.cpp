@@ -66,6 +66,7 @@ struct VelocityPass {
   void operator()(ManifoldRow& row, Pair& p) const {
     if (row.rolling[0] > 0) formulas::resist_rolling(row, p.a, p.b);
     formulas::velocity_pass(row, p.a, p.b, numbers);
+    if (row.settles[0] > 0) formulas::settle(row, p.a, p.b, numbers);
   }
 };
 

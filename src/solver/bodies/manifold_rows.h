@@ -26,6 +26,7 @@ struct ManifoldRows {
   float gap_now[4][lanes];
   float gap[4][lanes];
   float restitution[lanes], bounced[lanes];
+  float settles[lanes];
   float spinning[lanes];
   float rolling[lanes], rolling_impulse[2][lanes];  ///< used only where some manifold of the block has rolling friction
 };
@@ -41,6 +42,7 @@ struct alignas(64) ManifoldBlock {
   std::int32_t lanes;              ///< number of manifolds, in the first lanes
   std::int32_t bounces;            ///< 1: some manifold has restitution
   std::int32_t rolls;              ///< 1: some manifold has rolling friction
+  std::int32_t settles;            ///< 1: some manifold begins at rest
 };
 
 /// Sets lane `lane` to manifold `m` as prepare needs it, without what prepare computes.
@@ -75,6 +77,7 @@ void put_manifold(const Manifold& m, ManifoldRows<lanes>& rows, int lane) {
   rows.sliding[lane] = m.sliding;
   rows.restitution[lane] = m.restitution;
   rows.bounced[lane] = m.bounced;
+  rows.settles[lane] = m.settles;
 }
 
 /// Copies what the passes change, impulses and present gaps, back to a manifold.
