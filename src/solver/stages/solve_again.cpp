@@ -96,11 +96,12 @@ struct Stitch {
 /// keeps both sides apart by two thicknesses.
 void append_stitches(const CompiledObject& object, const ScaledGroup& group, std::vector<Stitch>& out) {
   static const int limit_type = find_constraint_type(DistanceLimit::name);
+  if (group.places.empty() || object.pools[at(group.places.front().pool)].type != limit_type) return;  // all are of a type
   const float least = object.self_collision ? 2 * object.thickness : 0;
   std::size_t s = 0;  // places and segments are in the same order within a pool
   for (const ScaledGroup::Place& place : group.places) {
     const Pool& pool = object.pools[at(place.pool)];
-    if (pool.type != limit_type || pool.law == Law::pbd || pool.row(pool.fields, place.batch)[place.lane] > 0) continue;
+    if (pool.law == Law::pbd || pool.row(pool.fields, place.batch)[place.lane] > 0) continue;
     const auto has = [&](const Segment& segment) {
       return segment.pool == place.pool && place.batch >= segment.first_batch &&
              place.batch < segment.first_batch + segment.batches;
