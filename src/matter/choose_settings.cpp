@@ -55,6 +55,7 @@ Choice choose(const Given& given, const Object& object, std::size_t number) {
   // A heavy body stretches even a short rope, unless the rope is solved with the body's inertia, which only chains are.
   const bool is_tied = particles > 0 && has_ties(object);
   if (has_changing_lengths(object)) return {Sweep::chains, name + ", whose rest lengths change"};
+  if (particles > 0 && is_sewn(object)) return {Sweep::chains, name + ", whose particles are sewn together"};
   if (is_coarse(particles) && is_tied) return {Sweep::chains, name + ", which is tied to bodies"};
   if (is_coarse(particles)) return {Sweep::tiled, too_coarse};
   if (object.volume) return choose_for_volume(given, object, number);

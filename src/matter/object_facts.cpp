@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "constraints/distance_limit.h"
 #include "constraints/registry.h"
 #include "math/vector.h"
 #include "model/attachments.h"
@@ -210,6 +211,13 @@ bool lies_on_pins(const Object& object) {
 bool has_changing_lengths(const Object& object) {
   return std::any_of(object.constraints.begin(), object.constraints.end(),
                      [](const ConstraintGroup& group) { return !group.keyframes.empty() && is_length(group.type); });
+}
+
+bool is_sewn(const Object& object) {
+  return std::any_of(object.constraints.begin(), object.constraints.end(), [](const ConstraintGroup& group) {
+    const bool is_rigid = group.stiffness.kind == Stiffness::Kind::compliance && group.stiffness.value == 0;
+    return group.type == DistanceLimit::name && !group.keyframes.empty() && !group.particles.empty() && is_rigid;
+  });
 }
 
 bool has_ties(const Object& object) {

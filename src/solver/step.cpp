@@ -9,12 +9,13 @@
 //     solve         iterations x (constraints in the order of the sweep, acceleration, tethers, contacts)
 //     solve again   chains and contacts in turn, where surfaces press on one another; contacts yield a little
 //     limit         the few distances that are still far too long are shortened
+//     close         rigid stitches and chains in turn, where chains have pulled stitches open
 //     filter        steps that would make surfaces cross are truncated; of what is free, velocities are not
 //     guard         where the substep has become shorter, corrections may not increase energy
 //     yield         what is deformed too far keeps some of it (Plasticity)
 //     update        v from the corrections, x += displacement; restitution at colliders; joints of fast wheels
 //     respond       restitution between surfaces (friction is part of a contact's projection)
-//   measure         overstretch of the frame, and gaps of ties
+//   measure         overstretch of the frame, and gaps of ties and stitches
 //
 // Mueller et al. 2007, algorithm 1, with the small steps of Macklin et al. 2019.
 #include "solver/step.h"
@@ -26,6 +27,7 @@
 #include "solver/bodies/body_solver.h"
 #include "solver/bodies/tie_gaps.h"
 #include "solver/free_objects.h"
+#include "solver/stages/solve_again.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -61,6 +63,7 @@ bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   solve(s);
   solve_again(s);
   limit(s);
+  close_stitches(s);
   s.own->free_is_known = false;
   if (s.bodies != nullptr) s.bodies->stop_passing(s);
   if (stops()) s.substeps = s.number + 1;
@@ -124,6 +127,7 @@ void run(const StepContext& context, double dt, Report& report) {
     run_in_turn(context, groups);
   if (!end_frame(groups, report)) return;
   if (!report.stopped) report.widest_tie = widest_tie(context.model, context.state);
+  if (!report.stopped) warn_of_stitches(context.model, context.state, report.warnings);
   if (context.meter != nullptr && !report.stopped)
     report.overstretch = context.meter->measure({context.model, context.state, context.workspace, context.kernels.lengths},
                                                 &context.executor);

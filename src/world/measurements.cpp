@@ -8,6 +8,7 @@
 #include "constraints/volume_around_edge.h"
 #include "math/matrix.h"
 #include "matter/advice_settings.h"
+#include "solver/substep_law.h"
 #include "solver/visit.h"
 #include "world/advice.h"
 #include "world/groups.h"
@@ -31,6 +32,18 @@ bool is_present(const Overstretch& found, const CompiledObject& object) {
 
 std::string of_unknown(const Overstretch& found) {
   return "an object that was removed or edited stretched " + percent(found.largest) + " too far";
+}
+
+/// The substeps that should keep an object of chains within the bounds; 0: unknown. Overstretch falls with the first to second power of the
+/// substeps where a heavy body hits cloth or pins turn round (docs/internals/default_settings.md), so with the square of the excess they
+/// suffice.
+int substeps_to_hold(const Overstretch& found, const CompiledObject& object, int substeps) {
+  constexpr double most = 500, multiple = 20, most_excess = 5;
+  if (!solves_chains(object.sweep) || object.has_volume) return 0;
+  const int by_state = object.surface.triangles.empty() ? most_of_ropes : most_by_state;
+  const double excess = std::max(found.largest / tolerated_overstretch, found.p99 / tolerated_p99);
+  const double wanted = (substeps > 0 ? substeps : by_state) * excess * excess;
+  return excess <= most_excess ? static_cast<int>(multiple * std::ceil(std::min(wanted, most) / multiple)) : 0;
 }
 
 /// Six times the signed volume of a tetrahedron.
@@ -174,8 +187,11 @@ std::string Measurements::advice(const Overstretch& found) const {
   const ObjectId id(found.object, found.generation);
   if (!world_->ids.objects.has(id)) return of_unknown(found);
   const int substeps = substeps_of(*world_, world_->number(id));
-  const std::string more = substeps > 0 ? "more than " + std::to_string(substeps) + " substeps"
-                                        : "a larger \"least_substeps\" or \"most_substeps\"";
+  const int enough = substeps_to_hold(found, world_->object(id), substeps);
+  const std::string more =
+      (enough > 0 ? "\"substeps\": " + std::to_string(enough) + " should hold it, and " : std::string()) +
+      (substeps > 0 ? "more than " + std::to_string(substeps) + " substeps"
+                    : "a larger \"least_substeps\" or \"most_substeps\"");
   return describe(found) + "; " +
          (world_->open.departs.empty() ? more
                                        : "the default, with no " + world_->open.departs + " in the scene's \"settings\",") +
