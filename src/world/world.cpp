@@ -138,6 +138,7 @@ Report World::step(float dt) {
   follow_rest_factors(*data_, data_->state.time + static_cast<double>(dt));
   begin_control(*data_, dt);
   const Resting resting = begin_rest(*data_, static_cast<double>(dt));
+  follow_distances(*data_, static_cast<double>(dt));
   const std::vector<GroupFrame> groups = plan_frame(*data_, dt, report);
   data_->stopped = true;  // if the step throws (a user's force field may), it stays true
   pliant::step(

@@ -174,12 +174,11 @@ TEST(SubstepLaw, GrantsWhatOtherSweepsOfTheSetNeed) {
 
 /// A rubber balloon that cloth can meet keeps its substeps, which are more than the law's largest number.
 TEST(SubstepLaw, GrantsWhatVolumesOfTheSetNeed) {
-  ClothOptions options;
+  ClothOptions options{.volume = Volume{1.5f, Stiffness::rigid()}};
   options.material.area_density = 0.5f;
   options.material.stretch_stiffness = 1800;
-  options.volume = Volume{1.5f, Stiffness::rigid()};
   TriangleMesh mesh = sphere_mesh(3);
-  for (Vec3f& p : mesh.positions) p = p * 0.2f + Vec3f{5, 0, 0};
+  for (Vec3f& p : mesh.positions) p = p * 0.2f + Vec3f{1, 0, 0};
   Scene scene;
   scene.add_cloth(mesh, options);
   const int alone = chosen_substeps(scene)[0];
