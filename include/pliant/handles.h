@@ -112,6 +112,12 @@ class ObjectHandle : public ObjectView {
   void set_targets(std::span<const int> particles, std::span<const Vec3f> positions);
   /// Moves the targets of attachments in the same way. `attachments` are indices in the Object.
   void set_attachment_targets(std::span<const int> attachments, std::span<const Vec3f> positions);
+  /// Moves the whole object at once, with all that its description joins: particles, pins, targets of attachments,
+  /// bodies. A point p gets to by.rotation p + by.position, in world axes. Velocities turn with it and get nothing from
+  /// the move; contacts are searched again, and all that sleeps wakes. Targets set for the next step stay where they
+  /// are, and are reached from the new place. Throws an Error if the motion is not finite, or that names what would
+  /// stay behind: a pin or attachment with keyframes, a joint to the world, an emitter.
+  void teleport(const RigidPose& by);
   /// Sets the velocity of each particle [m/s]; those of infinite mass are skipped.
   void set_velocities(std::span<const Vec3f> velocities);
   /// Adds an impulse to each particle [N s]: velocity += impulse / mass.
@@ -150,6 +156,9 @@ class ColliderHandle : public ColliderView {
   /// along the shorter arc. After that it stays, or follows its keyframes, if any. Throws an Error if the pose is not
   /// finite or its rotation is zero.
   void set_pose(const RigidPose& pose);
+  /// Moves the collider at once, from its present pose, as ObjectHandle::teleport: what it touches gets no velocity.
+  /// Throws an Error if it follows keyframes, or the motion is not finite.
+  void teleport(const RigidPose& by);
 
  private:
   WorldData* world_;
@@ -179,6 +188,8 @@ class MeshColliderHandle : public MeshColliderView {
   /// Moves the vertices of a mesh that collides as triangles to positions that they reach at the end of the next step
   /// [m]. Throws an Error if it is a distance grid or a heightfield, or if size or values are wrong.
   void set_positions(std::span<const Vec3f> positions);
+  /// Moves it at once like a primitive collider, deformed as it is.
+  void teleport(const RigidPose& by);
 
  private:
   WorldData* world_;

@@ -167,6 +167,35 @@ void doubt_company(Problems& problems, const Object& object, const Scene& scene)
                     "primitive colliders need no `collides`");
 }
 
+/// The mean finite mass of a surface's particles [kg]; 0 where there is none.
+double particle_mass(const Object& object) {
+  double sum = 0, count = 0;
+  for (const float mass : object.masses) {
+    if (!std::isfinite(mass) || object.triangles.empty()) continue;
+    sum += static_cast<double>(mass);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+/// Warns of a sheet whose particles are so much heavier than those of one that it can press on that contact hardly converges: the
+/// light sheet yields in each projection, and the filter holds both in round after round.
+void doubt_masses(Problems& problems, const Object& object, const Scene& scene) {
+  constexpr double most_ratio = 1e4;
+  const double mass = particle_mass(object);
+  if (!object.collides || !(mass > 0)) return;
+  for (const Object& other : scene.objects) {
+    const double light = particle_mass(other);
+    if (!other.collides || !(light > 0) || mass < most_ratio * light || !masks_allow(object, other)) continue;
+    problems.doubtful("masses",
+                      "are " + words(std::round(mass / light)) + " times those of '" + other.name +
+                          "', on which it can press: contact between them yields, and frames may take ten times as long",
+                      "let the masses of a particle differ by less than " + words(most_ratio) +
+                          " times, hold the heavy one by pins or a collider, or let masks keep them apart");
+    return;
+  }
+}
+
 }  // namespace
 
 namespace {
@@ -279,6 +308,7 @@ void doubt_contact(Problems& problems, const Scene& scene) {
     doubt_thickness(problems, object);
     doubt_cost(problems, object);
     doubt_company(problems, object, scene);
+    doubt_masses(problems, object, scene);
     if (object.self_collision) doubt_folds(problems, object.positions, object.triangles);
   }
   doubt_tangles(problems, scene);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -14,6 +13,7 @@
 #include "model/attachments.h"
 #include "model/cohesion.h"
 #include "model/compile_surface.h"
+#include "model/forest.h"
 #include "model/soft_body_substeps.h"
 
 namespace pliant {
@@ -139,42 +139,15 @@ bool are_of_a_kind(const SetMember& a, const SetMember& b) {
          a.mask == b.mask;
 }
 
-bool can_meet(const SetMember& a, const SetMember& b) {
-  if (are_of_a_kind(a, b)) return true;
-  const bool by_masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
-  if (((a.is_of_grains && b.is_of_grains) || (a.is_of_gas && b.is_of_gas)) && by_masks) return true;
-  const bool by_kind = a.is_collider != b.is_collider || (a.collides && b.collides && !a.is_collider);
-  return by_masks && by_kind;
-}
-
-/// A union-find forest: each member points to an earlier member of its set, the first one to itself.
-class Forest {
- public:
-  explicit Forest(std::size_t members) : root_(members) { std::iota(root_.begin(), root_.end(), 0); }
-
-  int first_of(int member) {
-    while (root_[member] != member) member = root_[member] = root_[root_[member]];
-    return member;
-  }
-  void join(int a, int b) {
-    a = first_of(a);
-    b = first_of(b);
-    root_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> root_;
-};
-
 /// Divides members into classes that meet the same members. Scenes with many objects have few classes.
 std::vector<std::vector<int>> classes_of(const std::vector<SetMember>& members) {
-  std::map<std::tuple<std::uint32_t, std::uint32_t, bool, bool, float, float, bool, bool>, std::size_t> numbers;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, bool, bool, float, float, bool, bool, int>, std::size_t> numbers;
   std::vector<std::vector<int>> classes;
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const SetMember& m = members[i];
     const std::size_t number = numbers
                                    .try_emplace({m.groups, m.mask, m.collides, m.is_collider, m.spacing, m.speed_of_sound,
-                                                 m.is_of_grains, m.is_of_gas},
+                                                 m.is_of_grains, m.is_of_gas, m.place},
                                                 classes.size())
                                    .first->second;
     if (number == classes.size()) classes.emplace_back();
@@ -184,6 +157,15 @@ std::vector<std::vector<int>> classes_of(const std::vector<SetMember>& members) 
 }
 
 }  // namespace
+
+bool can_meet(const SetMember& a, const SetMember& b) {
+  if (a.place != b.place) return false;
+  if (are_of_a_kind(a, b)) return true;
+  const bool by_masks = (a.groups & b.mask) != 0 && (b.groups & a.mask) != 0;
+  if (((a.is_of_grains && b.is_of_grains) || (a.is_of_gas && b.is_of_gas)) && by_masks) return true;
+  const bool by_kind = a.is_collider != b.is_collider || (a.collides && b.collides && !a.is_collider);
+  return by_masks && by_kind;
+}
 
 std::optional<double> strain_by_weight(const Object& object, double gravity) {
   const double mass = finite_mass(object);
@@ -423,7 +405,10 @@ std::vector<int> needs_of_grains(const std::vector<SetMember>& members, const st
 }  // namespace
 
 std::vector<SetSubsteps> substeps_of_sets(const std::vector<SetMember>& members) {
-  const std::vector<int> sets = find_sets(members);
+  return substeps_of_sets(members, find_sets(members));
+}
+
+std::vector<SetSubsteps> substeps_of_sets(const std::vector<SetMember>& members, const std::vector<int>& sets) {
   std::vector<int> most = needs_of_grains(members, sets), least = most, of_solids(members.size(), 0);
   std::vector<SubstepRule> rule(members.size(), SubstepRule::any);
   for (std::size_t i = 0; i < members.size(); ++i) {

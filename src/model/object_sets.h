@@ -1,8 +1,9 @@
 // Sets of objects that can meet. All objects of a set have the same substeps, which objects of other sets do not affect.
 //
 // Two objects are in one set if groups, masks and `collides` let their surfaces touch, directly or through other
-// objects. Mesh colliders as triangles join the sets that they touch, because their vertices move in the substeps of a
-// set. Primitive colliders, distance grids and heightfields have a pose at any time, so they join no set.
+// objects. In a World they must also be near (solver/near_sets.h). Mesh colliders as triangles join the sets that they
+// touch, because their vertices move in the substeps of a set. Primitive colliders, distance grids and heightfields
+// have a pose at any time, so they join no set.
 #pragma once
 
 #include <cstdint>
@@ -110,12 +111,17 @@ struct SetMember {
   bool is_of_grains = false;              ///< grains meet by their masks
   GrainHeights grains{};                  ///< if it is to have its substeps
   bool is_of_gas = false;                 ///< gases and tracers meet by their masks
+  int place = 0;                          ///< those of different places do not meet
 };
 
 SetMember member_of(const Object& object, int substeps, SubstepRule rule, double frame_time = 0);
 SetMember member_of(const MeshCollider& collider);
 
-/// For each member, the first member of its set.
+/// True if groups, masks and kinds let two members meet, whatever their distance.
+bool can_meet(const SetMember& a, const SetMember& b);
+
+/// For each member, the first member of its set, whatever their distances. solver/near_sets.h divides these sets by
+/// distance.
 std::vector<int> find_sets(const std::vector<SetMember>& members);
 
 /// The substeps of a set: the largest number that a member needs.
@@ -124,9 +130,13 @@ struct SetSubsteps {
   int substeps = 0;
   bool by_state = false;  ///< true: decided by the State instead
   int least = 0;          ///< the largest number that a member needs that does not follow the State
+
+  friend bool operator==(const SetSubsteps&, const SetSubsteps&) = default;
 };
 
-/// For each member, the substeps of its set.
+/// For each member, the substeps of its set. `sets` has the first member of each one's set; without it they are those
+/// of find_sets().
 std::vector<SetSubsteps> substeps_of_sets(const std::vector<SetMember>& members);
+std::vector<SetSubsteps> substeps_of_sets(const std::vector<SetMember>& members, const std::vector<int>& sets);
 
 }  // namespace pliant

@@ -10,6 +10,7 @@
 #include "model/attachments.h"
 #include "model/length_ranges.h"
 #include "model/object_sets.h"
+#include "solver/near_sets.h"
 
 namespace pliant {
 
@@ -187,20 +188,37 @@ struct GroupKeys {
   std::map<int, SetSubsteps> substeps;
 };
 
-GroupKeys find_keys(const Model& model) {
-  std::vector<SetMember> members;
-  for (const CompiledObject& object : model.objects) members.push_back(member_of(object));
+/// True if there is a mesh collider that touches no object.
+bool has_lone_collider(const Model& model, const GroupKeys& keys) {
+  for (std::size_t o = 0; o < model.objects.size(); ++o)
+    if (keys.of_object[o] == 0 && model.objects[o].particles > 0) return true;
+  return false;
+}
+
+GroupKeys find_keys(const Model& model, const std::vector<int>* given) {
+  const std::vector<SetMember> members = set_members(model);
   GroupKeys keys;
-  for (const SetSubsteps& set : substeps_of_sets(members)) {
+  keys.of_object.reserve(members.size());
+  for (const SetSubsteps& set : given != nullptr ? substeps_of_sets(members, *given) : substeps_of_sets(members)) {
     keys.of_object.push_back(key_of(set));
     if (keys.of_object.back() > 0) keys.substeps.try_emplace(keys.of_object.back(), set);
   }
   if (keys.substeps.empty()) keys.substeps.emplace(0, SetSubsteps{0, substeps_of_others});
+  // A collider beside a set that follows its State has a group of its own, so that the set gets the bits that it gets
+  // alone.
+  if (keys.substeps.begin()->second.by_state && has_lone_collider(model, keys)) keys.substeps.emplace(1, SetSubsteps{0, 1});
   for (int& key : keys.of_object) key = key > 0 ? key : keys.substeps.begin()->first;
   return keys;
 }
 
 }  // namespace
+
+std::vector<SetMember> set_members(const Model& model) {
+  std::vector<SetMember> members;
+  members.reserve(model.objects.size());
+  for (const CompiledObject& object : model.objects) members.push_back(member_of(object));
+  return members;
+}
 
 SubstepGroup group_of_all(const Model& model, int substeps, bool by_state, int least) {
   SubstepGroup group;
@@ -212,8 +230,9 @@ SubstepGroup group_of_all(const Model& model, int substeps, bool by_state, int l
   return group;
 }
 
-std::vector<SubstepGroup> make_substep_groups(const Model& model, const GroupsBefore* before) {
-  const GroupKeys keys = find_keys(model);
+std::vector<SubstepGroup> make_substep_groups(const Model& model, const GroupsBefore* before,
+                                              const std::vector<int>* sets) {
+  const GroupKeys keys = find_keys(model, sets);
   std::vector<SubstepGroup> groups;
   if (keys.substeps.size() < 2) {
     const SetSubsteps& all = keys.substeps.begin()->second;
@@ -249,10 +268,14 @@ std::vector<SubstepGroup> make_substep_groups(const Model& model, const GroupsBe
   return groups;
 }
 
-std::vector<SetSubsteps> planned_substeps(const Model& model) {
-  const GroupKeys keys = find_keys(model);
+std::vector<SetSubsteps> planned_substeps(const Model& model, const std::vector<int>* sets) {
+  const GroupKeys keys = find_keys(model, sets);
   std::vector<SetSubsteps> out;
-  for (const int key : keys.of_object) out.push_back(keys.substeps.at(key));
+  out.reserve(keys.of_object.size());
+  for (const int key : keys.of_object) {
+    out.push_back(keys.substeps.at(key));
+    if (!out.back().by_state) out.back().set = 0;  // sets with a fixed number share a group
+  }
   return out;
 }
 

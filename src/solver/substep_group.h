@@ -55,13 +55,16 @@ struct GroupsBefore {
   const std::vector<int>& changed;
 };
 
-/// Makes the groups of a model, ordered by substeps. Mesh colliders that touch no object belong to the first group. A group of the
-/// same unchanged objects as before takes the phases and lengths of that group, so that one object that comes or goes costs
-/// little beside a thousand groups.
-std::vector<SubstepGroup> make_substep_groups(const Model& model, const GroupsBefore* before = nullptr);
+/// Makes the groups of a model, ordered by substeps. `sets` has the first object of each one's set; null: those by
+/// rules. Mesh colliders that touch no object belong to the first group, or to one of a single substep if that follows
+/// its State. A group of the same unchanged objects as before takes the phases and lengths of that group, so that one
+/// object that comes or goes costs little beside a thousand groups.
+std::vector<SubstepGroup> make_substep_groups(const Model& model, const GroupsBefore* before = nullptr,
+                                              const std::vector<int>* sets = nullptr);
 
-/// For each object, the substeps of the group that make_substep_groups() puts it in, without making groups.
-std::vector<SetSubsteps> planned_substeps(const Model& model);
+/// For each object, the substeps of the group that make_substep_groups() puts it in, without making groups. Groups are
+/// the same if these are equal.
+std::vector<SetSubsteps> planned_substeps(const Model& model, const std::vector<int>* sets = nullptr);
 
 /// Makes one group of all objects.
 SubstepGroup group_of_all(const Model& model, int substeps, bool by_state = false, int least = 0);

@@ -133,11 +133,16 @@ void begin_quarter(Substep& s) {
 
 void leave_quarter(Substep& s) {
   if (!s.is_guarded || s.number * quarters % s.planned == 0) return;
+  s.state.substeps.resize(s.model.objects.size());
   for_present(s, [&](int o) { s.state.substeps[o] = static_cast<float>(s.substeps_before); });
 }
 
 void forget_substeps(Substep& s) {
   if (s.most > 0 || s.state.substeps.empty()) return;
+  // As in a quarter with more substeps than the last one: what has come near has made them more.
+  const double before = substeps_before(s);
+  s.is_guarded = before > 0 && 4 * s.planned > 5 * before;
+  s.substeps_before = before;
   for_objects(s, [&](int o) { s.state.substeps[o] = 0; });
   const auto is_zero = [](float substeps) { return substeps == 0; };
   if (std::all_of(s.state.substeps.begin(), s.state.substeps.end(), is_zero)) s.state.substeps.clear();

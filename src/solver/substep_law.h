@@ -20,7 +20,8 @@ inline constexpr int least_of_hanging = 6;  ///< the same where SubstepGroup::ha
 /// True if the current substep is the last of a quarter.
 inline bool ends_quarter(const Substep& s) { return s.most > 0 && (s.number + 1) * quarters % s.planned == 0; }
 
-/// Call at the start of a frame: where substeps are fixed, the State keeps no number of them.
+/// Call at the start of a frame: where substeps are fixed, the State keeps no number of them. If it had one that was
+/// far smaller, because an object followed its State until something came near, the frame is guarded.
 void forget_substeps(Substep& s);
 
 /// Call before each substep: at the start of a quarter, decides the length of its substeps.

@@ -96,17 +96,6 @@ void require_pose(const RigidPose& pose, const char* kind, int slot) {
 Posed pose_of(const RigidPose& pose) { return {convert<double>(pose.position), normalise(convert<double>(pose.rotation))}; }
 Posed pose_of(const HeldPose& pose) { return {convert<double>(pose.position), normalise(convert<double>(pose.rotation))}; }
 
-void hold(std::vector<HeldPose>& poses, const HeldPose& pose) {
-  const auto same = [&](const HeldPose& other) {
-    return other.is_mesh == pose.is_mesh && other.slot == pose.slot && other.generation == pose.generation;
-  };
-  const auto at = std::find_if(poses.begin(), poses.end(), same);
-  if (at == poses.end())
-    poses.push_back(pose);
-  else
-    *at = pose;
-}
-
 const HeldPose* held_pose(const WorldData& world, bool is_mesh, int slot) {
   for (const HeldPose& pose : world.state.held_poses)
     if (pose.is_mesh == is_mesh && pose.slot == slot) return &pose;
@@ -162,6 +151,17 @@ MotorPlace find_motor(const CompiledObject& of, const std::string& joint, const 
 
 }  // namespace
 
+void hold_pose(std::vector<HeldPose>& poses, const HeldPose& pose) {
+  const auto same = [&](const HeldPose& other) {
+    return other.is_mesh == pose.is_mesh && other.slot == pose.slot && other.generation == pose.generation;
+  };
+  const auto at = std::find_if(poses.begin(), poses.end(), same);
+  if (at == poses.end())
+    poses.push_back(pose);
+  else
+    *at = pose;
+}
+
 void wake_bodies(WorldData& world, int number) {
   wake_grains(world, number);
   std::vector<float>& times = world.state.rest_times;
@@ -210,13 +210,13 @@ void end_control(WorldData& world, bool was_stopped) {
     if (!drive.moves() || world.model.colliders[number].motion.moves()) continue;
     const ColliderId id = world.ids.colliders.id_of(number);
     const auto [position, rotation] = keep(drive);
-    hold(world.state.held_poses, {false, id.slot, id.generation, position, rotation});
+    hold_pose(world.state.held_poses, {false, id.slot, id.generation, position, rotation});
   }
   for (const auto& [number, drive] : control.meshes) {
     if (!drive.moves() || world.model.objects[number].carrier.moves()) continue;
     const MeshColliderId id = world.ids.mesh_colliders.id_of(number);
     const auto [position, rotation] = keep(drive);
-    hold(world.state.held_poses, {true, id.slot, id.generation, position, rotation});
+    hold_pose(world.state.held_poses, {true, id.slot, id.generation, position, rotation});
   }
   control = {};
 }

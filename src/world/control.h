@@ -21,6 +21,9 @@ bool is_earlier(const MotorSetting& a, const MotorSetting& b);
 /// Wakes the bodies of an object, so that what is set acts in the next step.
 void wake_bodies(WorldData& world, int number);
 
+/// Puts a pose that a collider has from now on into a State's list.
+void hold_pose(std::vector<HeldPose>& poses, const HeldPose& pose);
+
 /// Discards the pose that the user set for a collider that is removed.
 void forget_pose(WorldData& world, bool is_mesh, int slot);
 

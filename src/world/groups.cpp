@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "inspect/inspect_scene.h"
@@ -32,6 +34,7 @@ void make_pairs(WorldData& world, SubstepGroup& group) {
   if (world.groups.tables == nullptr) {
     world.groups.tables = std::make_shared<ContactTables>();
     update_tables(world.model, {}, *world.groups.tables);
+    world.groups.tables->rules.set_sets(world.groups.sets);
   }
   pairs = make_pair_model(world.model, world.groups.tables, group.has_all ? nullptr : &group.objects);
   if (pairs == nullptr) return;
@@ -77,7 +80,7 @@ std::vector<SubstepGroup> find_groups(const WorldData& world, const GroupsBefore
   if (named_substeps(world) > 0)
     found.push_back(group_of_all(world.model, named_substeps(world)));
   else
-    found = make_substep_groups(world.model, &before);
+    found = make_substep_groups(world.model, &before, &world.groups.sets);
   if (named_substeps(world) > 0 || !shares_one_group(world)) return found;
   int most = 0;
   for (const SubstepGroup& group : found) most = std::max(most, group.substeps);
@@ -99,6 +102,7 @@ std::vector<std::size_t> groups_before(const std::vector<SubstepGroup>& before, 
 void prepare_groups(WorldData& world) {
   std::vector<SubstepGroup> before = std::move(world.groups.all);
   std::sort(world.groups.changed.begin(), world.groups.changed.end());
+  world.groups.plan = planned_substeps(world.model, &world.groups.sets);
   world.groups.all = find_groups(world, {before, world.groups.changed});
   world.groups.changed.clear();
   if (before.size() == 1 && world.groups.all.size() == 1) return;  // still one group of all objects, whose contact stays
@@ -138,11 +142,16 @@ void make_particle_solvers(WorldData& world) {
   for (SubstepGroup& group : world.groups.all) {
     group.grains = std::make_unique<GrainSolver>(world.model, group.has_all ? nullptr : &group.objects);
     if (!group.grains->has_grains()) group.grains = nullptr;
-    group.fluids = std::make_unique<FluidSolver>(world.model, group.has_all ? nullptr : &group.objects);
+    group.fluids = std::make_unique<FluidSolver>(world.model, group.has_all ? nullptr : &group.objects, &world.groups.sets);
     if (!group.fluids->has_fluids()) group.fluids = nullptr;
     group.gases = std::make_unique<GasSolver>(world.model, group.has_all ? nullptr : &group.objects);
     if (!group.gases->has_gases()) group.gases = nullptr;
   }
+}
+
+/// The sets of the objects in a frame of `dt` seconds that begins now.
+std::vector<int> near_sets(const WorldData& world, double dt) {
+  return world.groups.near.find(world.model, world.state, world.workspace.control, dt);
 }
 
 bool has_contact(const WorldGroups& groups) {
@@ -150,11 +159,57 @@ bool has_contact(const WorldGroups& groups) {
                                                        [](const SubstepGroup& group) { return group.pairs != nullptr; });
 }
 
-/// Updates the contact between surfaces, if all objects are in one group.
+/// Updates the contact between surfaces of groups that stay.
 void update_surfaces(WorldData& world) {
   if (world.groups.changed_surfaces.empty()) return;
-  update_pairs(world, world.groups.all.front(), world.groups.changed_surfaces);
-  world.groups.changed_surfaces.clear();
+  std::vector<int> changed = std::exchange(world.groups.changed_surfaces, {});
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  for (SubstepGroup& group : world.groups.all) {
+    std::vector<int> own;
+    own.reserve(changed.size());
+    for (const int o : changed)
+      if (group.has_all || group.has(o)) own.push_back(o);
+    if (!own.empty()) update_pairs(world, group, own);
+  }
+}
+
+/// The fewest objects whose contact must be searched again, so that of the others any two are in one set as before, or
+/// in two as before. Objects that were together and stay together are a block: of blocks that part or join, the largest
+/// is kept.
+std::vector<int> objects_that_parted_or_joined(const std::vector<int>& before, const std::vector<int>& now) {
+  std::map<std::pair<int, int>, std::vector<int>> blocks;  // [set before, set now]
+  for (std::size_t o = 0; o < now.size(); ++o) blocks[{before[o], now[o]}].push_back(static_cast<int>(o));
+  std::vector<const std::pair<const std::pair<int, int>, std::vector<int>>*> largest_first;
+  largest_first.reserve(blocks.size());
+  for (const auto& block : blocks) largest_first.push_back(&block);
+  std::stable_sort(largest_first.begin(), largest_first.end(),
+                   [](const auto* a, const auto* b) { return a->second.size() > b->second.size(); });
+  std::set<int> sets_before, sets_now;  // of blocks that are kept
+  std::vector<int> found;
+  for (const auto* block : largest_first) {
+    const auto& [sets, objects] = *block;
+    const bool is_kept = sets_before.count(sets.first) == 0 && sets_now.count(sets.second) == 0;
+    if (!is_kept) {
+      found.insert(found.end(), objects.begin(), objects.end());
+      continue;
+    }
+    sets_before.insert(sets.first);
+    sets_now.insert(sets.second);
+  }
+  return found;
+}
+
+/// Replaces the sets of objects. Surfaces that part or join are as if they were edited: what contact knows of them
+/// holds within a set.
+void change_sets(WorldData& world, std::vector<int> sets) {
+  std::vector<int>& before = world.groups.sets;
+  if (!before.empty() && before.size() <= sets.size()) {
+    for (std::size_t o = before.size(); o < sets.size(); ++o) before.push_back(static_cast<int>(o));
+    for (const int o : objects_that_parted_or_joined(before, sets)) note_surfaces(world, o);
+  }
+  before = std::move(sets);
+  if (world.groups.tables != nullptr) world.groups.tables->rules.set_sets(before);
 }
 
 /// Sets the bounds of substeps that follow the State, whole numbers in each quarter of a frame. False if the largest is less than a
@@ -215,9 +270,15 @@ void note_surfaces(WorldData& world, int number) {
 }
 
 void bring_up_to_date(WorldData& world) {
-  if (world.groups.tables != nullptr && !world.groups.changed_surfaces.empty())
+  if (world.groups.tables != nullptr && !world.groups.changed_surfaces.empty()) {
     update_tables(world.model, world.groups.changed_surfaces, *world.groups.tables);
-  if (world.groups.objects_changed || world.groups.all.empty()) prepare_groups(world);
+    world.groups.tables->rules.set_sets(world.groups.sets);
+  }
+  if (world.groups.objects_changed || world.groups.all.empty()) {
+    world.groups.near = NearSets(world.model);
+    change_sets(world, near_sets(world, static_cast<double>(world.frame_time)));
+    prepare_groups(world);
+  }
   update_surfaces(world);
   if (!has_contact(world.groups)) world.groups.tables = nullptr;
   if (std::exchange(world.groups.bodies_meet_others, false) || world.groups.objects_changed) make_body_solvers(world);
@@ -229,6 +290,22 @@ void bring_up_to_date(WorldData& world) {
   world.groups.objects_changed = false;
 }
 
+void follow_distances(WorldData& world, double dt) {
+  if (!world.groups.near.depend_on_distance()) return;
+  std::vector<int> sets = near_sets(world, dt);
+  if (sets == world.groups.sets) return;
+  change_sets(world, std::move(sets));
+  const bool has_liquids = std::any_of(world.groups.all.begin(), world.groups.all.end(),
+                                       [](const SubstepGroup& group) { return group.fluids != nullptr; });
+  const bool is_one_group = named_substeps(world) > 0 || shares_one_group(world);
+  const bool must_regroup = !is_one_group && planned_substeps(world.model, &world.groups.sets) != world.groups.plan;
+  if (must_regroup) prepare_groups(world);
+  update_surfaces(world);
+  if (!has_contact(world.groups)) world.groups.tables = nullptr;
+  if (must_regroup) make_body_solvers(world);
+  if (must_regroup || has_liquids) make_particle_solvers(world);
+}
+
 int substeps_of(const WorldData& world, int number) {
   if (named_substeps(world) > 0) return named_substeps(world);
   if (!world.groups.objects_changed) {
@@ -236,7 +313,10 @@ int substeps_of(const WorldData& world, int number) {
     const SubstepGroup& group = *std::find_if(world.groups.all.begin(), world.groups.all.end(), has);
     return group.by_state ? 0 : group.substeps;
   }
-  const std::vector<SetSubsteps> planned = planned_substeps(world.model);
+  const NearSets near(world.model);
+  const std::vector<int> sets =
+      near.find(world.model, world.state, world.workspace.control, static_cast<double>(world.frame_time));
+  const std::vector<SetSubsteps> planned = planned_substeps(world.model, &sets);
   if (!shares_one_group(world)) return planned[number].by_state ? 0 : planned[number].substeps;
   const auto fewer = [](const SetSubsteps& a, const SetSubsteps& b) { return a.substeps < b.substeps; };
   return std::max_element(planned.begin(), planned.end(), fewer)->substeps;

@@ -13,6 +13,7 @@
 #include "world/events.h"
 #include "world/flow.h"
 #include "world/groups.h"
+#include "world/jumps.h"
 #include "world/object_store.h"
 #include "world/overlaps.h"
 #include "world/rest.h"
@@ -139,7 +140,9 @@ Report World::step(float dt) {
   let_flow(*data_, static_cast<double>(dt), report.flow);
   follow_rest_factors(*data_, data_->state.time + static_cast<double>(dt));
   begin_control(*data_, dt);
+  place_what_jumps(*data_, static_cast<double>(dt), report.warnings);
   const Resting resting = begin_rest(*data_, static_cast<double>(dt));
+  follow_distances(*data_, static_cast<double>(dt));
   const std::vector<GroupFrame> groups = plan_frame(*data_, dt, report);
   data_->stopped = true;  // if the step throws (a user's force field may), it stays true
   pliant::step(

@@ -14,6 +14,7 @@
 #include "pliant/world.h"
 #include "solver/kernels.h"
 #include "solver/measure.h"
+#include "solver/near_sets.h"
 #include "solver/substep_group.h"
 #include "solver/workspace.h"
 #include "world/id_table.h"
@@ -37,6 +38,9 @@ struct OpenSettings {
 /// The substep groups of a World, and what changed since they were made.
 struct WorldGroups {
   std::vector<SubstepGroup> all;
+  NearSets near;                            ///< of the objects; made again with the groups
+  std::vector<int> sets;                    ///< by number of an object, the first of its set in the last frame
+  std::vector<SetSubsteps> plan;            ///< planned_substeps() of these sets, from which the groups were made
   std::shared_ptr<ContactTables> tables;    ///< shared by the contact of all groups; null if there is none
   std::unique_ptr<PairModel> pairs_of_all;  ///< contact between surfaces, if one group has all objects
   BodyMeshes body_meshes;                   ///< shared by all groups

@@ -223,7 +223,7 @@ TEST(SubstepGroups, JoinWhenAnObjectBetweenThemComes) {
   World world(scene_of({a, sock()}));
   run(world, 2);
   EXPECT_EQ(world.object(0).info().substeps, 10);
-  Object between = sheet("coat", {5, 0.5f, 0});
+  Object between = sheet("coat", {1.5f, 0.5f, 0});
   between.sweep = Sweep::tiled;
   between.collides = true;
   between.groups = 2;

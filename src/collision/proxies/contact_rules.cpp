@@ -17,7 +17,7 @@ void ContactRules::set(int body, const ContactBody& by) {
 bool ContactRules::meet(int a, int b) const {
   const ContactBody &p = bodies_[static_cast<std::size_t>(a)], &q = bodies_[static_cast<std::size_t>(b)];
   if (a == b) return p.meets_itself;
-  if (p.mixes_with(q)) return false;
+  if (p.mixes_with(q) || set_of(a) != set_of(b)) return false;
   const bool masks = (p.groups & q.mask) != 0 && (q.groups & p.mask) != 0;
   const bool meant = (p.collides && q.collides) || p.is_collider || q.is_collider;
   return masks && meant && !(p.is_immovable && q.is_immovable);
@@ -43,7 +43,7 @@ std::vector<int> ContactRules::excepted() const {
 /// Sorts bodies into classes with equal contact rules; returns the class of each body.
 std::vector<int> ContactRules::find_classes(const std::vector<int>& among, std::vector<Class>& classes) const {
   const std::vector<int> alone = excepted();
-  using Key = std::tuple<std::uint32_t, std::uint32_t, int, int, float, float>;
+  using Key = std::tuple<std::uint32_t, std::uint32_t, int, int, float, float, int>;
   std::map<Key, int> numbers;
   const std::pair<const Key, int>* last = nullptr;  // cached, because most bodies have the same rules as the previous one
   std::vector<int> class_of;
@@ -53,9 +53,9 @@ std::vector<int> ContactRules::find_classes(const std::vector<int>& among, std::
     const int flags =
         (body.collides ? 1 : 0) + (body.is_collider ? 2 : 0) + (body.is_immovable ? 4 : 0) + (body.is_of_grains ? 8 : 0);
     const bool is_alone = std::binary_search(alone.begin(), alone.end(), number);
-    const Key key{body.groups, body.mask, flags, is_alone ? number : -1, body.spacing, body.speed_of_sound};
+    const Key key{body.groups, body.mask, flags, is_alone ? number : -1, body.spacing, body.speed_of_sound, set_of(number)};
     if (last == nullptr || last->first != key) last = &*numbers.try_emplace(key, static_cast<int>(classes.size())).first;
-    if (static_cast<std::size_t>(last->second) == classes.size()) classes.emplace_back();
+    if (static_cast<std::size_t>(last->second) == classes.size()) classes.push_back({.set = set_of(number)});
     class_of.push_back(last->second);
     find_thickest(number, classes[static_cast<std::size_t>(last->second)]);
   }
@@ -82,6 +82,7 @@ std::vector<int> ContactRules::sets(const std::vector<int>& among) const {
   for (const int number : among) {
     const ContactBody& body = bodies_[static_cast<std::size_t>(number)];
     members.push_back({body.groups, body.mask, body.collides && !body.is_collider, body.is_collider});
+    members.back().place = set_of(number);
   }
   return find_sets(members);
 }
@@ -96,7 +97,8 @@ float ContactRules::largest_thickness(const std::vector<int>& among) const {
   for (const int body : among) consider(body, body);
   for (std::size_t i = 0; i < classes.size(); ++i) {
     consider(classes[i].thickest, classes[i].second);
-    for (std::size_t j = 0; j < i; ++j) consider(classes[i].thickest, classes[j].thickest);
+    for (std::size_t j = 0; j < i; ++j)
+      if (classes[i].set == classes[j].set) consider(classes[i].thickest, classes[j].thickest);
   }
   return largest;
 }
@@ -110,7 +112,8 @@ std::vector<char> ContactRules::meeting(const std::vector<int>& among) const {
   };
   for (std::size_t i = 0; i < classes.size(); ++i) {
     consider(i, i, classes[i].thickest, classes[i].second);
-    for (std::size_t j = 0; j < i; ++j) consider(i, j, classes[i].thickest, classes[j].thickest);
+    for (std::size_t j = 0; j < i; ++j)
+      if (classes[i].set == classes[j].set) consider(i, j, classes[i].thickest, classes[j].thickest);
   }
   std::vector<char> out;
   out.reserve(among.size());

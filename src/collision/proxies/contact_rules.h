@@ -36,6 +36,9 @@ class ContactRules {
   void add(const ContactBody& body) { bodies_.push_back(body); }
   /// Sets the contact settings of a body; `body` may be one past the last, which adds it.
   void set(int body, const ContactBody& by);
+  /// Sets for each body the number of its set (solver/near_sets.h): those of different sets are too far apart to meet
+  /// in the frame.
+  void set_sets(const std::vector<int>& of_bodies) { set_of_ = of_bodies; }
   /// Replaces the material that the settings of two bodies would combine to.
   void set_material(int a, int b, const PairMaterial& material) { exceptions_[std::minmax(a, b)] = material; }
 
@@ -56,12 +59,20 @@ class ContactRules {
   /// A class of bodies that meet the same others. A body with an exception has a class of its own.
   struct Class {
     int thickest = -1, second = -1;  ///< bodies of largest and second largest thickness in the class; -1: none
+    int set = 0;                     ///< of its bodies
   };
   std::vector<int> find_classes(const std::vector<int>& among, std::vector<Class>& classes) const;
   std::vector<int> excepted() const;
   void find_thickest(int body, Class& of) const;
 
+  /// The number of a body's set; 0 where none was given.
+  int set_of(int body) const {
+    const auto number = static_cast<std::size_t>(body);
+    return number < set_of_.size() ? set_of_[number] : 0;
+  }
+
   std::vector<ContactBody> bodies_;
+  std::vector<int> set_of_;
   std::map<std::pair<int, int>, PairMaterial> exceptions_;  ///< overrides; key: two bodies, the lower index first
 };
 

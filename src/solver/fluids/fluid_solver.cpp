@@ -36,12 +36,14 @@ void for_all(Substep& s, const char* name, int count, const Body& body) {
 
 }  // namespace
 
-FluidSolver::FluidSolver(const Model& model, const std::vector<int>* objects) {
+FluidSolver::FluidSolver(const Model& model, const std::vector<int>* objects, const std::vector<int>* sets) {
+  const auto set_of = [&](int o) { return sets != nullptr ? (*sets)[at(o)] : 0; };
   const auto add = [&](int o) {
     const CompiledObject& object = model.objects[at(o)];
     if (!object.fluid) return;
     auto pool = std::find_if(pools_.begin(), pools_.end(), [&](const auto& one) {
-      return kind_of(model.objects[at(one->objects.front())]) == kind_of(object);
+      const int first = one->objects.front();
+      return set_of(first) == set_of(o) && kind_of(model.objects[at(first)]) == kind_of(object);
     });
     if (pool == pools_.end()) pool = pools_.insert(pool, std::make_unique<FluidPool>());
     FluidPool& p = **pool;

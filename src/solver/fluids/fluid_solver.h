@@ -49,8 +49,9 @@ struct FluidPool {
 
 class FluidSolver {
  public:
-  /// For the liquids of the given objects, or of all if it is null.
-  FluidSolver(const Model& model, const std::vector<int>* objects);
+  /// For the liquids of the given objects, or of all if it is null. Those of different sets (solver/near_sets.h) have
+  /// pools of their own; null: all are of one set.
+  FluidSolver(const Model& model, const std::vector<int>* objects, const std::vector<int>* sets = nullptr);
   ~FluidSolver();
 
   bool has_fluids() const { return !pools_.empty(); }
