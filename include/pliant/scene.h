@@ -282,7 +282,8 @@ Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr
 
 /// Returns the substeps per frame of each object: those of the settings, or, if they are 0, those of its set. A set
 /// consists of objects and mesh colliders (as triangles) whose surfaces can touch, by groups, masks and `collides`,
-/// directly or through others. An object that touches nothing is a set of its own. 0 stands for substeps that follow
+/// directly or through others, as if all were near; in a World distances divide sets further (ObjectInfo::substeps has
+/// what an object gets). An object that touches nothing is a set of its own. 0 stands for substeps that follow
 /// the State: they are decided in each quarter of a frame by strain and motion. They do so if an object of the set is
 /// solved by chains and not meant to stretch,
 /// and none has PBD stiffness between 0 and 1. Other sets have 80 to 160 with a volume; 5 if all use `multigrid`, 10 if one

@@ -188,10 +188,10 @@ struct GroupKeys {
   std::map<int, SetSubsteps> substeps;
 };
 
-/// True if there is a mesh collider that touches no object.
+/// True if there is a mesh collider that touches no object, but may touch some elsewhere: not a grid or heightfield.
 bool has_lone_collider(const Model& model, const GroupKeys& keys) {
   for (std::size_t o = 0; o < model.objects.size(); ++o)
-    if (keys.of_object[o] == 0 && model.objects[o].particles > 0) return true;
+    if (keys.of_object[o] == 0 && model.objects[o].particles > 0 && model.objects[o].groups != 0) return true;
   return false;
 }
 
