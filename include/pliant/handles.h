@@ -112,6 +112,12 @@ class ObjectHandle : public ObjectView {
   void set_targets(std::span<const int> particles, std::span<const Vec3f> positions);
   /// Moves the targets of attachments in the same way. `attachments` are indices in the Object.
   void set_attachment_targets(std::span<const int> attachments, std::span<const Vec3f> positions);
+  /// Moves a kinematic body (BodyOptions::kinematic, or infinite mass and inertia) to a pose [m] that it reaches at the end of the next
+  /// step: of the frame in which it was described, as ObjectView::pose. Its centre of mass moves at constant velocity, and it turns along
+  /// the shorter arc. After that it stays, or follows its keyframes, if any. `body` is an index in Object::bodies, or a name that only one
+  /// of these has. Throws an Error if there is no such body, it is dynamic, or the pose is not finite or has a rotation of zero.
+  void set_pose(int body, const RigidPose& pose);
+  void set_pose(const std::string& body, const RigidPose& pose);
   /// Sets the velocity of each particle [m/s]; those of infinite mass are skipped.
   void set_velocities(std::span<const Vec3f> velocities);
   /// Adds an impulse to each particle [N s]: velocity += impulse / mass.

@@ -110,7 +110,8 @@ struct StrainLimit {
   float most = 1.1f;  ///< greatest length over that at rest, >= 1 [-]
 };
 
-/// A kinematic particle: it has infinite mass and follows `motion` from its rest position. If that turns, so does a body with this particle.
+/// A kinematic particle: it has infinite mass and follows `motion` from its rest position. If that turns, so does a body with this particle;
+/// if not, the body is free to turn, unless the inertia of its frame is infinite (BodyOptions::kinematic).
 struct Pin {
   int particle = 0;
   Motion motion{};

@@ -1,6 +1,7 @@
 #include "model/compiled_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "constraints/gives_shape.h"
@@ -125,6 +126,10 @@ bool turns(const Motion& motion) {
                      [](const Keyframe& key) { return key.rotation.x != 0 || key.rotation.y != 0 || key.rotation.z != 0; });
 }
 
+bool is_locked(const ObjectFrame& frame) {
+  return std::isinf(frame.inertia.x) && std::isinf(frame.inertia.y) && std::isinf(frame.inertia.z);
+}
+
 /// Of two pins of a body the later one wins, as for its particle.
 void find_driven(const Object& object, CompiledBodies& out) {
   std::map<int, const Pin*> pin_of;
@@ -133,9 +138,9 @@ void find_driven(const Object& object, CompiledBodies& out) {
   for (const ObjectBody& body : object.bodies) {
     const auto found = pin_of.find(body.particle);
     const Pin* const pin = found == pin_of.end() ? nullptr : found->second;
-    if (pin == nullptr || !turns(pin->motion)) continue;
-    const Quatf rest = object.frames[static_cast<std::size_t>(body.frame)].orientation;
-    out.driven.push_back({body.frame, normalise(convert<double>(rest)), pin->motion});
+    const ObjectFrame& frame = object.frames[static_cast<std::size_t>(body.frame)];
+    if (pin == nullptr || (!turns(pin->motion) && !is_locked(frame))) continue;
+    out.driven.push_back({body.frame, normalise(convert<double>(frame.orientation)), pin->motion});
   }
 }
 

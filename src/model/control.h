@@ -23,9 +23,19 @@ struct Target {
   Vec3d from, to;    ///< positions at the frame's start and end [m]
 };
 
+/// A frame of infinite inertia that turns between two orientations, along the shorter arc.
+struct TurnTarget {
+  int frame = 0;  ///< index among the object's frames
+  Quatd from, to;
+};
+
 struct ObjectControl {
-  std::vector<Target> targets;  ///< ascending by particle
-  std::vector<Vec3f> forces;    ///< force on each particle in storage order [N]; empty: none
+  std::vector<Target> targets;    ///< ascending by particle
+  std::vector<TurnTarget> turns;  ///< of bodies, whose particles are in `targets`; ascending by frame
+  std::vector<Vec3f> forces;      ///< force on each particle in storage order [N]; empty: none
+
+  const Target* target(int particle) const;
+  const TurnTarget* turn(int frame) const;
 };
 
 /// All that the user sets for one frame.

@@ -1,6 +1,8 @@
 // What the user set between steps: motions, poses and forces of the next frame.
 #pragma once
 
+#include <string>
+
 #include "math/motion.h"
 #include "world/world_data.h"
 
@@ -20,6 +22,11 @@ bool is_earlier(const MotorSetting& a, const MotorSetting& b);
 
 /// Wakes the bodies of an object, so that what is set acts in the next step.
 void wake_bodies(WorldData& world, int number);
+
+/// Throws an Error if the object has no such body.
+const CompiledBodies::Body& body_of(const CompiledObject& object, int body);
+/// Throws an Error if not exactly one body has the name.
+int body_of_name(const CompiledObject& object, const std::string& name);
 
 /// Discards the pose that the user set for a collider that is removed.
 void forget_pose(WorldData& world, bool is_mesh, int slot);

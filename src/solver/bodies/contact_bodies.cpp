@@ -259,6 +259,18 @@ void ContactBodies::drive(const Substep& s, int body, BodyState& state) const {
   state.spin = turn_between(convert<float>(now.rotation), convert<float>(end.rotation)) * rate;
 }
 
+/// Does the same for a body for which the user has set a pose.
+void ContactBodies::drive_to_target(const Substep& s, const BodyPlace& place, BodyState& state) {
+  const ObjectControl* const control = s.work.control.object(place.object);
+  if (control == nullptr) return;
+  const TurnTarget* const turn = control->turn(place.frame - s.model.first_frame[at(place.object)]);
+  const Target* const target = control->target(place.particle - s.model.first[at(place.object)]);
+  if (turn == nullptr || target == nullptr) return;
+  const auto rate = static_cast<float>(1 / time_left(s));
+  state.velocity = convert<float>(target->to - state.pose.position) * rate;
+  state.spin = turn_between(convert<float>(state.pose.rotation), convert<float>(turn->to)) * rate;
+}
+
 BodyState ContactBodies::state_at_start(const Substep& s, int index) {
   const BodyPlace& place_of = places_[at(index)];
   if (!place_of.is_body()) return collider_at_start(s, place_of);
@@ -273,6 +285,7 @@ BodyState ContactBodies::state_at_start(const Substep& s, int index) {
       rotate(q, is_fixed ? spin : without(round_[at(index)], spin)),  // a fixed disc carries what lies on it round
       is_fixed};
   if (driven_[at(index)] >= 0) drive(s, index, state);
+  drive_to_target(s, place_of, state);
   return state;
 }
 

@@ -79,6 +79,7 @@ class ContactBodies {
   std::pair<Posed, Posed> poses_of_mesh(const Substep& s, const BodyPlace& place, double before, double after) const;
   BodyState collider_at_start(const Substep& s, const BodyPlace& place);
   void drive(const Substep& s, int body, BodyState& state) const;
+  static void drive_to_target(const Substep& s, const BodyPlace& place, BodyState& state);
 
   ContactRules rules_;
   BodyMeshes* meshes_ = nullptr;
