@@ -76,16 +76,38 @@ void BodySolver::find_tied(const Model& model) {
   }
 }
 
+/// Gives each contact with a mesh that deforms a motion of its own, which is that of the mesh where it touches.
+void BodySolver::follow_meshes(const Substep& s) {
+  const std::vector<BodyState>& states = contacts_.states();
+  followed_.clear();
+  is_fixed_.assign(contacts_.is_fixed().begin(), contacts_.is_fixed().end());
+  if (std::none_of(states.begin() + bodies_.dynamic(), states.end(), [](const BodyState& state) { return state.deforms; }))
+    return;
+  const auto elapsed = static_cast<float>(time_of(s, s.number) - s.frame_start);
+  followed_.assign(contacts_.all().size(), -1);
+  for (std::size_t i = 0; i < followed_.size(); ++i) {
+    const int mesh = contacts_.bodies()[i].first;
+    const BodyState& state = states[at(mesh)];
+    if (!state.deforms) continue;
+    const SurfaceMotion motion = bodies_.motion_of_surface(s.model, mesh, contacts_.all()[i]);
+    if (motion.velocity == Vec3f{} && motion.spin == Vec3f{}) continue;
+    followed_[i] = motions_.add_fixed(motion.velocity, motion.spin, (motion.velocity - state.velocity) * elapsed,
+                                      motion.spin * elapsed);
+  }
+  is_fixed_.resize(motions_.all().size(), 1);
+}
+
 void BodySolver::make_manifolds(const Substep& s) {
   Executor& executor = s.context.executor;
   const Stopwatch stopwatch(executor.timings(), "bodies: manifolds");
   const std::vector<std::pair<int, int>>& bodies_of = contacts_.bodies();
   colours_.colour(bodies_of, contacts_.is_fixed());
+  follow_meshes(s);
   const double left = time_left(s);
   is_separating_.resize(bodies_of.size());
   contacts_.count_overlaps(overlaps_);
   const auto prefetch = [&](int i) { fetch(contacts_.all()[at(i)]); };
-  blocks_.fill(executor, colours_, contacts_.is_fixed(), prefetch, [&](int i) {
+  blocks_.fill(executor, colours_, is_fixed_, prefetch, [&](int i) {
     const auto& [a, b] = bodies_of[at(i)];
     Manifold m = manifold_of(contacts_.all()[at(i)], a, b, bodies_.material(s.model, a, b), s.h);
     const bool separates = limit_depths(motions_.all()[at(a)], motions_.all()[at(b)], contacts_.size(i),
@@ -93,6 +115,7 @@ void BodySolver::make_manifolds(const Substep& s) {
     is_separating_[at(i)] = separates ? 1 : 0;
     turn_arm(contacts_.states()[at(a)], m.normal, left, m.arm_a);
     turn_arm(contacts_.states()[at(b)], m.normal, left, m.arm_b);
+    if (!followed_.empty() && followed_[at(i)] >= 0) m.a = followed_[at(i)], m.arm_a = {};
     return m;
   });
   blocks_.prepare(executor, s.kernels.manifolds, motions_.all());
