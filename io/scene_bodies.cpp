@@ -246,6 +246,7 @@ BodyOptions options_of(const JsonDocument& document, const JsonValue& at) {
   set(document, at, "rotation", options.rotation);
   set(at, "velocity", options.velocity);
   set(at, "angular_velocity", options.angular_velocity);
+  set(at, "surface_velocity", options.surface_velocity);
   set_kinematic(document, at, options);
   const JsonValue* mass = at.find("mass");
   const bool is_fixed = mass != nullptr && mass->kind == JsonValue::Kind::string;

@@ -118,6 +118,11 @@ class ObjectHandle : public ObjectView {
   /// of these has. Throws an Error if there is no such body, it is dynamic, or the pose is not finite or has a rotation of zero.
   void set_pose(int body, const RigidPose& pose);
   void set_pose(const std::string& body, const RigidPose& pose);
+  /// Gives the surface of a body another surface velocity (ObjectBody::surface_velocity), in the frame in which the body was described
+  /// [m/s]. It keeps it until the next call, restore() or edit. `body` as in set_pose. Throws an Error if there is no such body, or the
+  /// velocity is not finite or above 1e6 m/s.
+  void set_surface_velocity(int body, const Vec3f& velocity);
+  void set_surface_velocity(const std::string& body, const Vec3f& velocity);
   /// Sets the velocity of each particle [m/s]; those of infinite mass are skipped.
   void set_velocities(std::span<const Vec3f> velocities);
   /// Adds an impulse to each particle [N s]: velocity += impulse / mass.
@@ -156,6 +161,9 @@ class ColliderHandle : public ColliderView {
   /// along the shorter arc. After that it stays, or follows its keyframes, if any. Throws an Error if the pose is not
   /// finite or its rotation is zero.
   void set_pose(const RigidPose& pose);
+  /// Gives its surface another velocity (Collider::surface_velocity) in the collider's frame [m/s], until the next call or restore().
+  /// Throws an Error if it is not finite or above 1e6 m/s.
+  void set_surface_velocity(const Vec3f& velocity);
 
  private:
   WorldData* world_;
@@ -185,6 +193,8 @@ class MeshColliderHandle : public MeshColliderView {
   /// Moves the vertices of a mesh that collides as triangles to positions that they reach at the end of the next step
   /// [m]. Throws an Error if it is a distance grid or a heightfield, or if size or values are wrong.
   void set_positions(std::span<const Vec3f> positions);
+  /// Gives its surface another velocity like that of a primitive collider.
+  void set_surface_velocity(const Vec3f& velocity);
 
  private:
   WorldData* world_;

@@ -113,6 +113,7 @@ void check_bodies(Problems& problems, const Object& object) {
     check_place(problems, element, "frame", body.frame, frames);
     check_rotation(problems, element, body.axes);
     require_place(problems, element, body.origin);
+    check_surface_velocity(problems, element + ", surface_velocity", body.surface_velocity);
     for (std::size_t i = 0; i < body.solids.size(); ++i) {
       const std::string solid = element + ", solid " + std::to_string(i);
       require_place(problems, solid, body.solids[i].position);

@@ -69,6 +69,7 @@ void check_motion(Problems& problems, const std::string& element, const Motion& 
 void check_rotation(Problems& problems, const std::string& element, const Quatf& rotation);
 void check_friction(Problems& problems, float static_friction, float kinetic_friction, float restitution);
 void check_rolling(Problems& problems, float rolling_friction, float spinning_friction);
+void check_surface_velocity(Problems& problems, const std::string& element, const Vec3f& velocity);
 
 /// True if the numbers of a Plasticity are in their range.
 bool is_sound(const Plasticity& plasticity);

@@ -176,6 +176,7 @@ int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions
   body.solids = in_principal_axes(solids, own, options.name);
   body.origin = convert<float>(rotate(conjugate(own.axes), -own.centre));
   body.axes = convert<float>(conjugate(own.axes));
+  body.surface_velocity = options.surface_velocity;
   if (options.motion.moves()) object.pins.push_back({body.particle, options.motion});
   object.bodies.push_back(std::move(body));
   object.collides = object.self_collision = true;

@@ -45,6 +45,7 @@ struct CompiledBodies {
   std::vector<double>
       edge_lengths;  ///< [attached] mean length at the start of the edges at the particle; 0: it has none [m]
   std::vector<DrivenFrame> driven;                           ///< of bodies that follow their pins, by body
+  std::vector<Vec3f> surface_velocities;                     ///< [body] in principal axes; empty if none has one [m/s]
   std::shared_ptr<const std::vector<Polyhedron>> polyhedra;  ///< what shapes point to; each different one once
 
   bool empty() const { return bodies.empty(); }

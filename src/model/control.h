@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "math/quat.h"
@@ -38,11 +39,19 @@ struct ObjectControl {
   const TurnTarget* turn(int frame) const;
 };
 
+/// Surface velocities that the user has set, each in its own frame, of bodies in principal axes [m/s].
+struct SurfaceVelocities {
+  std::map<std::pair<int, int>, Vec3f> bodies;  ///< key: index in Model::objects, and of the body
+  std::map<int, Vec3f> colliders;               ///< key: index in Model::colliders
+  std::map<int, Vec3f> meshes;                  ///< key: index of the mesh collider in Model::objects
+};
+
 /// All that the user sets for one frame.
 struct Control {
   std::map<int, PoseDrive> colliders;    ///< key: index in Model::colliders
   std::map<int, PoseDrive> meshes;       ///< key: index of the mesh collider in Model::objects
   std::map<int, ObjectControl> objects;  ///< key: index in Model::objects
+  SurfaceVelocities surfaces;
 
   const PoseDrive* collider(int number) const { return find(colliders, number); }
   const PoseDrive* mesh(int number) const { return find(meshes, number); }

@@ -14,6 +14,7 @@
 #include "math/vector.h"
 #include "pliant/error.h"
 #include "world/resting_grains.h"
+#include "world/surface_velocities.h"
 
 namespace pliant {
 
@@ -224,6 +225,7 @@ void begin_control(WorldData& world, double dt) {
     else
       control.colliders.emplace(world.ids.colliders.number({pose.slot, pose.generation}), PoseDrive{at, at});
   }
+  begin_surface_velocities(world);
   if (world.may_drift) stop_fixed(world);
   world.may_drift = !control.objects.empty() || !control.meshes.empty();
 }

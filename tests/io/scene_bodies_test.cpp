@@ -141,6 +141,7 @@ TEST_F(Heap, HasAKinematicBodyAsTheSameOptionsMakeIt) {
   ASSERT_EQ(rig.pins[0].motion.keyframes.size(), 2U);
   EXPECT_EQ(rig.pins[0].motion.keyframes[1].position, (Vec3f{0, 1, 0}));
   EXPECT_EQ(rig.pins[0].motion.keyframes[1].rotation, same.pins.at(0).motion.keyframes[1].rotation);
+  EXPECT_EQ(lift.surface_velocity, (Vec3f{0, 0, 3}));
   EXPECT_TRUE(std::isinf(rig.masses.at(static_cast<std::size_t>(lift.particle))));
   EXPECT_TRUE(std::isinf(rig.frames.at(static_cast<std::size_t>(lift.frame)).inertia.y));
 }

@@ -1,6 +1,7 @@
 #include "solver/bodies/body_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -38,6 +39,13 @@ void turn_arm(const BodyState& body, const Vec3f& normal, double left, Vec3f& ar
   const float angle = std::clamp(dot(body.spin, normal) * static_cast<float>(left / 2), -largest, largest);
   const Vec3f half = normal * angle, along = cross(half, arm);
   arm += along + cross(half, along) * 0.5f;
+}
+
+/// The velocity of b against a along the tangents at which their surfaces do not slide over one another.
+std::array<float, 2> drift_of(const BodyState& a, const BodyState& b, const Manifold& m) {
+  if (!slides(a) && !slides(b)) return {};
+  const Vec3f drift = a.surface_velocity - b.surface_velocity;
+  return {dot(drift, m.tangent1), dot(drift, m.tangent2)};
 }
 
 }  // namespace
@@ -115,6 +123,7 @@ void BodySolver::make_manifolds(const Substep& s) {
     is_separating_[at(i)] = separates ? 1 : 0;
     turn_arm(contacts_.states()[at(a)], m.normal, left, m.arm_a);
     turn_arm(contacts_.states()[at(b)], m.normal, left, m.arm_b);
+    m.drift = drift_of(contacts_.states()[at(a)], contacts_.states()[at(b)], m);
     if (!followed_.empty() && followed_[at(i)] >= 0) m.a = followed_[at(i)], m.arm_a = {};
     return m;
   });

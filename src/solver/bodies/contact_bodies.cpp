@@ -7,6 +7,7 @@
 
 #include "collision/proxies/contact_tables.h"
 #include "math/motion.h"
+#include "model/surface_velocity.h"
 #include "solver/bodies/body_math.h"
 #include "solver/substep.h"
 
@@ -281,8 +282,12 @@ BodyState ContactBodies::collider_at_start(const Substep& s, const BodyPlace& pl
                                                      : poses_of_mesh(s, place, time_of(s, s.number), s.frame_start + s.dt);
   const Posef start = convert<float>(before), end = convert<float>(after);
   const float rate = static_cast<float>(1 / time_left(s));
-  return {before, convert<float>(after.position - before.position) * rate,
-          turn_between(start.rotation, end.rotation) * rate, true};
+  BodyState state{before, convert<float>(after.position - before.position) * rate,
+                  turn_between(start.rotation, end.rotation) * rate, true};
+  state.surface_velocity =
+      place.mesh == nullptr ? rotate(start.rotation, surface_velocity_of_collider(s.model, s.work.control, place.collider))
+                            : surface_velocity_of_mesh(s.model, s.work.control, place.object, time_of(s, s.number));
+  return state;
 }
 
 /// A mesh that deforms moves as its vertices do on the mean, and each of them may depart from that.
@@ -294,6 +299,7 @@ BodyState ContactBodies::deformed_at_start(const Substep& s, const BodyPlace& pl
   state.velocity = entry.velocity;
   state.is_fixed = state.deforms = true;
   state.deforming = entry.deforming;
+  state.surface_velocity = surface_velocity_of_mesh(s.model, s.work.control, place.object, time_of(s, s.number));
   return state;
 }
 
@@ -350,6 +356,8 @@ BodyState ContactBodies::state_at_start(const Substep& s, int index) {
       is_fixed};
   if (driven_[at(index)] >= 0) drive(s, index, state);
   drive_to_target(s, place_of, state);
+  const Vec3f sliding = surface_velocity_of_body(s.model, s.work.control, place_of.object, place_of.body);
+  if (sliding != Vec3f{}) state.surface_velocity = rotate(q, sliding);
   return state;
 }
 
