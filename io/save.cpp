@@ -32,11 +32,12 @@ constexpr std::string_view orientations_block = "state.orientations", spins_bloc
                            motors_block = "state.motors", rest_block = "state.rest_times",
                            grains_block = "state.grain_contacts", births_block = "state.births",
                            emitted_block = "state.emitted", factors_block = "state.rest_factors",
-                           flowed_block = "state.flowed";
+                           flowed_block = "state.flowed", surfaces_block = "state.surface_velocities";
 const std::vector<std::string_view> state_blocks{
-    time_block,   frame_block,    blocks_block,   positions_block, remainders_block, velocities_block, orientations_block,
-    spins_block,  inertias_block, channels_block, poses_block,     substeps_block,   contacts_block,   breaks_block,
-    motors_block, rest_block,     grains_block,   births_block,    emitted_block,    factors_block,    flowed_block};
+    time_block,         frame_block,   blocks_block,   positions_block, remainders_block, velocities_block,
+    orientations_block, spins_block,   inertias_block, channels_block,  poses_block,      substeps_block,
+    contacts_block,     breaks_block,  motors_block,   rest_block,      grains_block,     births_block,
+    emitted_block,      factors_block, flowed_block,   surfaces_block};
 constexpr std::string_view fingerprint_blocks[] = {"fingerprint.scene", "fingerprint.settings"};
 constexpr std::string_view scene_block = "scene", settings_block = "settings", layout_block = "layout";
 
@@ -68,8 +69,8 @@ struct Columns {
 /// written.
 std::vector<Block> blocks_of(const State& state, Columns& columns) {
   const auto& [time, frame, object_blocks, positions, remainders, velocities, frames, channels, held_poses, substeps,
-               broken_joints, motors, body_contacts, rest_times, grain_contacts, births, emitted, rest_factors, flowed] =
-      state;
+               broken_joints, motors, body_contacts, rest_times, grain_contacts, births, emitted, rest_factors, flowed,
+               surface_velocities] = state;
   const auto bytes = [](std::string_view name, const std::string& column) {
     return Block{name, Type::bytes, 1, column.size(), column.data()};
   };
@@ -108,6 +109,9 @@ std::vector<Block> blocks_of(const State& state, Columns& columns) {
   if (!rest_factors.empty())
     blocks.push_back({factors_block, Type::bytes, 1, rest_factors.size() * sizeof(RestFactor), rest_factors.data()});
   if (!flowed.empty()) blocks.push_back({flowed_block, Type::float32, sizeof(float), flowed.size(), flowed.data()});
+  if (!surface_velocities.empty())
+    blocks.push_back(
+        {surfaces_block, Type::bytes, 1, surface_velocities.size() * sizeof(SurfaceVelocity), surface_velocities.data()});
   return blocks;
 }
 
@@ -144,7 +148,8 @@ void read_list(const Contents& from, std::string_view name, std::vector<T>& list
 State state_in(const Contents& from) {
   State state;
   auto& [time, frame, blocks, positions, remainders, velocities, frames, channels, held_poses, substeps, broken_joints,
-         motors, body_contacts, rest_times, grain_contacts, births, emitted, rest_factors, flowed] = state;
+         motors, body_contacts, rest_times, grain_contacts, births, emitted, rest_factors, flowed, surface_velocities] =
+      state;
   read(from, time_block, Type::float64, time);
   read(from, frame_block, Type::int64, frame);
   blocks = read_bytes<std::vector<StateBlock>>(from, blocks_block);
@@ -174,6 +179,7 @@ State state_in(const Contents& from) {
   if (from.has(emitted_block)) read_list(from, emitted_block, emitted);
   if (from.has(factors_block)) read_list(from, factors_block, rest_factors);
   if (from.has(flowed_block)) read(from, flowed_block, flowed);
+  if (from.has(surfaces_block)) read_list(from, surfaces_block, surface_velocities);
   return state;
 }
 

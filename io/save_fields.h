@@ -103,8 +103,8 @@ void fields(A& a, Is<Solid> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<ObjectBody> auto& of) {
-  auto& [name, particle, frame, solids, origin, axes] = of;
-  a(name, particle, frame, solids, origin, axes);
+  auto& [name, particle, frame, solids, origin, axes, surface_velocity] = of;
+  a(name, particle, frame, solids, origin, axes, surface_velocity);
 }
 template <class A>
 void fields(A& a, Is<ObjectJointMotor> auto& of) {
@@ -256,9 +256,9 @@ void fields(A& a, Is<Hull> auto& of) {
 template <class A>
 void fields(A& a, Is<Collider> auto& of) {
   auto& [name, shape, position, rotation, motion, thickness, static_friction, kinetic_friction, restitution,
-         rolling_friction, spinning_friction, colour] = of;
+         rolling_friction, spinning_friction, surface_velocity, colour] = of;
   a(name, shape, position, rotation, motion, thickness, static_friction, kinetic_friction, restitution, rolling_friction,
-    spinning_friction);
+    spinning_friction, surface_velocity);
   a.aside(colour);
 }
 template <class A>
@@ -279,10 +279,11 @@ void fields(A& a, Is<DistanceField> auto& of) {
 template <class A>
 void fields(A& a, Is<MeshCollider> auto& of) {
   auto& [name, mesh, motion, frames, repeat_frames, as, grid_spacing, field, thickness, static_friction, kinetic_friction,
-         restitution, rolling_friction, spinning_friction, groups, mask, colour] = of;
+         restitution, rolling_friction, spinning_friction, groups, mask, surface_velocity, colour] = of;
   a(name, mesh, motion, frames, repeat_frames, as, grid_spacing);
   a.aside(field);
-  a(thickness, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, groups, mask);
+  a(thickness, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, groups, mask,
+    surface_velocity);
   a.aside(colour);
 }
 template <class A>

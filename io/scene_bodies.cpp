@@ -229,19 +229,35 @@ std::vector<RigidPose> copies_of(const JsonDocument& document, const JsonValue& 
 
 // ------------------------------------------------------------------------------------------------ bodies
 
+void set_kinematic(const JsonDocument& document, const JsonValue& at, BodyOptions& options) {
+  set(at, "kinematic", options.kinematic);
+  const bool moves = set(document, at, "motion", options.motion);
+  if (moves && !options.kinematic)
+    document.fail_key(*at.find("motion"), "only a kinematic body follows a motion",
+                      "add \"kinematic\": true, or move the body by joints");
+  const JsonValue* mass = at.find("mass");
+  if (mass != nullptr && options.kinematic)
+    document.fail_key(*mass, "a kinematic body has infinite mass", "remove the mass, or \"kinematic\"");
+}
+
 BodyOptions options_of(const JsonDocument& document, const JsonValue& at) {
   BodyOptions options;
   set(at, "position", options.position);
   set(document, at, "rotation", options.rotation);
   set(at, "velocity", options.velocity);
   set(at, "angular_velocity", options.angular_velocity);
+  set(at, "surface_velocity", options.surface_velocity);
+  set_kinematic(document, at, options);
   const JsonValue* mass = at.find("mass");
-  if (mass == nullptr) return options;
-  const bool is_fixed = mass->kind == JsonValue::Kind::string;
-  options.mass = is_fixed ? std::numeric_limits<float>::infinity() : static_cast<float>(mass->number);
-  for (const char* motion : {"velocity", "angular_velocity"})
-    if (const JsonValue* given = at.find(motion); is_fixed && given != nullptr)
+  const bool is_fixed = mass != nullptr && mass->kind == JsonValue::Kind::string;
+  if (mass != nullptr) options.mass = is_fixed ? std::numeric_limits<float>::infinity() : static_cast<float>(mass->number);
+  for (const char* motion : {"velocity", "angular_velocity"}) {
+    const JsonValue* given = at.find(motion);
+    if (given != nullptr && options.kinematic)
+      document.fail_key(*given, "a kinematic body has the velocity of its motion", "remove it, or give a motion");
+    if (given != nullptr && is_fixed)
       document.fail_key(*given, "a fixed body has no velocity", "remove it, or give the body a mass");
+  }
   return options;
 }
 

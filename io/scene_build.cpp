@@ -230,6 +230,7 @@ Collider collider_of(const JsonDocument& document, const JsonValue& at, Names& n
   set(at, "restitution", collider.restitution);
   set(at, "rolling_friction", collider.rolling_friction);
   set(at, "spinning_friction", collider.spinning_friction);
+  set(at, "surface_velocity", collider.surface_velocity);
   set(at, "colour", collider.colour);
   return collider;
 }
@@ -289,6 +290,8 @@ MeshCollider mesh_collider_of(const JsonDocument& document, const JsonValue& at,
   set(at, "restitution", collider.restitution);
   set(at, "rolling_friction", collider.rolling_friction);
   set(at, "spinning_friction", collider.spinning_friction);
+  set(at, "surface_velocity", collider.surface_velocity);
+  if (turns) collider.surface_velocity = rotated(turn, collider.surface_velocity);
   set(at, "groups", collider.groups);
   set(at, "mask", collider.mask);
   set(at, "colour", collider.colour);

@@ -192,7 +192,9 @@ const Record& object_record() {
        field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Initial velocity of all its particles."),
        field("clusters", list(record(cluster_record())), "none", "Groups of its particles that keep their shape."),
        field("pins", list(record(pin_record())), "none",
-             "Kinematic particles. A body whose particle has a pin turns with it, if a keyframe has a rotation."),
+             "Kinematic particles. A body whose particle has a pin turns with it, if a keyframe has a rotation; else it is "
+             "free to "
+             "turn, and a load tips it (`kinematic` of a body)."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
        field("stitches", list(record(stitch_record())), "none", "Threads that sew its particles together."),
        field("tearing", record(tearing_record()), "none",

@@ -134,6 +134,15 @@ const Record& body_record() {
              "Angular velocity at the start, in world axes."),
        field("mass", any_of({positive("kg"), choice({"fixed"})}), "from the densities",
              "Replaces the mass that the densities give; \"fixed\" for a body that never moves."),
+       field("kinematic", boolean(), BodyOptions{}.kinematic,
+             "True: infinite mass. Nothing pushes or turns the body; it carries what lies on it, and follows `motion`, or "
+             "the "
+             "poses that a program sets."),
+       field("motion", record(motion_record()), "none",
+             "Motion of a kinematic body from that pose; as everywhere about a `pivot` in the world. Copies share it."),
+       field("surface_velocity", vector("m/s", largest_velocity), BodyOptions{}.surface_velocity,
+             "Velocity in the body's frame with which its surface moves along itself, as that of a belt or track: friction "
+             "takes along what it touches, or drives the body."),
        field("repeat", record(repeat_record()), "one body", "Makes copies of the body.")},
       {}};
   return result;

@@ -98,6 +98,10 @@ const Record& collider_record() {
              "For bodies: greatest torque about the contact normal, per normal force, in addition to that of friction. A "
              "pair has "
              "the larger one."),
+       field(
+           "surface_velocity", vector("m/s", largest_velocity), Collider{}.surface_velocity,
+           "Velocity in the collider's frame with which its surface moves along itself while its shape stays, as that of a "
+           "conveyor belt: friction takes along what touches it."),
        field("frames", list(record(mesh_frame_record())), "none",
              "Only for a mesh: its deformation, linear between frames; `motion` is applied after it."),
        field("repeat_frames", boolean(), MeshCollider{}.repeat_frames, "Only for a mesh: restart after the last frame."),

@@ -27,12 +27,16 @@ struct BodyOptions {
   Vec3f angular_velocity{};   ///< in world axes [rad/s]
   float mass = 0;             ///< replaces the mass that densities give, > 0 [kg]; 0: by density; infinity: fixed
   std::optional<BodyInertia>
-      inertia{};  ///< replaces mass, centre and inertia of the solids, of which there may then be none
+      inertia{};             ///< replaces mass, centre and inertia of the solids, of which there may then be none
+  bool kinematic = false;    ///< infinite mass: nothing pushes or turns it; it follows `motion`, or ObjectHandle::set_pose
+  Motion motion{};           ///< of a kinematic body: moves it from `position` and `rotation`, as Collider::motion does
+  Vec3f surface_velocity{};  ///< ObjectBody::surface_velocity [m/s]
 };
 
 /// Makes an object of one rigid body of solids, which may overlap: each counts with its own mass. Its particle is the centre of
 /// mass, its frame the principal axes of inertia. Throws an Error that names a solid with a size or density that is not
-/// positive, a hull whose points lie in a plane, a rotation of zero, or an inertia that no body has. The object collides with others and, if bodies are added, with itself.
+/// positive, a hull whose points lie in a plane, a rotation of zero, an inertia that no body has, or a motion without `kinematic`. The
+/// object collides with others and, if bodies are added, with itself. A motion becomes a Pin of the body's particle.
 Object make_body(const std::vector<Solid>& solids, const BodyOptions& options = {});
 
 /// Adds a rigid body to an object, for example to a pile or a mechanism, and returns its index in Object::bodies.

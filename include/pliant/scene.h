@@ -78,6 +78,9 @@ struct Collider {
   float kinetic_friction = 0.3f;
   float restitution = 0;                              ///< a contact uses the larger value of both sides
   float rolling_friction = 0, spinning_friction = 0;  ///< as in Object; a contact uses the larger value of both sides [m]
+  /// Velocity in the collider's frame with which its surface moves along itself while its shape stays, as that of a conveyor belt: friction
+  /// takes bodies and particles along. Its part along a contact's normal has no effect [m/s].
+  Vec3f surface_velocity{};
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 
@@ -119,6 +122,7 @@ struct MeshCollider {
   float restitution = 0;                              ///< a contact uses the larger value of both sides
   float rolling_friction = 0, spinning_friction = 0;  ///< as in Object; a contact uses the larger value of both sides [m]
   std::uint32_t groups = 1, mask = ~0u;               ///< bit masks, as in Object
+  Vec3f surface_velocity{};  ///< as that of a Collider, in axes that turn with `motion` or the pose that is set [m/s]
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 

@@ -143,6 +143,18 @@ struct RestFactor {
   friend auto operator<=>(const RestFactor&, const RestFactor&) = default;
 };
 
+/// What set_surface_velocity of a handle set for a body or collider.
+struct SurfaceVelocity {
+  enum class Of : std::int32_t { body, collider, mesh_collider };
+  Of of = Of::body;
+  std::int32_t slot = 0;        ///< of a body: the index of its object in State::blocks; else the slot of the collider's id
+  std::int32_t generation = 0;  ///< of the collider's id; 0 for a body
+  std::int32_t body = 0;        ///< index in Object::bodies; 0 for a collider
+  Vec3f velocity{};             ///< in its own frame [m/s]
+  friend bool operator==(const SurfaceVelocity&, const SurfaceVelocity&) = default;
+};
+static_assert(sizeof(SurfaceVelocity) == 28);
+
 /// Two grains in contact (pliant/grains.h).
 struct GrainContact {
   std::int32_t a = 0, b = 0;  ///< particles of the State, a < b
@@ -200,6 +212,7 @@ struct State {
   std::vector<RestFactor> rest_factors;  ///< ascending by block and group; usually none
   /// The rest data of all constraints that are plastic (Plasticity), object after object, in the order of its pools; usually none.
   std::vector<float> flowed;
+  std::vector<SurfaceVelocity> surface_velocities;  ///< ascending by kind, slot and body; usually none
 };
 
 /// True if a particle of the State is there (Flow).

@@ -1,4 +1,5 @@
-// Errors in the rigid bodies of an object for which a World rejects it.
+// Errors in the rigid bodies of an object for which a World rejects it, and doubts about them.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -70,7 +71,37 @@ void check_names(Problems& problems, const Object& object) {
   }
 }
 
+/// True if keyframes move a body, but do not turn it. Of two pins of a particle the later one counts.
+bool is_only_moved(const Object& object, const ObjectBody& body) {
+  const auto holds = [&](const Pin& pin) { return pin.particle == body.particle && pin.motion.moves(); };
+  const auto last = std::find_if(object.pins.rbegin(), object.pins.rend(), holds);
+  return last != object.pins.rend() && std::none_of(last->motion.keyframes.begin(), last->motion.keyframes.end(),
+                                                    [](const Keyframe& key) { return key.rotation != Quatf{}; });
+}
+
+/// True if what lies on a body may tip it: it has a shape that a rotation changes, and neither spins nor is in a joint, which may hold it.
+bool may_tip(const Object& object, std::size_t index) {
+  const ObjectBody& body = object.bodies[index];
+  const ObjectFrame& frame = object.frames[static_cast<std::size_t>(body.frame)];
+  const bool is_ball = body.solids.size() == 1 && std::holds_alternative<Sphere>(body.solids[0].shape);
+  const bool is_locked = std::isinf(frame.inertia.x) && std::isinf(frame.inertia.y) && std::isinf(frame.inertia.z);
+  if (!object.collides || body.solids.empty() || is_ball || is_locked || frame.angular_velocity != Vec3f{}) return false;
+  const int number = static_cast<int>(index);
+  return std::none_of(object.joints.begin(), object.joints.end(),
+                      [&](const ObjectJoint& joint) { return joint.a == number || joint.b == number; });
+}
+
 }  // namespace
+
+void doubt_bodies(Problems& problems, const Object& object) {
+  for (std::size_t b = 0; b < object.bodies.size(); ++b) {
+    const ObjectBody& body = object.bodies[b];
+    if (!is_only_moved(object, body) || !may_tip(object, b)) continue;
+    problems.doubtful("body " + std::to_string(b) + (body.name.empty() ? "" : " '" + body.name + "'"),
+                      "is moved by a pin, which holds its centre of mass but not its rotation, so a load tips it",
+                      "remove the pin, and give the body \"kinematic\": true and the motion (BodyOptions::kinematic)");
+  }
+}
 
 void check_bodies(Problems& problems, const Object& object) {
   check_names(problems, object);
@@ -82,6 +113,7 @@ void check_bodies(Problems& problems, const Object& object) {
     check_place(problems, element, "frame", body.frame, frames);
     check_rotation(problems, element, body.axes);
     require_place(problems, element, body.origin);
+    check_surface_velocity(problems, element + ", surface_velocity", body.surface_velocity);
     for (std::size_t i = 0; i < body.solids.size(); ++i) {
       const std::string solid = element + ", solid " + std::to_string(i);
       require_place(problems, solid, body.solids[i].position);

@@ -276,6 +276,7 @@ void check_mesh_collider(Problems& problems, const MeshCollider& collider) {
   require_range(problems, "thickness", collider.thickness, 0, largest_place);
   check_friction(problems, collider.static_friction, collider.kinetic_friction, collider.restitution);
   check_rolling(problems, collider.rolling_friction, collider.spinning_friction);
+  check_surface_velocity(problems, "surface_velocity", collider.surface_velocity);
   if (!is_finite(collider.colour)) problems.grave("colour", "is not finite", "give red, green and blue from 0 to 1");
 }
 

@@ -324,6 +324,7 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
   doubt_masses(doubts);
   doubt_pins(doubts);
   doubt_attachments(doubts);
+  doubt_bodies(problems, object);
   doubt_joints(problems, object);
   doubt_tears(problems, object, scene);
   doubt_absorbency(problems, object, scene);

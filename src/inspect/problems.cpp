@@ -105,6 +105,11 @@ void check_rolling(Problems& problems, float rolling_friction, float spinning_fr
   require_range(problems, "spinning_friction", spinning_friction, 0, largest_place);
 }
 
+void check_surface_velocity(Problems& problems, const std::string& element, const Vec3f& velocity) {
+  constexpr double fastest = 1e6;  // [m/s]
+  require_range(problems, element, std::sqrt(static_cast<double>(length_squared(velocity))), 0, fastest);
+}
+
 void check_friction(Problems& problems, float static_friction, float kinetic_friction, float restitution) {
   require_range(problems, "static_friction", static_friction, 0, largest_place);
   require_range(problems, "kinetic_friction", kinetic_friction, 0, largest_place);

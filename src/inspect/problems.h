@@ -69,6 +69,7 @@ void check_motion(Problems& problems, const std::string& element, const Motion& 
 void check_rotation(Problems& problems, const std::string& element, const Quatf& rotation);
 void check_friction(Problems& problems, float static_friction, float kinetic_friction, float restitution);
 void check_rolling(Problems& problems, float rolling_friction, float spinning_friction);
+void check_surface_velocity(Problems& problems, const std::string& element, const Vec3f& velocity);
 
 /// True if the numbers of a Plasticity are in their range.
 bool is_sound(const Plasticity& plasticity);
@@ -98,6 +99,8 @@ void doubt_jumps_of_volumes(Problems& problems, const Scene& scene);
 void doubt_flows(Problems& problems, const Scene& scene);
 /// Doubts particles of liquids, gases and grains that start inside solids.
 void doubt_starts_in_solids(Problems& problems, const Scene& scene);
+/// Warns of bodies that a pin moves, but that a load can turn.
+void doubt_bodies(Problems& problems, const Object& object);
 /// Warns of joints that are probably not as intended.
 void doubt_joints(Problems& problems, const Object& object);
 

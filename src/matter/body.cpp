@@ -154,9 +154,12 @@ void append_velocity(Object& object, const Vec3f& velocity) {
 }  // namespace
 
 int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions& options) {
+  if (options.motion.moves() && !options.kinematic)
+    throw Error({"", 0, options.name, "motion"}, "is given to a body that is not kinematic",
+                "set BodyOptions::kinematic, or move the body by joints and forces");
   const MassProperties own = checked(mass_properties(moments_of_all(solids, options)), options.name);
   const Posed pose{convert<double>(options.position), checked_rotation(options.rotation, {"", 0, options.name, ""})};
-  const bool is_fixed = std::isinf(options.mass);
+  const bool is_fixed = options.kinematic || std::isinf(options.mass);
   const float infinity = std::numeric_limits<float>::infinity();
   object.positions.push_back(convert<float>(to_world(pose, own.centre)));
   append_velocity(object, is_fixed ? Vec3f{} : options.velocity);
@@ -173,6 +176,8 @@ int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions
   body.solids = in_principal_axes(solids, own, options.name);
   body.origin = convert<float>(rotate(conjugate(own.axes), -own.centre));
   body.axes = convert<float>(conjugate(own.axes));
+  body.surface_velocity = options.surface_velocity;
+  if (options.motion.moves()) object.pins.push_back({body.particle, options.motion});
   object.bodies.push_back(std::move(body));
   object.collides = object.self_collision = true;
   return static_cast<int>(object.bodies.size()) - 1;

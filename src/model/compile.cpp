@@ -195,6 +195,7 @@ CompiledObject compile(const MeshCollider& collider) {
   object.drag = object.lift = 0;
   CompiledObject out = compile(object, CompileOptions{});
   out.is_collider = true;
+  out.surface_velocity = collider.surface_velocity;
   out.own_substeps = 0;
   out.substep_rule = SubstepRule::any;
   fill_carrier(collider, out);

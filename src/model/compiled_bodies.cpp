@@ -1,6 +1,7 @@
 #include "model/compiled_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "constraints/gives_shape.h"
@@ -125,6 +126,18 @@ bool turns(const Motion& motion) {
                      [](const Keyframe& key) { return key.rotation.x != 0 || key.rotation.y != 0 || key.rotation.z != 0; });
 }
 
+void find_surface_velocities(const Object& object, CompiledBodies& out) {
+  const auto has_one = [](const ObjectBody& body) { return body.surface_velocity != Vec3f{}; };
+  if (std::none_of(object.bodies.begin(), object.bodies.end(), has_one)) return;
+  out.surface_velocities.reserve(object.bodies.size());
+  for (const ObjectBody& body : object.bodies)
+    out.surface_velocities.push_back(rotate(normalise(body.axes), body.surface_velocity));
+}
+
+bool is_locked(const ObjectFrame& frame) {
+  return std::isinf(frame.inertia.x) && std::isinf(frame.inertia.y) && std::isinf(frame.inertia.z);
+}
+
 /// Of two pins of a body the later one wins, as for its particle.
 void find_driven(const Object& object, CompiledBodies& out) {
   std::map<int, const Pin*> pin_of;
@@ -133,9 +146,9 @@ void find_driven(const Object& object, CompiledBodies& out) {
   for (const ObjectBody& body : object.bodies) {
     const auto found = pin_of.find(body.particle);
     const Pin* const pin = found == pin_of.end() ? nullptr : found->second;
-    if (pin == nullptr || !turns(pin->motion)) continue;
-    const Quatf rest = object.frames[static_cast<std::size_t>(body.frame)].orientation;
-    out.driven.push_back({body.frame, normalise(convert<double>(rest)), pin->motion});
+    const ObjectFrame& frame = object.frames[static_cast<std::size_t>(body.frame)];
+    if (pin == nullptr || (!turns(pin->motion) && !is_locked(frame))) continue;
+    out.driven.push_back({body.frame, normalise(convert<double>(frame.orientation)), pin->motion});
   }
 }
 
@@ -175,6 +188,7 @@ CompiledBodies compile_bodies(const Object& object, const std::vector<int>& plac
       if (const Box* box = std::get_if<Box>(&solid.shape)) out.solids.back().half_extents = box->half_extents;
     }
   }
+  find_surface_velocities(object, out);
   find_driven(object, out);
   find_ties(object, place, out);
   out.edge_lengths = edge_lengths_of(object, place, out);

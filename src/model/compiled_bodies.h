@@ -19,7 +19,7 @@ struct CompiledSolid {
   Vec3f half_extents{};  ///< of a box; zero for other shapes [m]
 };
 
-/// The orientation of a body whose pin turns.
+/// The orientation of a body that follows its pin: the pin turns, or nothing else can turn the body.
 struct DrivenFrame {
   int frame = 0;  ///< index among the object's frames
   Quatd rest{};   ///< at time 0, without the motion
@@ -44,7 +44,8 @@ struct CompiledBodies {
   std::vector<std::pair<int, int>> attached;  ///< particles and the bodies to which a constraint ties them; likewise
   std::vector<double>
       edge_lengths;  ///< [attached] mean length at the start of the edges at the particle; 0: it has none [m]
-  std::vector<DrivenFrame> driven;                           ///< of bodies whose pin turns, by body
+  std::vector<DrivenFrame> driven;                           ///< of bodies that follow their pins, by body
+  std::vector<Vec3f> surface_velocities;                     ///< [body] in principal axes; empty if none has one [m/s]
   std::shared_ptr<const std::vector<Polyhedron>> polyhedra;  ///< what shapes point to; each different one once
 
   bool empty() const { return bodies.empty(); }

@@ -151,6 +151,7 @@ struct CompiledObject {
   std::uint32_t groups = 1, mask = 0xffffffffu;
   float thickness = 0, static_friction = 0, kinetic_friction = 0, restitution = 0, drag = 0, lift = 0, damping = 0;
   float rolling_friction = 0, spinning_friction = 0;  ///< of bodies [m]
+  Vec3f surface_velocity{};                           ///< of a mesh collider [m/s]
 };
 
 /// Data apart from the object on which its schedule depends.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "math/quat.h"
@@ -23,9 +24,26 @@ struct Target {
   Vec3d from, to;    ///< positions at the frame's start and end [m]
 };
 
+/// A frame of infinite inertia that turns between two orientations, along the shorter arc.
+struct TurnTarget {
+  int frame = 0;  ///< index among the object's frames
+  Quatd from, to;
+};
+
 struct ObjectControl {
-  std::vector<Target> targets;  ///< ascending by particle
-  std::vector<Vec3f> forces;    ///< force on each particle in storage order [N]; empty: none
+  std::vector<Target> targets;    ///< ascending by particle
+  std::vector<TurnTarget> turns;  ///< of bodies, whose particles are in `targets`; ascending by frame
+  std::vector<Vec3f> forces;      ///< force on each particle in storage order [N]; empty: none
+
+  const Target* target(int particle) const;
+  const TurnTarget* turn(int frame) const;
+};
+
+/// Surface velocities that the user has set, each in its own frame, of bodies in principal axes [m/s].
+struct SurfaceVelocities {
+  std::map<std::pair<int, int>, Vec3f> bodies;  ///< key: index in Model::objects, and of the body
+  std::map<int, Vec3f> colliders;               ///< key: index in Model::colliders
+  std::map<int, Vec3f> meshes;                  ///< key: index of the mesh collider in Model::objects
 };
 
 /// All that the user sets for one frame.
@@ -33,6 +51,7 @@ struct Control {
   std::map<int, PoseDrive> colliders;    ///< key: index in Model::colliders
   std::map<int, PoseDrive> meshes;       ///< key: index of the mesh collider in Model::objects
   std::map<int, ObjectControl> objects;  ///< key: index in Model::objects
+  SurfaceVelocities surfaces;
 
   const PoseDrive* collider(int number) const { return find(colliders, number); }
   const PoseDrive* mesh(int number) const { return find(meshes, number); }

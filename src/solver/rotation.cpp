@@ -39,12 +39,19 @@ void drive_frame(const FrameArrays& a, int frame, Quatf after, float h) {
   a.predicted[frame] = {turn.x, turn.y, turn.z, 0};
 }
 
-/// Turns bodies whose pins turn to where they are at the substep's end.
+/// Turns bodies that follow their pins, or poses of the user, to where they are at the substep's end.
 void drive_frames(const Substep& s, const FrameArrays& arrays) {
+  const double share = static_cast<double>(s.number + 1) / s.planned;
   for_objects(s, [&](int o) {
     for (const DrivenFrame& driven : s.model.objects[o].bodies.driven) {
       const Quatd after = multiply(pose_at(driven.motion, s.time_after).rotation, driven.rest);
       drive_frame(arrays, s.model.first_frame[o] + driven.frame, convert<float>(normalise(after)), s.h);
+    }
+    const ObjectControl* const control = s.work.control.object(o);
+    if (control == nullptr) return;
+    for (const TurnTarget& turn : control->turns) {
+      const Quatd after = s.is_last() ? turn.to : slerp(turn.from, turn.to, share);
+      drive_frame(arrays, s.model.first_frame[o] + turn.frame, convert<float>(normalise(after)), s.h);
     }
   });
 }
@@ -76,6 +83,8 @@ void update_frames(Substep& s) {
     for (int i = first_of_object; i < end; ++i) s.work.frames.corrections[i].w = kept;
     for (const DrivenFrame& driven : s.model.objects[o].bodies.driven)
       s.work.frames.corrections[first_of_object + driven.frame].w = 1;
+    if (const ObjectControl* const control = s.work.control.object(o))
+      for (const TurnTarget& turn : control->turns) s.work.frames.corrections[first_of_object + turn.frame].w = 1;
     // Corrections stay whole, because contacts and angular momentum follow what the frame has turned.
     const auto update = [&](int from, int to, float share) {
       for_range(s, "update: frames", first_of_object + from, first_of_object + to, [&](int first, int last) {

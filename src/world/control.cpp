@@ -14,6 +14,7 @@
 #include "math/vector.h"
 #include "pliant/error.h"
 #include "world/resting_grains.h"
+#include "world/surface_velocities.h"
 
 namespace pliant {
 
@@ -85,16 +86,26 @@ bool lists(const std::vector<OfParticle>& list, int particle) {
   return at != list.end() && at->particle == particle;
 }
 
-void require_pose(const RigidPose& pose, const char* kind, int slot) {
+void require_pose(const RigidPose& pose, const std::string& object, const std::string& element) {
   const Quatf& q = pose.rotation;
   const float size = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   if (!is_finite(pose.position) || !(size > 1e-30f) || !std::isfinite(size))
-    refuse("", kind + (" " + std::to_string(slot)), "its pose is not finite, or its rotation is zero",
-           "give finite numbers and a unit quaternion");
+    refuse(object, element, "its pose is not finite, or its rotation is zero", "give finite numbers and a unit quaternion");
 }
 
 Posed pose_of(const RigidPose& pose) { return {convert<double>(pose.position), normalise(convert<double>(pose.rotation))}; }
 Posed pose_of(const HeldPose& pose) { return {convert<double>(pose.position), normalise(convert<double>(pose.rotation))}; }
+
+/// Inserts an element into a list that is ascending by `number`, or replaces the one with its number.
+template <class T>
+void put(const T& one, int T::*number, std::vector<T>& list) {
+  const auto at =
+      std::lower_bound(list.begin(), list.end(), one, [&](const T& a, const T& b) { return a.*number < b.*number; });
+  if (at != list.end() && (*at).*number == one.*number)
+    *at = one;
+  else
+    list.insert(at, one);
+}
 
 const HeldPose* held_pose(const WorldData& world, bool is_mesh, int slot) {
   for (const HeldPose& pose : world.state.held_poses)
@@ -102,8 +113,25 @@ const HeldPose* held_pose(const WorldData& world, bool is_mesh, int slot) {
   return nullptr;
 }
 
-/// Sets the velocity of fixed particles to zero if the user moved them in an earlier frame and does not move them in
-/// this one.
+bool is_zero(const Record& r) { return r.x == 0 && r.y == 0 && r.z == 0; }
+
+/// Sets the angular velocity of kinematic bodies to zero if nothing turns them in this frame.
+void stop_turning(WorldData& world, int number) {
+  const CompiledBodies& bodies = world.model.objects[number].bodies;
+  const ObjectControl* given = world.workspace.control.object(number);
+  std::size_t next = 0;  // of `driven`, in the order of bodies
+  for (const CompiledBodies::Body& body : bodies.bodies) {
+    const bool is_driven = next < bodies.driven.size() && bodies.driven[next].frame == body.frame;
+    if (is_driven) ++next;
+    const int at = world.model.first_frame[number] + body.frame;
+    Record& spin = world.state.frames.angular_velocities[at];
+    const bool drifts = is_zero(world.state.frames.inverse_inertias[at]) && !is_zero(spin);
+    if (drifts && !is_driven && (given == nullptr || given->turn(body.frame) == nullptr)) spin = {};
+  }
+}
+
+/// Sets the velocity of fixed particles and bodies to zero if the user moved them in an earlier frame and does not move them
+/// in this one.
 void stop_fixed(WorldData& world) {
   for (int number = 0; number < static_cast<int>(world.model.objects.size()); ++number) {
     const CompiledObject& object = world.model.objects[number];
@@ -118,6 +146,7 @@ void stop_fixed(WorldData& world) {
       const bool drifts = world.state.positions[at].w == 0 && (v.x != 0 || v.y != 0 || v.z != 0);
       if (drifts && !moves(i)) world.state.velocities[at] = {};
     }
+    stop_turning(world, number);
   }
 }
 
@@ -196,6 +225,7 @@ void begin_control(WorldData& world, double dt) {
     else
       control.colliders.emplace(world.ids.colliders.number({pose.slot, pose.generation}), PoseDrive{at, at});
   }
+  begin_surface_velocities(world);
   if (world.may_drift) stop_fixed(world);
   world.may_drift = !control.objects.empty() || !control.meshes.empty();
 }
@@ -247,6 +277,34 @@ void ObjectHandle::set_attachment_targets(std::span<const int> attachments, std:
   wake_bodies(*world_, number);
   put_targets(listed, attachments, positions, world_->model.first[number], world_->state,
               world_->workspace.control.objects[number].targets);
+}
+
+void ObjectHandle::set_pose(int body, const RigidPose& pose) {
+  const int number = world_->number(id()), first = world_->model.first[number];
+  const CompiledObject& of = world_->model.objects[number];
+  const CompiledBodies::Body& place = body_of(of, body);
+  const auto index = static_cast<std::size_t>(body);
+  const std::string& name = of.bodies.labels[index].name;
+  const std::string element = "body " + std::to_string(body) + (name.empty() ? "" : " '" + name + "'");
+  require_pose(pose, of.name, element);
+  State& state = world_->state;
+  const std::size_t frame = static_cast<std::size_t>(world_->model.first_frame[number] + place.frame);
+  if (state.positions[first + place.particle].w > 0 || !is_zero(state.frames.inverse_inertias[frame]))
+    refuse(of.name, element, "is dynamic, so its pose cannot be set",
+           "make it kinematic: BodyOptions::kinematic, or \"kinematic\": true in a scene file");
+  const Posed& described = of.bodies.labels[index].described;
+  const Posed wanted = pose_of(pose);
+  const Quatd axes = normalise(multiply(wanted.rotation, conjugate(described.rotation)));
+  const Vec3d centre = wanted.position - rotate(axes, described.position);
+  const Record& q = state.frames.orientations[frame];
+  wake_bodies(*world_, number);
+  ObjectControl& control = world_->workspace.control.objects[number];
+  put({place.particle, place_of(state, first + place.particle), centre}, &Target::particle, control.targets);
+  put({place.frame, normalise(convert<double>(Quatf{q.x, q.y, q.z, q.w})), axes}, &TurnTarget::frame, control.turns);
+}
+
+void ObjectHandle::set_pose(const std::string& body, const RigidPose& pose) {
+  set_pose(body_of_name(world_->model.objects[static_cast<std::size_t>(world_->number(id()))], body), pose);
 }
 
 void ObjectHandle::set_velocities(std::span<const Vec3f> velocities) {
@@ -317,13 +375,13 @@ void ObjectHandle::set_motor(const std::string& joint, const MotorCommand& comma
 
 void ColliderHandle::set_pose(const RigidPose& pose) {
   const int number = world_->ids.colliders.number(id());
-  require_pose(pose, "collider", id().slot);
+  require_pose(pose, "", "collider " + std::to_string(id().slot));
   world_->workspace.control.colliders[number] = {pose_now(*world_, id()), pose_of(pose)};
 }
 
 void MeshColliderHandle::set_pose(const RigidPose& pose) {
   const int number = world_->ids.mesh_colliders.number(id());
-  require_pose(pose, "mesh collider", id().slot);
+  require_pose(pose, "", "mesh collider " + std::to_string(id().slot));
   world_->workspace.control.objects.erase(number);
   world_->workspace.control.meshes[number] = {pose_now(*world_, id()), pose_of(pose)};
 }

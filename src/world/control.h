@@ -1,6 +1,8 @@
 // What the user set between steps: motions, poses and forces of the next frame.
 #pragma once
 
+#include <string>
+
 #include "math/motion.h"
 #include "world/world_data.h"
 
@@ -23,6 +25,10 @@ void wake_bodies(WorldData& world, int number);
 
 /// Puts a pose that a collider has from now on into a State's list.
 void hold_pose(std::vector<HeldPose>& poses, const HeldPose& pose);
+/// Throws an Error if the object has no such body.
+const CompiledBodies::Body& body_of(const CompiledObject& object, int body);
+/// Throws an Error if not exactly one body has the name.
+int body_of_name(const CompiledObject& object, const std::string& name);
 
 /// Discards the pose that the user set for a collider that is removed.
 void forget_pose(WorldData& world, bool is_mesh, int slot);

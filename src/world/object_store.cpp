@@ -18,6 +18,7 @@
 #include "world/rest.h"
 #include "world/resting_grains.h"
 #include "world/soaking.h"
+#include "world/surface_velocities.h"
 #include "world/target_origins.h"
 #include "world/touching_starts.h"
 
@@ -198,6 +199,7 @@ void forget_contacts(WorldData& world, int number) {
   std::erase_if(world.state.grain_contacts,
                 [&](const GrainContact& contact) { return is_of_block(contact.a) || is_of_block(contact.b); });
   std::erase_if(world.state.motors, [&](const MotorSetting& setting) { return setting.block == number; });
+  forget_surface_velocities(world, SurfaceVelocity::Of::body, number);
   std::erase_if(world.state.rest_factors, [&](const RestFactor& factor) { return factor.block == number; });
   std::erase_if(world.state.broken_joints, [&](const BrokenJoint& joint) { return joint.block == number; });
   std::erase_if(world.state.body_contacts,

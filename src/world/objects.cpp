@@ -19,6 +19,7 @@
 #include "world/objects.h"
 #include "world/overlaps.h"
 #include "world/resting_grains.h"
+#include "world/surface_velocities.h"
 #include "world/tearing.h"
 
 namespace pliant {
@@ -210,6 +211,7 @@ void World::remove(ObjectId object) {
 void World::remove(ColliderId collider) {
   const int number = data_->ids.colliders.number(collider);
   forget_pose(*data_, false, collider.slot);
+  forget_surface_velocities(*data_, SurfaceVelocity::Of::collider, collider.slot);
   forget_touching(*data_, collider);
   forget_contacts_of_collider(*data_, number);
   data_->ids.colliders.remove(collider);
@@ -227,6 +229,7 @@ void World::remove(ColliderId collider) {
 void World::remove(MeshColliderId collider) {
   remove_object(*data_, data_->ids.mesh_colliders.number(collider));
   forget_pose(*data_, true, collider.slot);
+  forget_surface_velocities(*data_, SurfaceVelocity::Of::mesh_collider, collider.slot);
   forget_touching(*data_, collider);
   data_->ids.mesh_colliders.remove(collider);
 }

@@ -220,9 +220,6 @@ bool ObjectView::joint_is_broken(int joint) const {
   return std::binary_search(broken.begin(), broken.end(), joint);
 }
 
-namespace {
-
-/// Throws an Error if the object has no such body.
 const CompiledBodies::Body& body_of(const CompiledObject& object, int body) {
   if (body < 0 || static_cast<std::size_t>(body) >= object.bodies.bodies.size())
     throw Error({.object = object.name, .element = "body " + std::to_string(body)},
@@ -231,7 +228,6 @@ const CompiledBodies::Body& body_of(const CompiledObject& object, int body) {
   return object.bodies.bodies[static_cast<std::size_t>(body)];
 }
 
-/// Throws an Error if not exactly one body has the name.
 int body_of_name(const CompiledObject& object, const std::string& name) {
   const std::vector<CompiledBodies::Label>& labels = object.bodies.labels;
   const auto has_name = [&](const CompiledBodies::Label& label) { return label.name == name; };
@@ -242,8 +238,6 @@ int body_of_name(const CompiledObject& object, const std::string& name) {
                 count == 0 ? "use a name that BodyOptions::name gave" : "use the index, or give each body its own name");
   return static_cast<int>(std::find_if(labels.begin(), labels.end(), has_name) - labels.begin());
 }
-
-}  // namespace
 
 RigidPose ObjectView::pose(int body) const {
   const int number = read_->number(id_);

@@ -11,6 +11,7 @@
 #include "geometry/polyhedron.h"
 #include "math/motion.h"
 #include "math/record.h"
+#include "model/surface_velocity.h"
 #include "solver/grains/grain_solver.h"
 #include "world/control.h"
 #include "world/particles.h"
@@ -180,8 +181,10 @@ class Movers {
   /// Boxes around all particles of a mesh collider that moves, before and after the step.
   void add_mesh(int number, const CompiledObject& mesh) {
     const PoseDrive* const drive = world_.workspace.control.mesh(number);
-    const bool is_set = drive != nullptr && drive->moves();
-    if (!is_set && (drive != nullptr || !(changes(mesh.carrier.motion) || mesh.carrier.deforms()))) return;
+    const bool is_set = drive != nullptr && drive->moves(),
+               slides =
+                   surface_velocity_of_mesh(world_.model, world_.workspace.control, number, world_.state.time) != Vec3f{};
+    if (!is_set && !slides && (drive != nullptr || !(changes(mesh.carrier.motion) || mesh.carrier.deforms()))) return;
     const double then = world_.state.time + dt_;
     const CarrierPose after = is_set ? CarrierPose(mesh.carrier, then, drive->to) : CarrierPose(mesh.carrier, then);
     const int first = world_.model.first[at(number)];
@@ -225,8 +228,9 @@ class Movers {
   void add_collider(int number) {
     const Collider& collider = world_.model.colliders[at(number)];
     const PoseDrive* const drive = world_.workspace.control.collider(number);
-    const bool is_set = drive != nullptr && drive->moves();
-    if (!is_set && (drive != nullptr || !changes(collider.motion))) return;
+    const bool is_set = drive != nullptr && drive->moves(),
+               slides = surface_velocity_of_collider(world_.model, world_.workspace.control, number) != Vec3f{};
+    if (!is_set && !slides && (drive != nullptr || !changes(collider.motion))) return;
     everywhere_ = everywhere_ || std::holds_alternative<Plane>(collider.shape);
     const auto* const box = std::get_if<Box>(&collider.shape);
     const auto* const sphere = std::get_if<Sphere>(&collider.shape);
@@ -235,10 +239,10 @@ class Movers {
                        : sphere != nullptr  ? sphere->radius
                        : capsule != nullptr ? capsule->radius + capsule->half_length
                                             : 0;
-    const std::array<Posed, 2> poses = is_set ? std::array<Posed, 2>{drive->from, drive->to}
-                                              : std::array<Posed, 2>{pose_at(collider.motion, world_.state.time),
-                                                                     pose_at(collider.motion, world_.state.time + dt_)};
-    const std::array<Vec3f, 2> places{carried(poses[0], collider.position), carried(poses[1], collider.position)};
+    const auto place_at = [&](double time) { return carried(pose_at(collider.motion, time), collider.position); };
+    const std::array<Vec3f, 2> places =
+        drive != nullptr ? std::array<Vec3f, 2>{convert<float>(drive->from.position), convert<float>(drive->to.position)}
+                         : std::array<Vec3f, 2>{place_at(world_.state.time), place_at(world_.state.time + dt_)};
     add(BoxBounds::of(places.data(), 2), size + collider.thickness, {-1, unstoppable});
   }
 

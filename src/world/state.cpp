@@ -11,6 +11,7 @@
 #include "world/rest.h"
 #include "world/resting_grains.h"
 #include "world/soaking.h"
+#include "world/surface_velocities.h"
 #include "world/world_data.h"
 
 namespace pliant {
@@ -323,6 +324,7 @@ void require_births(const WorldData& world, const State& state) {
 void World::restore(const State& state) {
   require_blocks(*data_, state);
   require_held_poses(*data_, state);
+  require_surface_velocities(*data_, state);
   const std::size_t particles = data_->state.positions.size();
   if (state.positions.size() != particles || state.velocities.size() != particles || state.remainders.size() != particles) {
     throw Error(
@@ -413,6 +415,8 @@ std::string hash(const State& state) {
   if (!state.emitted.empty()) sha.add(state.emitted.data(), state.emitted.size() * sizeof(EmittedLayers));
   if (!state.rest_factors.empty()) sha.add(state.rest_factors.data(), state.rest_factors.size() * sizeof(RestFactor));
   if (!state.flowed.empty()) sha.add(state.flowed.data(), state.flowed.size() * sizeof(float));
+  if (!state.surface_velocities.empty())
+    sha.add(state.surface_velocities.data(), state.surface_velocities.size() * sizeof(SurfaceVelocity));
   return sha.finish();
 }
 

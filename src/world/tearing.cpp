@@ -55,6 +55,9 @@ class Settled {
     const auto is_its = [number](const auto& setting) { return setting.block == number; };
     std::copy_if(state.motors.begin(), state.motors.end(), std::back_inserter(motors_), is_its);
     std::copy_if(state.rest_factors.begin(), state.rest_factors.end(), std::back_inserter(factors_), is_its);
+    std::copy_if(
+        state.surface_velocities.begin(), state.surface_velocities.end(), std::back_inserter(surfaces_),
+        [number](const SurfaceVelocity& one) { return one.of == SurfaceVelocity::Of::body && one.slot == number; });
   }
 
   void put_back(WorldData& world) const {
@@ -72,12 +75,18 @@ class Settled {
         world.state.rest_factors.begin(), world.state.rest_factors.end(),
         [](const RestFactor& a, const RestFactor& b) { return std::tie(a.block, a.group) < std::tie(b.block, b.group); });
     if (!factors_.empty()) follow_rest_factors(world, world.state.time);
+    std::vector<SurfaceVelocity>& surfaces = world.state.surface_velocities;
+    surfaces.insert(surfaces.end(), surfaces_.begin(), surfaces_.end());
+    std::sort(surfaces.begin(), surfaces.end(), [](const SurfaceVelocity& a, const SurfaceVelocity& b) {
+      return std::tie(a.of, a.slot, a.body) < std::tie(b.of, b.slot, b.body);
+    });
   }
 
  private:
   int number_;
   std::vector<MotorSetting> motors_;
   std::vector<RestFactor> factors_;
+  std::vector<SurfaceVelocity> surfaces_;
 };
 
 /// Particles that were one before an edit, by that one.

@@ -184,6 +184,30 @@ TEST(InspectScene, NamesAnAnchorFarFromWhatItHolds) {
   EXPECT_NE(text.find("joint 'pivot': has its anchor 50 m from the centre of body 'bob'"), std::string::npos) << text;
 }
 
+/// A platform that a pin lifts, as users make lifts before they find "kinematic".
+TEST(InspectScene, DoubtsABodyThatAPinMovesButALoadTips) {
+  const auto doubt = [](const auto& change) {
+    Object lift = make_body({{Box{{0.5f, 0.05f, 0.5f}}}}, {.name = "platform"});
+    lift.pins.push_back({0, {{{0}, {2, {0, 0.5f, 0}}}}});
+    change(lift);
+    Scene scene;
+    scene.add(lift);
+    return finding(scene, "\"kinematic\": true");
+  };
+  const std::string text = doubt([](Object&) {});
+  EXPECT_NE(text.find("body 0 'platform': is moved by a pin"), std::string::npos) << text;
+  EXPECT_NE(text.find("a load tips it"), std::string::npos) << text;
+  EXPECT_EQ(doubt([](Object& lift) { lift.pins[0].motion.keyframes[1].rotation = rotation({0, 1, 0}, 90); }), "");
+  EXPECT_EQ(doubt([](Object& lift) { lift.frames[0].angular_velocity = {0, 1, 0}; }), "") << "a wheel";
+  EXPECT_EQ(doubt([](Object& lift) { lift.collides = lift.self_collision = false; }), "") << "nothing loads it";
+  EXPECT_EQ(doubt([](Object& lift) { lift.pins[0].motion = {}; }), "") << "it may be a see-saw";
+  EXPECT_EQ(doubt([](Object& lift) {
+              const Motion motion = lift.pins[0].motion;
+              lift = make_body({{Box{{0.5f, 0.05f, 0.5f}}}}, {.kinematic = true, .motion = motion});
+            }),
+            "");
+}
+
 TEST(InspectScene, SaysThatDampingOfRigidConstraintsHasNoEffect) {
   const auto doubt = [](float compliance) {
     Object object;

@@ -365,7 +365,7 @@ TEST(Save, TheReasonIsNamed) {
   const std::string whole = test::read(path);
   std::string changed = whole;
   changed[8] = 2;
-  says(why(changed), "has format version 2, and this Pliant reads version 21; use the Pliant that wrote it");
+  says(why(changed), "has format version 2, and this Pliant reads version 22; use the Pliant that wrote it");
   says(why(""), "is empty");
   says(why("o cloth\nv 0 0 0\n"), "is not a file saved by Pliant");
   says(why(whole.substr(0, 100)),

@@ -124,6 +124,28 @@ TEST_F(Heap, HasTheBodyThatTheSameOptionsMake) {
   EXPECT_EQ(heap.bodies[0].solids[1].position, same.bodies[0].solids[1].position);
 }
 
+/// The body "lift" of the object "rig" of the same scene.
+TEST_F(Heap, HasAKinematicBodyAsTheSameOptionsMakeIt) {
+  const Object& rig = scene.objects.at(8);
+  BodyOptions options;
+  options.name = "lift";
+  options.position = {0, 40, 0};
+  options.kinematic = true;
+  options.motion = {{{0}, {1, {0, 1, 0}, rotation({0, 1, 0}, 90)}}, {1, 40, 0}};
+  const Object same = make_body({{Box{}}}, options);
+  const ObjectBody& lift = rig.bodies.at(14);
+  EXPECT_EQ(lift.name, "lift");
+  ASSERT_EQ(rig.pins.size(), 1U);
+  EXPECT_EQ(rig.pins[0].particle, lift.particle);
+  EXPECT_EQ(rig.pins[0].motion.pivot, same.pins.at(0).motion.pivot);
+  ASSERT_EQ(rig.pins[0].motion.keyframes.size(), 2U);
+  EXPECT_EQ(rig.pins[0].motion.keyframes[1].position, (Vec3f{0, 1, 0}));
+  EXPECT_EQ(rig.pins[0].motion.keyframes[1].rotation, same.pins.at(0).motion.keyframes[1].rotation);
+  EXPECT_EQ(lift.surface_velocity, (Vec3f{0, 0, 3}));
+  EXPECT_TRUE(std::isinf(rig.masses.at(static_cast<std::size_t>(lift.particle))));
+  EXPECT_TRUE(std::isinf(rig.frames.at(static_cast<std::size_t>(lift.frame)).inertia.y));
+}
+
 TEST_F(Heap, HasEveryShape) {
   EXPECT_EQ(std::get<Sphere>(heap.bodies[1].solids.at(0).shape).radius, 0.25f);
   EXPECT_EQ(heap.bodies[1].name, "body");
@@ -196,6 +218,12 @@ TEST(SceneBodies, AreNamedInErrors) {
        "/objects/0/bodies/1/name: the name 'a_1' is taken"},
       {R"({"solids": [{"box": {}}], "mass": "fixed", "velocity": [1, 0, 0]})",
        "/objects/0/bodies/0/velocity: a fixed body has no velocity; remove it, or give the body a mass"},
+      {R"({"solids": [{"box": {}}], "kinematic": true, "velocity": [1, 0, 0]})",
+       "/objects/0/bodies/0/velocity: a kinematic body has the velocity of its motion; remove it, or give a motion"},
+      {R"({"solids": [{"box": {}}], "kinematic": true, "mass": 3})",
+       "/objects/0/bodies/0/mass: a kinematic body has infinite mass; remove the mass, or \"kinematic\""},
+      {R"({"solids": [{"box": {}}], "motion": {"keyframes": [{"time": 0}]}})",
+       "/objects/0/bodies/0/motion: only a kinematic body follows a motion; add \"kinematic\": true"},
       {R"({"solids": [{"box": {}}], "repeat": {"grid": {"counts": [1024, 1024, 2], "spacing": [2, 2, 2]}}})",
        "/objects/0/bodies/0/repeat/grid: more than 1048576 copies of a body; make fewer"},
       {R"({"solids": []})", "/objects/0/bodies/0/solids: "},

@@ -57,6 +57,8 @@ TEST_F(FullContact, SaysWhatStandsForAMesh) {
   EXPECT_EQ(scene.mesh_colliders.at(0).as, MeshCollider::As::distance_grid);
   EXPECT_EQ(scene.mesh_colliders.at(0).grid_spacing, 0.25f);
   EXPECT_EQ(scene.mesh_colliders.at(0).restitution, 0.125f);
+  EXPECT_LT(length_squared(scene.mesh_colliders.at(0).surface_velocity - Vec3f{0, 0, -1}), 1e-12f)
+      << "turned with the mesh";
   EXPECT_EQ(scene.mesh_colliders.at(1).as, MeshCollider::As::heightfield);
   EXPECT_EQ(scene.mesh_colliders.at(2).as, MeshCollider::As::triangles);
 }

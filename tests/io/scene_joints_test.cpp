@@ -20,6 +20,7 @@ class Rig : public testing::Test {
       options.position = {static_cast<float>(2 * i), 0, 0};
       add_body(same, {{Box{}}}, options);
     }
+    add_body(same, {{Box{}}}, {.name = "lift", .position = {0, 40, 0}, .kinematic = true});
   }
 
   /// Compares joint `index` of the scene's object with the one that was added last, with all its constraints.

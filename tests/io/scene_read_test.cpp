@@ -90,6 +90,7 @@ TEST_F(FullScene, HasItsColliders) {
   EXPECT_EQ(floor.restitution, 0.5f);
   EXPECT_EQ(floor.rolling_friction, 0.125f);
   EXPECT_EQ(floor.spinning_friction, 0.25f);
+  EXPECT_EQ(floor.surface_velocity, (Vec3f{0.5f, 0, 2}));
   EXPECT_EQ(floor.colour, (Vec3f{1, 0, 0.5f}));
   EXPECT_EQ(std::get<Sphere>(scene.colliders[1].shape).radius, 3.f);
   EXPECT_EQ(std::get<Sphere>(scene.colliders[2].shape).radius, Sphere{}.radius);

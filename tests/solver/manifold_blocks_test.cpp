@@ -58,6 +58,7 @@ Manifold random_manifold(int a, int b, std::mt19937& random) {
   constexpr float frictions[] = {0, 0.6f, 10};
   m.friction = frictions[random() % 3];
   m.sliding = random() % 2 == 0 ? 1.f : 0.8f;
+  if (random() % 3 == 0) m.drift = {uniform_float(random, -1, 1), uniform_float(random, -1, 1)};
   m.restitution = random() % 2 == 0 ? 0.f : uniform_float(random, 0, 1);
   for (std::size_t i = 0; i < static_cast<std::size_t>(m.count); ++i) {
     m.x[i] = m.count == 1 ? 0.f : uniform_float(random, -0.5f, 0.5f);

@@ -77,9 +77,9 @@ BoxBounds world_box(const BodyMesh& mesh, const Posed& pose) {
   return BoxBounds{centre - reach, centre + reach}.grown(grown);
 }
 
-/// The turning speed of a half-space, which counts as none, or a mesh.
+/// The turning speed of a half-space, which counts as none, or a mesh, whose vertices may move besides.
 float turning_of_other(const BodyPart& part, const BodyState& body) {
-  return part.mesh == nullptr ? 0 : turning_speed(body, world_box(*part.mesh, body.pose));
+  return part.mesh == nullptr ? 0 : turning_speed(body, world_box(*part.mesh, body.pose)) + body.deforming;
 }
 
 /// True if a box comes within `margin` of a half-space y <= 0.

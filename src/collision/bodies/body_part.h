@@ -29,6 +29,8 @@ struct BodyState {
   bool deforms = false;          ///< a mesh that moves by its vertices, so that no contact with it stays
   bool yields = true;            ///< false: nothing that touches it moves it, as if it were fixed
   bool is_driven_round = false;  ///< it turns by itself, whatever touches it
+  Vec3f surface_velocity{};      ///< of its surface along itself, in world axes [m/s]
+  float deforming = 0;           ///< greatest speed of the vertices of a mesh that deforms, against `velocity` [m/s]
 };
 
 }  // namespace pliant

@@ -9,6 +9,7 @@
 #include "collision/narrow/axes.h"
 #include "collision/narrow/near_points.h"
 #include "math/motion.h"
+#include "model/surface_velocity.h"
 
 namespace pliant {
 
@@ -97,7 +98,16 @@ void move(const From& from, const PoseDrive* drive, const MotionPose& motion_pos
   to.restitution = from.restitution;
 }
 
+/// `velocity` is in world axes.
+void set_slide(const Vec3f& velocity, double seconds, MovingCollider& to) {
+  if (velocity != Vec3f{}) to.slide = velocity * static_cast<float>(seconds);
+}
+
 }  // namespace
+
+void add_slide(const MovingCollider& collider, Contact& contact) {
+  if (collider.slides()) contact.surface_motion += collider.slide - contact.normal * dot(contact.normal, collider.slide);
+}
 
 void move_colliders(const Model& model, const Control& control, double time_before, double time_after,
                     std::vector<MovingCollider>& colliders) {
@@ -109,6 +119,7 @@ void move_colliders(const Model& model, const Control& control, double time_befo
     to->shape = local_shape(from.shape);
     const auto by_motion = [&](double time) { return collider_pose(from, time); };
     move(from, control.collider(c), by_motion, time_before, time_after, *to);
+    set_slide(rotate(to->after.rotation, surface_velocity_of_collider(model, control, c)), time_after - time_before, *to);
     to->swept =
         merge(bounding_box(to->shape, to->before, to->thickness), bounding_box(to->shape, to->after, to->thickness));
   }
@@ -119,6 +130,7 @@ void move_colliders(const Model& model, const Control& control, double time_befo
     to->mask = from.mask;
     const auto by_motion = [&](double time) { return pose_at(from.motion, time); };
     move(from, control.mesh(from.object), by_motion, time_before, time_after, *to);
+    set_slide(surface_velocity_of_mesh(model, control, from.object, time_after), time_after - time_before, *to);
     to->swept =
         merge(bounding_box(*to->field, to->before, to->thickness), bounding_box(*to->field, to->after, to->thickness));
     ++to;
@@ -176,6 +188,7 @@ void find_contact(const ColliderQuery& m, int i, std::vector<Contact>& contacts)
   contact.restitution = m.restitution;
   contact.carried = {r.x, r.y, r.z};
   contact.approach = found.approach;
+  add_slide(collider, contact);
 }
 
 /// Appends the contacts of particles with a primitive collider, sixteen at a time. `near` has room for a whole last batch.
@@ -192,10 +205,12 @@ void find_contacts_in_lanes(const ColliderQuery& m, std::vector<std::int32_t>& n
     const auto [found, unclear] = m.search.make_contacts(query, &near[i], lanes.data());
     for (unsigned left = (found | unclear) & ((1U << valid) - 1); left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
-      if ((found >> lane & 1U) != 0)
+      if ((found >> lane & 1U) != 0) {
         contacts.push_back(lanes[lane]);
-      else
+        add_slide(collider, contacts.back());
+      } else {
         find_contact(m, near[static_cast<std::size_t>(i) + lane], contacts);
+      }
     }
   }
 }

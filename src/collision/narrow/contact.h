@@ -30,7 +30,13 @@ struct MovingCollider {
   BoundingBox<float> swept{};  ///< encloses the shape and its thickness in both poses
   float thickness = 0;         ///< thickness of the collider alone [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
+  Vec3f slide{};  ///< how far the surface moves along itself in the substep by its surface velocity, in world axes [m]
+
+  bool slides() const { return slide != Vec3f{}; }
 };
+
+/// Adds what a collider's surface moves along itself to the motion of a contact with it.
+void add_slide(const MovingCollider& collider, Contact& contact);
 
 /// Moves the colliders to their poses between two times, by user control if there is any, else by keyframes.
 void move_colliders(const Model& model, const Control& control, double time_before, double time_after,

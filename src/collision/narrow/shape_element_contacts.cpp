@@ -88,6 +88,7 @@ void add_contact(const Meeting& m, const std::array<int, n>& vertex, const std::
   c.kinetic_friction = sqrt(m.object.kinetic_friction * m.collider.kinetic_friction);
   c.restitution = max(m.object.restitution, m.collider.restitution);
   c.approach = dot(c.normal, velocity - c.surface_motion * a.inverse_h);
+  add_slide(m.collider, c);
   contacts.push_back(c);
 }
 

@@ -34,6 +34,7 @@ bool is_carried(const Substep& s, const BodyPlace& place) {
 
 /// True if a point of a contact between surfaces belongs to a mesh collider that moves.
 bool is_carried(const Substep& s, const Contact& c) {
+  if (!is_zero(c.surface_motion)) return true;  // its surface slides
   for (std::size_t i = 0; i < c.point.size(); ++i) {
     if (c.weight[i] == 0 || s.state.positions[at(c.point[i])].w > 0) continue;
     if (!is_zero(xyz(s.work.displacements[at(c.point[i])]) - xyz(s.state.remainders[at(c.point[i])]))) return true;
@@ -72,10 +73,14 @@ void BodyIslands::find_movers(const Substep& s, const ContactBodies& bodies, std
   for (int place = 0; place < static_cast<int>(moves_.size()); ++place) {
     const BodyPlace& of = bodies.places()[at(place)];
     const BodyState& state = states[at(place)];
-    if (of.is_body() && !state.is_fixed) continue;
+    const bool slides = !is_zero(state.surface_velocity);
+    if (of.is_body() && !state.is_fixed) {
+      if (slides) drive(place);
+      continue;
+    }
     if (of.is_body()) is_fixed_[at(place)] = 1;
     const bool moves = of.is_body() ? is_carried(s, of) : state.deforms || has_moved(bodies.poses_of_collider(s, place));
-    moves_[at(place)] = moves ? 1 : 0;
+    moves_[at(place)] = moves || slides ? 1 : 0;
   }
 }
 
@@ -113,7 +118,10 @@ void BodyIslands::join_links(const Substep& s) {
 }
 
 void BodyIslands::mark_driven_points(const Substep& s) {
-  const auto drives = [&](const Contact& c) { return c.push > 0 && has_moved(s.own->colliders[at(c.collider)]); };
+  const auto drives = [&](const Contact& c) {
+    const MovingCollider& collider = s.own->colliders[at(c.collider)];
+    return c.push > 0 && (has_moved(collider) || collider.slides());
+  };
   for_each_tile(s, [&](int task) {
     const std::vector<Contact>& contacts = s.work.tiles[at(task)].contacts;
     if (std::any_of(contacts.begin(), contacts.end(), drives)) drive(node_of_points(s.model.tiles()[at(task)].object));

@@ -50,7 +50,7 @@ Record round_of_inertia(const Record& inverse, const Record& solids) {
 
 }  // namespace
 
-BodyMotions::BodyMotions(const ContactBodies& bodies) : motions_(bodies.places().size()) {
+BodyMotions::BodyMotions(const ContactBodies& bodies) : motions_(bodies.places().size()), places_(motions_.size()) {
   for (int i = 0; i < bodies.dynamic(); ++i) {
     const BodyPlace& place = bodies.places()[at(i)];
     particles_.push_back(place.particle);
@@ -81,7 +81,18 @@ BodyArrays BodyMotions::arrays(const Substep& s, std::vector<BodyMotion>& motion
           frame_arrays(s)};
 }
 
+int BodyMotions::add_fixed(const Vec3f& velocity, const Vec3f& spin, const Vec3f& displacement, const Vec3f& rotation) {
+  BodyMotion motion;
+  motion.velocity = velocity;
+  motion.spin = spin;
+  motion.displacement = displacement;
+  motion.rotation = rotation;
+  motions_.push_back(motion);
+  return static_cast<int>(motions_.size()) - 1;
+}
+
 void BodyMotions::begin_frame(const Substep& s) {
+  motions_.resize(places_);
   std::fill(motions_.begin(), motions_.end(), BodyMotion{});
   for (int i = 0; i < bodies(); ++i) {
     const std::size_t particle = at(particles_[at(i)]);
@@ -102,7 +113,7 @@ void BodyMotions::begin_substep(const Substep& s) {
 }
 
 void BodyMotions::load_predicted(const Substep& s, const ContactBodies& bodies_and_colliders, bool is_first, float share) {
-  for (int i = bodies(); i < static_cast<int>(motions_.size()); ++i)
+  for (int i = bodies(); i < static_cast<int>(places_); ++i)
     follow(bodies_and_colliders.poses_of_collider(s, i), s.h, motions_[at(i)]);
   const BodyArrays all = arrays(s);
   for_bodies(s, bodies(),

@@ -23,8 +23,11 @@ class BodyMotions {
   std::vector<BodyMotion>& all() { return motions_; }
   const std::vector<BodyMotion>& all() const { return motions_; }
 
-  /// Reads where bodies are at the frame's start, and their masses.
+  /// Reads where bodies are at the frame's start, and their masses. Forgets what add_fixed has added.
   void begin_frame(const Substep& s);
+  /// Adds the motion of a surface that no place has, of infinite mass, and returns its index. It has moved and turned so far since contacts
+  /// were found.
+  int add_fixed(const Vec3f& velocity, const Vec3f& spin, const Vec3f& displacement, const Vec3f& rotation);
 
   /// Reads masses and inertias of bodies by their present orientations, for contact with points.
   void begin_substep(const Substep& s);
@@ -72,7 +75,8 @@ class BodyMotions {
   BodyArrays arrays(const Substep& s) { return arrays(s, motions_); }
   int bodies() const { return static_cast<int>(particles_.size()); }
 
-  std::vector<BodyMotion> motions_;
+  std::vector<BodyMotion> motions_;  ///< of places, then those that add_fixed has added
+  std::size_t places_ = 0;
   std::vector<std::int32_t> particles_, frames_;      ///< of each body: indices in the State
   std::vector<Range> ranges_;                         ///< of at most a task's length
   Records start_positions_, start_remainders_;        ///< of each body, at the frame's start [m]

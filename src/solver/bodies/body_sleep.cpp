@@ -21,8 +21,10 @@ bool is_kinematic(const CompiledObject& object, int particle) {
 
 }  // namespace
 
+bool slides(const BodyState& state) { return length_squared(state.surface_velocity) > 0; }
+
 bool moves(const BodyState& state) {
-  return state.deforms || length_squared(state.velocity) > 0 || length_squared(state.spin) > 0;
+  return state.deforms || slides(state) || length_squared(state.velocity) > 0 || length_squared(state.spin) > 0;
 }
 
 BodySleep::BodySleep(const Model& model, const ContactBodies& bodies, const BodyIslands& islands)
@@ -187,8 +189,11 @@ void BodySleep::add_rest(Substep& s, const Frame& frame) {
   std::vector<char> is_touched(is_tied_);
   for (const int body : frame.pressed) is_touched[at(body)] = 1;
   for (const auto& [a, b] : frame.pairs) {  // colliders come after bodies
-    if (b >= count() && moves(frame.states[at(b)])) is_touched[at(a)] = 1;
-    if (a >= count() && moves(frame.states[at(a)])) is_touched[at(b)] = 1;
+    const auto disturbs = [&](int of) {
+      return of >= count() ? moves(frame.states[at(of)]) : slides(frame.states[at(of)]);
+    };
+    if (a < count() && disturbs(b)) is_touched[at(a)] = 1;
+    if (b < count() && disturbs(a)) is_touched[at(b)] = 1;
   }
   for (int body = 0; body < count(); ++body) {
     if (held_.holds(body)) continue;

@@ -21,6 +21,8 @@ struct Substep;
 
 /// True if a collider moves in the frame.
 bool moves(const BodyState& state);
+/// True if its surface moves along itself.
+bool slides(const BodyState& state);
 
 class BodySleep {
  public:

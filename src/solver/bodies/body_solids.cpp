@@ -6,6 +6,7 @@
 
 #include "geometry/convex_hull.h"
 #include "math/functions.h"
+#include "model/surface_velocity.h"
 #include "pliant/error.h"
 #include "pliant/mesh.h"
 #include "solver/bodies/body_math.h"
@@ -160,6 +161,8 @@ void BodySolids::place(const Substep& s) {
     moving.static_friction = object.static_friction;
     moving.kinetic_friction = object.kinetic_friction;
     moving.restitution = object.restitution;
+    const Vec3f sliding = surface_velocity_of_body(s.model, s.work.control, body.object, body.body);
+    if (sliding != Vec3f{}) moving.slide = rotate(quaternion(s.state.frames.orientations[at(body.frame)]), sliding) * s.h;
     const auto box = [&](const Posef& pose) {
       return solid.field == nullptr ? bounding_box(solid.shape, pose, solid.margin)
                                     : box_around(solid.field->bounds(), pose);

@@ -1,6 +1,7 @@
 #include "solver/bodies/body_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -49,6 +50,13 @@ void turn_arm(const BodyState& body, const Vec3f& normal, double left, Vec3f& ar
   arm += along + cross(half, along) * 0.5f;
 }
 
+/// The velocity of b against a along the tangents at which their surfaces do not slide over one another.
+std::array<float, 2> drift_of(const BodyState& a, const BodyState& b, const Manifold& m) {
+  if (!slides(a) && !slides(b)) return {};
+  const Vec3f drift = a.surface_velocity - b.surface_velocity;
+  return {dot(drift, m.tangent1), dot(drift, m.tangent2)};
+}
+
 }  // namespace
 
 BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, BodyMeshes& meshes)
@@ -85,17 +93,39 @@ void BodySolver::find_tied(const Model& model) {
   }
 }
 
+/// Gives each contact with a mesh that deforms a motion of its own, which is that of the mesh where it touches.
+void BodySolver::follow_meshes(const Substep& s) {
+  const std::vector<BodyState>& states = contacts_.states();
+  followed_.clear();
+  is_fixed_.assign(contacts_.is_fixed().begin(), contacts_.is_fixed().end());
+  if (std::none_of(states.begin() + bodies_.dynamic(), states.end(), [](const BodyState& state) { return state.deforms; }))
+    return;
+  const auto elapsed = static_cast<float>(time_of(s, s.number) - s.frame_start);
+  followed_.assign(contacts_.all().size(), -1);
+  for (std::size_t i = 0; i < followed_.size(); ++i) {
+    const int mesh = contacts_.bodies()[i].first;
+    const BodyState& state = states[at(mesh)];
+    if (!state.deforms) continue;
+    const SurfaceMotion motion = bodies_.motion_of_surface(s.model, mesh, contacts_.all()[i]);
+    if (motion.velocity == Vec3f{} && motion.spin == Vec3f{}) continue;
+    followed_[i] = motions_.add_fixed(motion.velocity, motion.spin, (motion.velocity - state.velocity) * elapsed,
+                                      motion.spin * elapsed);
+  }
+  is_fixed_.resize(motions_.all().size(), 1);
+}
+
 void BodySolver::make_manifolds(const Substep& s) {
   Executor& executor = s.context.executor;
   const Stopwatch stopwatch(executor.timings(), "bodies: manifolds");
   const std::vector<std::pair<int, int>>& bodies_of = contacts_.bodies();
   colours_.colour(bodies_of, contacts_.is_fixed());
+  follow_meshes(s);
   const double left = time_left(s);
   const float fall = s.h * length(s.model.gravity);
   is_separating_.resize(bodies_of.size());
   contacts_.count_overlaps(overlaps_);
   const auto prefetch = [&](int i) { fetch(contacts_.all()[at(i)]); };
-  blocks_.fill(executor, colours_, contacts_.is_fixed(), prefetch, [&](int i) {
+  blocks_.fill(executor, colours_, is_fixed_, prefetch, [&](int i) {
     const auto& [a, b] = bodies_of[at(i)];
     Manifold m = manifold_of(contacts_.all()[at(i)], a, b, bodies_.material(s.model, a, b), s.h);
     const bool separates = limit_depths(motions_.all()[at(a)], motions_.all()[at(b)], contacts_.size(i),
@@ -104,6 +134,8 @@ void BodySolver::make_manifolds(const Substep& s) {
     m.settles = settling_speed(contacts_.all()[at(i)], m, contacts_.states()[at(a)], contacts_.states()[at(b)], fall);
     turn_arm(contacts_.states()[at(a)], m.normal, left, m.arm_a);
     turn_arm(contacts_.states()[at(b)], m.normal, left, m.arm_b);
+    m.drift = drift_of(contacts_.states()[at(a)], contacts_.states()[at(b)], m);
+    if (!followed_.empty() && followed_[at(i)] >= 0) m.a = followed_[at(i)], m.arm_a = {};
     return m;
   });
   blocks_.prepare(executor, s.kernels.manifolds, motions_.all());

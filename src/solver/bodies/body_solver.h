@@ -90,6 +90,7 @@ class BodySolver {
 
  private:
   void take_impulses(const Substep& s);
+  void follow_meshes(const Substep& s);
   void make_manifolds(const Substep& s);
   void start_substep(const Substep& s);
   void find_tied(const Model& model);
@@ -110,6 +111,8 @@ class BodySolver {
   ManifoldColours colours_;                    ///< of contacts_
   ManifoldBlocks blocks_;                      ///< the manifolds of contacts_ in a frame
   std::vector<float> bounced_;                 ///< [contact] impulses of impacts with restitution in a substep, for events
+  std::vector<int> followed_;                  ///< [contact] motion of the mesh that deforms, or -1; empty if none does
+  std::vector<char> is_fixed_;                 ///< [motion] nonzero: fixed
   std::vector<int> overlaps_;                  ///< [place] FrameContacts::count_overlaps
   PressedBy pressed_by_ = PressedBy::bodies;
   std::vector<char> is_separating_;    ///< [contact] nonzero: its bodies overlap more than what presses them explains

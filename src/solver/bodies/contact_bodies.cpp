@@ -7,6 +7,7 @@
 
 #include "collision/proxies/contact_tables.h"
 #include "math/motion.h"
+#include "model/surface_velocity.h"
 #include "solver/bodies/body_math.h"
 #include "solver/substep.h"
 
@@ -42,6 +43,51 @@ Vec3f round_axes_of(const CompiledSolid& solid) {
   if (!(length(cross(along, centre)) < straight * size)) return {};
   const auto round = [&](double part) { return std::fabs(part) > 1 - straight * straight ? 1.f : 0.f; };
   return {round(along.x), round(along.y), round(along.z)};
+}
+
+}  // namespace
+
+namespace {
+
+/// Where the vertices of a mesh collider are now, and at the frame's end: by its keyframes, or where the user moves them [m].
+struct VertexPaths {
+  std::vector<Vec3d> now, end;
+};
+
+VertexPaths vertex_paths(const Substep& s, int number) {
+  const CompiledObject& object = s.model.objects[at(number)];
+  const double end = s.frame_start + s.dt;
+  const PoseDrive* const drive = s.work.control.mesh(number);
+  const CarrierPose pose =
+      drive != nullptr ? CarrierPose(object.carrier, end, drive->at(end)) : CarrierPose(object.carrier, end);
+  const bool is_carried = drive != nullptr || object.carrier.moves();
+  VertexPaths paths;
+  paths.now.reserve(at(object.particles));
+  paths.end.reserve(at(object.particles));
+  for (int i = 0; i < object.particles; ++i) {
+    const std::size_t particle = at(s.model.first[at(number)] + i);
+    paths.now.push_back(convert<double>(xyz(s.state.positions[particle])) +
+                        convert<double>(xyz(s.state.remainders[particle])));
+    paths.end.push_back(is_carried ? pose.place(i) : paths.now.back());
+  }
+  if (const ObjectControl* const control = s.work.control.object(number))
+    for (const Target& target : control->targets) paths.end[at(target.particle)] = target.to;
+  return paths;
+}
+
+void set_velocities(const VertexPaths& paths, double dt, BodyMeshes::Entry& entry) {
+  entry.velocities.clear();
+  entry.velocities.reserve(paths.now.size());
+  Vec3d sum{};
+  for (std::size_t i = 0; i < paths.now.size(); ++i) {
+    const Vec3d velocity = (paths.end[i] - paths.now[i]) * (1 / dt);
+    entry.velocities.push_back(convert<float>(velocity));
+    sum += velocity;
+  }
+  entry.velocity = convert<float>(sum * (1 / static_cast<double>(paths.now.size())));
+  entry.deforming = 0;
+  for (const Vec3f& velocity : entry.velocities)
+    entry.deforming = std::max(entry.deforming, length(velocity - entry.velocity));
 }
 
 }  // namespace
@@ -173,6 +219,13 @@ void ContactBodies::move_vertices(const Substep& s, const BodyPlace& place) {
   for (int i = 0; i < object.particles; ++i)
     positions.push_back(xyz(s.state.positions[at(s.model.first[at(place.object)] + i)]));
   entry.mesh->move(positions);
+  set_velocities(vertex_paths(s, place.object), s.dt, entry);
+}
+
+SurfaceMotion ContactBodies::motion_of_surface(const Model& model, int place, const BodyContact& contact) const {
+  const int object = places_[at(place)].object;
+  const BodyMeshes::Entry& entry = meshes_->of_object.at(object);
+  return motion_of_mesh(contact, *entry.mesh, model.objects[at(object)].surface.triangles, entry.velocities);
 }
 
 std::pair<Posed, Posed> ContactBodies::rigid_poses(const Substep& s, const BodyPlace& place, double before,
@@ -224,13 +277,30 @@ BodyMaterial ContactBodies::sliding(const Model& model, int a, int b) const {
 BodyState ContactBodies::collider_at_start(const Substep& s, const BodyPlace& place) {
   // Within a frame they stay where they were at its start: other groups that run at the same time touch the mesh, too.
   if (place.mesh != nullptr && s.number == 0) move_vertices(s, place);
+  if (place.mesh != nullptr && meshes_->of_object.at(place.object).is_deformed) return deformed_at_start(s, place);
   const auto [before, after] = place.mesh == nullptr ? poses_between(colliders_at_start_[at(place.collider)])
                                                      : poses_of_mesh(s, place, time_of(s, s.number), s.frame_start + s.dt);
   const Posef start = convert<float>(before), end = convert<float>(after);
   const float rate = static_cast<float>(1 / time_left(s));
-  return {before, convert<float>(after.position - before.position) * rate,
-          turn_between(start.rotation, end.rotation) * rate, true,
-          place.mesh != nullptr && meshes_->of_object.at(place.object).is_deformed};
+  BodyState state{before, convert<float>(after.position - before.position) * rate,
+                  turn_between(start.rotation, end.rotation) * rate, true};
+  state.surface_velocity =
+      place.mesh == nullptr ? rotate(start.rotation, surface_velocity_of_collider(s.model, s.work.control, place.collider))
+                            : surface_velocity_of_mesh(s.model, s.work.control, place.object, time_of(s, s.number));
+  return state;
+}
+
+/// A mesh that deforms moves as its vertices do on the mean, and each of them may depart from that.
+BodyState ContactBodies::deformed_at_start(const Substep& s, const BodyPlace& place) const {
+  const BodyMeshes::Entry& entry = meshes_->of_object.at(place.object);
+  const double elapsed = time_of(s, s.number) - s.frame_start;
+  BodyState state;
+  state.pose.position = convert<double>(entry.velocity) * elapsed;
+  state.velocity = entry.velocity;
+  state.is_fixed = state.deforms = true;
+  state.deforming = entry.deforming;
+  state.surface_velocity = surface_velocity_of_mesh(s.model, s.work.control, place.object, time_of(s, s.number));
+  return state;
 }
 
 void ContactBodies::begin_frame(const Substep& s) {
@@ -259,6 +329,18 @@ void ContactBodies::drive(const Substep& s, int body, BodyState& state) const {
   state.spin = turn_between(convert<float>(now.rotation), convert<float>(end.rotation)) * rate;
 }
 
+/// Does the same for a body for which the user has set a pose.
+void ContactBodies::drive_to_target(const Substep& s, const BodyPlace& place, BodyState& state) {
+  const ObjectControl* const control = s.work.control.object(place.object);
+  if (control == nullptr) return;
+  const TurnTarget* const turn = control->turn(place.frame - s.model.first_frame[at(place.object)]);
+  const Target* const target = control->target(place.particle - s.model.first[at(place.object)]);
+  if (turn == nullptr || target == nullptr) return;
+  const auto rate = static_cast<float>(1 / time_left(s));
+  state.velocity = convert<float>(target->to - state.pose.position) * rate;
+  state.spin = turn_between(convert<float>(state.pose.rotation), convert<float>(turn->to)) * rate;
+}
+
 BodyState ContactBodies::state_at_start(const Substep& s, int index) {
   const BodyPlace& place_of = places_[at(index)];
   if (!place_of.is_body()) return collider_at_start(s, place_of);
@@ -273,6 +355,9 @@ BodyState ContactBodies::state_at_start(const Substep& s, int index) {
       rotate(q, is_fixed ? spin : without(round_[at(index)], spin)),  // a fixed disc carries what lies on it round
       is_fixed};
   if (driven_[at(index)] >= 0) drive(s, index, state);
+  drive_to_target(s, place_of, state);
+  const Vec3f sliding = surface_velocity_of_body(s.model, s.work.control, place_of.object, place_of.body);
+  if (sliding != Vec3f{}) state.surface_velocity = rotate(q, sliding);
   return state;
 }
 

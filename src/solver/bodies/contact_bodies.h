@@ -12,6 +12,7 @@
 #include "collision/proxies/contact_rules.h"
 #include "model/model.h"
 #include "solver/bodies/manifolds.h"
+#include "solver/bodies/mesh_motion.h"
 
 namespace pliant {
 
@@ -24,6 +25,10 @@ struct BodyMeshes {
     int generation = 0;
     bool is_deformed = false;  ///< true: moved to places in the world, so its pose is the identity
     std::unique_ptr<BodyMesh> mesh;
+    // Of a deformed mesh:
+    std::vector<Vec3f> velocities{};  ///< mean ones of its vertices in the frame [m/s]
+    Vec3f velocity{};                 ///< the mean of those [m/s]
+    float deforming = 0;              ///< greatest difference from that mean [m/s]
   };
   std::map<int, Entry> of_object;
 };
@@ -65,6 +70,8 @@ class ContactBodies {
   BodyState state_at_start(const Substep& s, int place);
   /// The poses of a collider before and after the substep.
   std::pair<Posed, Posed> poses_of_collider(const Substep& s, int place) const;
+  /// The motion in this frame of the mesh of a contact, which deforms.
+  SurfaceMotion motion_of_surface(const Model& model, int place, const BodyContact& contact) const;
 
  private:
   void add_object(const Model& model, int object, std::vector<BodyPart>& parts);
@@ -74,11 +81,13 @@ class ContactBodies {
   BodyMaterial sliding(const Model& model, int a, int b) const;
   std::pair<float, float> rolling(const Model& model, const BodyPlace& place) const;
   void move_vertices(const Substep& s, const BodyPlace& place);
+  BodyState deformed_at_start(const Substep& s, const BodyPlace& place) const;
   bool is_deformed(const Substep& s, const BodyPlace& place) const;
   std::pair<Posed, Posed> rigid_poses(const Substep& s, const BodyPlace& place, double before, double after) const;
   std::pair<Posed, Posed> poses_of_mesh(const Substep& s, const BodyPlace& place, double before, double after) const;
   BodyState collider_at_start(const Substep& s, const BodyPlace& place);
   void drive(const Substep& s, int body, BodyState& state) const;
+  static void drive_to_target(const Substep& s, const BodyPlace& place, BodyState& state);
 
   ContactRules rules_;
   BodyMeshes* meshes_ = nullptr;

@@ -154,7 +154,8 @@ template <class R, int lanes>
 PLIANT_HD void rub(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b) {
   const Vec3<R> velocity = approach(m, a, b), spin = b.spin - a.spin;
   const Vec3<R> normal = get<R>(m.normal), first = get<R>(m.tangent), second = cross(normal, first);
-  const R u = dot(velocity, first), v = dot(velocity, second);
+  // A drift of +0, as of all surfaces that do not move along themselves, changes no bit.
+  const R u = dot(velocity, first) - get<R>(m.drift[0]), v = dot(velocity, second) - get<R>(m.drift[1]);
   const R before[2] = {get<R>(m.friction_impulse[0]), get<R>(m.friction_impulse[1])};
   const R both = get<R>(m.slide[2]);
   const R wanted[2] = {before[0] - (get<R>(m.slide[0]) * u + both * v), before[1] - (get<R>(m.slide[1]) * v + both * u)};
@@ -328,7 +329,8 @@ PLIANT_HD void settle(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const 
 template <class R, int lanes>
 PLIANT_HD void rub_in_impact(const ManifoldRows<lanes>& m, const R& pressed, Motion<R>& a, Motion<R>& b) {
   const Vec3<R> velocity = approach(m, a, b), first = get<R>(m.tangent), second = cross(get<R>(m.normal), first);
-  const R u = dot(velocity, first), v = dot(velocity, second), both = get<R>(m.slide[2]);
+  const R u = dot(velocity, first) - get<R>(m.drift[0]), v = dot(velocity, second) - get<R>(m.drift[1]);
+  const R both = get<R>(m.slide[2]);
   const R one = -(get<R>(m.slide[0]) * u + both * v), two = -(get<R>(m.slide[1]) * v + both * u);
   const R limit = get<R>(m.friction) * pressed, size = sqrt(one * one + two * two);
   const R scale = select(size <= limit, R(1.f), get<R>(m.sliding) * limit / max(size, R(tiny)));

@@ -20,7 +20,7 @@ struct ManifoldRows {
   float normal[3][lanes], tangent[3][lanes];  ///< the second tangent is normal x tangent
   float arm_a[3][lanes], arm_b[3][lanes];
   float x[4][lanes], y[4][lanes];
-  float friction[lanes], sliding[lanes];
+  float friction[lanes], sliding[lanes], drift[2][lanes];
   float mobility[6][lanes], mass[4][lanes], slide[3][lanes], twist_mass[lanes], twist_arm[lanes];
   float impulse[4][lanes], friction_impulse[2][lanes], twist_impulse[lanes];
   float gap_now[4][lanes];
@@ -75,6 +75,8 @@ void put_manifold(const Manifold& m, ManifoldRows<lanes>& rows, int lane) {
   rows.spinning[lane] = m.spinning;
   rows.friction[lane] = m.friction;
   rows.sliding[lane] = m.sliding;
+  rows.drift[0][lane] = m.drift[0];
+  rows.drift[1][lane] = m.drift[1];
   rows.restitution[lane] = m.restitution;
   rows.bounced[lane] = m.bounced;
   rows.settles[lane] = m.settles;

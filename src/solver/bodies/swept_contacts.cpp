@@ -168,6 +168,7 @@ Contact SweptContacts::contact_of(const Substep& s, const Hit& hit, const Moving
   c.gap = dot(c.normal, relative(c, s.state.positions.data()) - centre) - reach_along(solid, c.normal) - object.thickness;
   complete_contact(c, s.state.positions.data(), s.state.remainders.data());
   c.approach = dot(c.normal, relative(c, s.work.displacements.data()) - moved) / s.h;
+  add_slide(solid, c);
   return c;
 }
 

@@ -33,6 +33,7 @@ void ViscosityWalls::find(Substep& s, const ViscosityLaw& law, const FluidWalls&
     grip.normal = to.normal;
     if (which < colliders) {
       grip.motion = motion_of(wall, place);
+      if (wall.slides()) grip.motion += wall.slide - to.normal * dot(to.normal, wall.slide);
     } else {
       grip.body = s.bodies->solids().body_of_solid()[at(which - colliders)];
       grip.arm = place - FluidBodies::centre_of(s, grip.body);

@@ -1,3 +1,4 @@
+#include "model/surface_velocity.h"
 #include "solver/bodies/body_solver.h"
 #include "solver/fluids/fluid_solver.h"
 #include "solver/grains/grain_solver.h"
@@ -20,6 +21,23 @@ void collide_with_shapes(Substep& s) {
   s.own->shape_contact_solver.begin(s.kernels.contacts, found, 0, s.state.positions.data(), s.state.positions.size());
 }
 
+/// Adds what the surfaces of mesh colliders move along themselves to the motion of contacts with them.
+void add_slides_of_meshes(Substep& s) {
+  if (!some_meshes_slide(s.model, s.work.control)) return;
+  std::vector<Vec3f> slides(s.model.objects.size());
+  for (int o = 0; o < static_cast<int>(slides.size()); ++o)
+    slides[at(o)] = surface_velocity_of_mesh(s.model, s.work.control, o, s.time_after) * s.h;
+  for (Contact& c : s.pairs->contacts())
+    for (std::size_t i = 0; i < c.point.size(); ++i) {
+      if (c.weight[i] == 0) continue;
+      const Vec3f& slide = slides[at(s.model.object_of(c.point[i]))];
+      if (slide == Vec3f{}) continue;
+      const Vec3f along = slide - c.normal * dot(c.normal, slide);
+      c.surface_motion = c.weight[i] < 0 ? along : -along;  // of the second side, which has negative weights
+      break;
+    }
+}
+
 }  // namespace
 
 void collide(Substep& s) {
@@ -29,6 +47,7 @@ void collide(Substep& s) {
   if (s.grains != nullptr) s.grains->collide(s);
   if (!s.has_pairs()) return;
   s.pairs->detect(s.context.executor, all_particles(s));
+  add_slides_of_meshes(s);
   s.own->contact_solver.begin(s.kernels.contacts, s.pairs->contacts(), s.pairs->static_contacts(), s.state.positions.data(),
                               s.state.positions.size());
 }

@@ -85,9 +85,11 @@ bool is_carried(const Substep& s, int point) {
   return !(s.state.positions[point].w > 0) && length(moved) > 0;
 }
 
+bool is_pushing(const MovingCollider& collider) { return collider.moves || collider.slides(); }
+
 /// True if a collider that moves pushes a particle of the group, and so may do work.
 bool is_pushed_by_what_moves(const Substep& s) {
-  const auto pushes = [&](const Contact& c) { return c.push > 0 && s.own->colliders[c.collider].moves; };
+  const auto pushes = [&](const Contact& c) { return c.push > 0 && is_pushing(s.own->colliders[c.collider]); };
   const auto any_pushes = [&](const std::vector<Contact>& contacts) {
     return std::any_of(contacts.begin(), contacts.end(), pushes);
   };
@@ -95,7 +97,7 @@ bool is_pushed_by_what_moves(const Substep& s) {
   for_each_tile(s, [&](int task) { found = found || any_pushes(s.work.tiles[task].contacts); });
   if (found || !s.has_pairs()) return found;
   const auto is_pushed = [&](const Contact& c) {
-    bool carried = false;
+    bool carried = c.push > 0 && c.surface_motion != Vec3f{};  // by a mesh whose surface slides
     for (std::size_t i = 0; c.push > 0 && i < c.point.size(); ++i)
       carried = carried || (c.weight[i] != 0 && is_carried(s, c.point[i]));
     return carried;
