@@ -20,6 +20,7 @@
 #include "world/overlaps.h"
 #include "world/resting_grains.h"
 #include "world/tearing.h"
+#include "world/touching_starts.h"
 
 namespace pliant {
 
@@ -130,6 +131,7 @@ ObjectId World::add(const Object& object) {
   const ObjectId id = data_->ids.objects.add(number);
   keep_description(*data_, id.slot, &object);  // first, because the multipliers of what breaks are stored
   place_object(*data_, number);
+  part_touching_starts(*data_, number);
   mark_overlaps(*data_, number);
   return id;
 }
