@@ -110,9 +110,7 @@ struct CompiledObject {
   std::vector<int> order;                     ///< order[storage index] = user's index
   std::vector<int> place;                     ///< place[user's index] = storage index; the inverse of `order`
   std::vector<Record> positions, velocities;  ///< initial positions and velocities; no velocities if all are zero
-  std::vector<Vec3f>
-      shifts;           ///< by which `positions` are not those described (world/touching_starts.h) [m]; empty: they are
-  FrameRecords frames;  ///< initial values of the frames, in the order of Object::frames
+  FrameRecords frames;                        ///< initial values of the frames, in the order of Object::frames
   CompiledBodies bodies;
   std::vector<CompiledJoint> joints;  ///< in the order of Object::joints
   std::vector<Pool> pools;

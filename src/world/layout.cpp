@@ -13,7 +13,6 @@
 #include "world/rest.h"
 #include "world/soaking.h"
 #include "world/tearing.h"
-#include "world/touching_starts.h"
 
 namespace pliant {
 
@@ -122,7 +121,6 @@ WorldData::WorldData(const Scene& scene, const WorldLayout& layout)
   ids.mesh_colliders.restore(layout.mesh_colliders);
   for (std::size_t i = 0; i < of_objects.size(); ++i)
     keep_description(*this, ids.objects.id_of(of_objects[i]).slot, &scene.objects[i]);
-  part_touching_starts(model);
   open_liquids(*this);
   state = initial_state(model);
   for (std::size_t number = 0; number < count; ++number) {

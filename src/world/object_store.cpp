@@ -20,7 +20,6 @@
 #include "world/soaking.h"
 #include "world/surface_velocities.h"
 #include "world/target_origins.h"
-#include "world/touching_starts.h"
 
 namespace pliant {
 
@@ -346,7 +345,6 @@ void replace_object(WorldData& world, int number, CompiledObject by, const std::
   const FlowedRest flowed = flowed_rest(old);
   forget_control(world, number);
   forget_contacts(world, number);
-  keep_shifts(old, origins.particles, by);
   if (old.flow.open && by.fluid && !by.gas) by.flow.open = true;  // what has soaked in elsewhere is not there
   world.model.replace(number, std::move(by));
   place_object(world, number);

@@ -21,6 +21,7 @@
 #include "world/resting_grains.h"
 #include "world/surface_velocities.h"
 #include "world/tearing.h"
+#include "world/touching_starts.h"
 
 namespace pliant {
 
@@ -131,6 +132,7 @@ ObjectId World::add(const Object& object) {
   const ObjectId id = data_->ids.objects.add(number);
   keep_description(*data_, id.slot, &object);  // first, because the multipliers of what breaks are stored
   place_object(*data_, number);
+  part_touching_starts(*data_, number);
   mark_overlaps(*data_, number);
   return id;
 }

@@ -33,15 +33,6 @@ constexpr int passes = 3;
 /// A vertex uses at most this share of the way to the next surface, which is searched to this multiple of its displacement.
 constexpr float share_of_room = 0.4f, looked_ahead = 1 / share_of_room;
 
-/// Moves the particles of an object at the start.
-void shift_start(std::vector<Vec3f> shifts, CompiledObject& object) {
-  for (std::size_t i = 0; i < shifts.size(); ++i) {
-    Record& x = object.positions[i];
-    if (length_squared(shifts[i]) > 0) x = {x.x + shifts[i].x, x.y + shifts[i].y, x.z + shifts[i].z, x.w};
-  }
-  object.shifts = std::move(shifts);
-}
-
 /// The surface of an object: triangles, or lines as triangles whose last two corners are one. Vertices have their numbers in the State.
 struct Part {
   int number = 0;  ///< of the object in the model
@@ -73,12 +64,13 @@ struct Demand {
 
 class TouchingStarts {
  public:
-  explicit TouchingStarts(Model& model);
+  TouchingStarts(const Model& model, State& state);
 
-  void run();
+  /// Moves the objects of all numbers, or of one.
+  void run(int only);
 
  private:
-  void add_part(int number, const std::vector<Record>& positions);
+  void add_part(int number);
   void build(Part& part);
   void sort_parts();
   bool meet(const Part& a, const Part& b) const;
@@ -98,27 +90,26 @@ class TouchingStarts {
   float room(int vertex, const Part& part);
   void move(const Part& part);
 
-  Model& model_;
-  std::vector<Record> places_;  ///< of all particles at the start, as in a State
-  std::vector<Vec3d> shifts_;   ///< by which they move; empty: none does
-  std::vector<Part> parts_;     ///< in the order in which one is fixed for the next
+  const Model& model_;
+  State& state_;
+  Records places_;             ///< of all particles at the start
+  std::vector<Vec3d> shifts_;  ///< by which they move; empty: none does
+  std::vector<Part> parts_;    ///< in the order in which one is fixed for the next
 };
 
-TouchingStarts::TouchingStarts(Model& model) : model_(model), places_(at(model.particles())) {
+TouchingStarts::TouchingStarts(const Model& model, State& state) : model_(model), state_(state), places_(state.positions) {
   std::vector<char> is_field(model.objects.size(), 0);
   for (const FieldCollider& field : model.fields) is_field[at(field.object)] = 1;
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) {
     const CompiledObject& object = model.objects[at(number)];
     if (object.particles == 0 || is_field[at(number)] != 0 || !(object.collides || object.is_collider)) continue;
     if (object.surface.triangles.empty() && object.lines.empty()) continue;
-    std::vector<Record> positions = object.positions;
-    move_to_present(object, 0, positions.data());
-    std::copy(positions.begin(), positions.end(), places_.begin() + model.first[at(number)]);
-    add_part(number, positions);
+    if (state.time == 0) move_to_present(object, 0, &places_[at(model.first[at(number)])]);
+    add_part(number);
   }
 }
 
-void TouchingStarts::add_part(int number, const std::vector<Record>& positions) {
+void TouchingStarts::add_part(int number) {
   const CompiledObject& object = model_.objects[at(number)];
   Part& part = parts_.emplace_back();
   part.number = number;
@@ -135,7 +126,7 @@ void TouchingStarts::add_part(int number, const std::vector<Record>& positions) 
     for (const int v : element) {
       low = min(low, xyz(places_[at(v)]));
       high = max(high, xyz(places_[at(v)]));
-      part.moves = part.moves || positions[at(v - first)].w > 0;
+      part.moves = part.moves || places_[at(v)].w > 0;
     }
   const Vec3f extent = max(abs(low), abs(high));
   part.tolerance = least_margin_roundings * one_rounding * largest(extent);
@@ -317,14 +308,12 @@ void TouchingStarts::keep_to_room(const Part& part) {
 }
 
 void TouchingStarts::move(const Part& part) {
-  CompiledObject& object = model_.objects[at(part.number)];
-  std::vector<Vec3f> shifts(at(object.particles));
-  bool any = false;
   for (int v = part.first; v < part.end; ++v) {
-    shifts[at(v - part.first)] = convert<float>(shifts_[at(v)]);
-    any = any || length_squared(shifts_[at(v)]) > 0;
+    if (length_squared(shifts_[at(v)]) == 0) continue;
+    const Vec3f to = convert<float>(place(v) + shifts_[at(v)]);
+    Record& x = state_.positions[at(v)];
+    x = {to.x, to.y, to.z, x.w};
   }
-  if (any) shift_start(std::move(shifts), object);
 }
 
 /// Finds which parts are near others, and puts them in order.
@@ -339,13 +328,13 @@ void TouchingStarts::sort_parts() {
   std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) { return a.rank() < b.rank(); });
 }
 
-void TouchingStarts::run() {
+void TouchingStarts::run(int only) {
   sort_parts();
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (!parts_[i].moves || !parts_[i].is_near_others) continue;
+    if (!parts_[i].moves || !parts_[i].is_near_others || (only >= 0 && parts_[i].number != only)) continue;
     std::vector<Demand> demands;
-    for (std::size_t k = 0; k < i; ++k)
-      if (parts_[k].has_sides && are_near(parts_[i], parts_[k])) add_demands(parts_[i], parts_[k], demands);
+    for (std::size_t k = 0; k < (only < 0 ? i : parts_.size()); ++k)
+      if (k != i && parts_[k].has_sides && are_near(parts_[i], parts_[k])) add_demands(parts_[i], parts_[k], demands);
     if (demands.empty()) continue;
     meet_demands(demands);
     keep_to_room(parts_[i]);
@@ -357,14 +346,6 @@ void TouchingStarts::run() {
 
 }  // namespace
 
-void part_touching_starts(Model& model) { TouchingStarts(model).run(); }
-
-void keep_shifts(const CompiledObject& old, const std::vector<int>& origins, CompiledObject& by) {
-  if (old.shifts.empty()) return;
-  std::vector<Vec3f> shifts;
-  shifts.reserve(origins.size());
-  for (const int from : origins) shifts.push_back(from < 0 ? Vec3f{} : old.shifts[at(from)]);
-  shift_start(std::move(shifts), by);
-}
+void part_touching_starts(WorldData& world, int number) { TouchingStarts(world.model, world.state).run(number); }
 
 }  // namespace pliant

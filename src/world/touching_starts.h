@@ -7,19 +7,13 @@
 // what hangs from a ceiling does not jump through it. Layers on layers move by the sum of their distances.
 #pragma once
 
-#include <vector>
-
-#include "model/model.h"
+#include "world/world_data.h"
 
 namespace pliant {
 
-/// Moves the initial positions of objects that start within rounding of another surface that they meet. Call it when all objects
-/// of a scene are compiled, before the State is made: rest data of constraints stay, the distances at rest by which contact is
-/// limited follow. The result depends on the start alone.
-void part_touching_starts(Model& model);
-
-/// Moves the initial positions of an object that replaces another one as that one's were moved. `origins` lists for each of its
-/// particles the one of the old object, or -1, both in storage order.
-void keep_shifts(const CompiledObject& old, const std::vector<int>& origins, CompiledObject& by);
+/// Moves particles that are within rounding of another surface that they meet, in the State: of all objects when a World is
+/// made, else of the object that was added. What the objects are described as stays, and with it their rest data. Contact
+/// keeps the full distance between what is described as touching (collision/narrow/contact_detector.cpp).
+void part_touching_starts(WorldData& world, int number = -1);
 
 }  // namespace pliant

@@ -54,9 +54,9 @@ WorldData::WorldData(const Scene& scene, const Settings& given, const Settings& 
   }
   for (const MeshCollider& collider : scene.mesh_colliders)
     ids.mesh_colliders.add(add_to_model(*this, collider, compile(collider)));
-  part_touching_starts(model);
   open_liquids(*this);
   state = initial_state(model);
+  part_touching_starts(*this);
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) prepare_object(*this, number);
   keep_flowed(*this);
   follow_rest_factors(*this, 0);

@@ -232,6 +232,19 @@ TEST(TouchingStart, LeavesPinsAndOtherStartsWhereTheyAre) {
   for (const Vec3f& p : world.object(0).positions()) EXPECT_EQ(p.y, 1e-4f);
 }
 
+TEST(TouchingStart, OfAnAddedObjectIsHeld) {
+  Scene scene = lying(0, false);
+  World world(scene);
+  for (int frame = 0; frame < 5; ++frame) world.step(1.f / 60);
+  Object second = named_cloth(sheet(5, 0.2f, 0), "second");
+  for (Vec3f& p : second.positions) p.x += 0.21f;
+  world.add(second);
+  scene.add(second);
+  run_held(scene, world);
+  EXPECT_GT(heights(world, 1).lowest, 1e-4f);
+  EXPECT_LT(heights(world, 1).highest, 0.006f) << "thrown";
+}
+
 /// Another layer that is closer than the thickness is no place to go through.
 TEST(TouchingStart, DoesNotPassALayerThatIsNear) {
   Scene scene = lying(0, false);

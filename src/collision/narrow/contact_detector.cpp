@@ -8,6 +8,7 @@ namespace {
 
 /// A contact keeps at most this share of the distance that its two primitives have at rest.
 constexpr double share_of_rest = 0.9;
+constexpr float no_limit_at_rest = 1e30f;  ///< [m]
 /// When a block of static pairs is measured, all blocks of its group are that become due within this many substeps.
 constexpr float substeps_of_rest = 4;
 
@@ -19,11 +20,17 @@ struct Detection {
   const CoveredPairs& covered;
 };
 
-/// The largest contact distance of a pair that its distance at rest permits [m]. `known` caches the result: < 0 if not
+/// The largest contact distance of a pair that its distance at rest permits [m]: no limit between bodies that were described
+/// as touching, because they are moved apart when they are placed (world/touching_starts.h). `known` caches the result: < 0 if not
 /// computed yet; null if it is not cached.
 float kept_at_rest(const Neighbourhood& near, const PairStencil& pair, float* known) {
   if (known != nullptr && *known >= 0) return *known;
-  const auto kept = static_cast<float>(share_of_rest * pair_distance(pair, near.model.shared->rest.data()).distance);
+  const ContactTables& tables = *near.model.shared;
+  const double distance = pair_distance(pair, tables.rest.data()).distance;
+  const bool is_of_two = tables.vertex_body[pair.vertex[0]] != tables.vertex_body[pair.vertex[3]];
+  const Record& place = tables.rest[pair.vertex[0]];
+  const double rounding = double(least_margin_roundings * one_rounding * largest(Vec3f{place.x, place.y, place.z}));
+  const auto kept = is_of_two && distance <= rounding ? no_limit_at_rest : static_cast<float>(share_of_rest * distance);
   if (known != nullptr) *known = kept;
   return kept;
 }

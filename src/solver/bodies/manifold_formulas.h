@@ -26,6 +26,8 @@ constexpr float never = 1e30f;
 constexpr int passes_of_impact = 16;
 /// Most passes over a contact that begins at rest.
 constexpr int passes_of_settling = 8;
+/// Such a contact slides at this multiple of the speed that it may keep, or is left as it is: other passes bring it to rest.
+constexpr float clearly_sliding = 10;
 /// Points that arrive within this share of the substep bounce together; of all at once, those that arrive late would be
 /// thrown by the first.
 constexpr float together_share = 0.02f;
@@ -300,11 +302,15 @@ PLIANT_HD void velocity_pass(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b,
 /// Later substeps start with what the earlier ones found; the first one would let it slip.
 template <class R, int lanes>
 PLIANT_HD void settle(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const PassNumbers& numbers) {
-  const R slow = get<R>(m.settles), zero(0.f);
+  const R zero(0.f);
   const Vec3<R> normal = get<R>(m.normal);
-  for (int pass = 0; pass < passes_of_settling; ++pass) {
+  const auto speed = [&]() __attribute__((always_inline)) {
     const Vec3<R> velocity = approach(m, a, b), along = velocity - normal * dot(velocity, normal);
-    const R excess = select(slow > zero, max(sqrt(dot(along, along)) - slow, zero), zero);
+    return sqrt(dot(along, along));
+  };
+  const R asked = get<R>(m.settles), slow = select(speed() > asked * R(clearly_sliding), asked, zero);
+  for (int pass = 0; pass < passes_of_settling; ++pass) {
+    const R excess = select(slow > zero, max(speed() - slow, zero), zero);
     if (all_zero(excess)) return;
     const auto slides = excess > zero;
     const Motion<R> old_a = a, old_b = b;
