@@ -1,6 +1,7 @@
 #include "solver/near_sets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -51,6 +52,15 @@ double radius_of(const CompiledObject& object) {
   return radius + static_cast<double>(object.thickness);
 }
 
+/// The largest distance that a pair of the scene keeps from an object [m].
+double kept_distance(const Model& model, int o) {
+  double most = 0;
+  for (const PairProperties& pair : model.pairs)
+    if (pair.thickness && (pair.first == model.objects[at(o)].name || pair.second == model.objects[at(o)].name))
+      most = std::max(most, static_cast<double>(*pair.thickness));
+  return most;
+}
+
 /// All that displacements in a frame follow from.
 struct FrameStart {
   const Model& model;
@@ -63,6 +73,8 @@ struct FrameStart {
     return {x.x, x.y, x.z};
   }
   double end() const { return state.time + dt; }
+  /// Times at which what follows keyframes is looked at: it may come back within the frame.
+  std::array<double, 4> times() const { return {state.time + dt / 4, state.time + dt / 2, state.time + dt * 3 / 4, end()}; }
 };
 
 /// The largest displacement of an object's kinematic particles [m].
@@ -74,13 +86,15 @@ double kinematic_move(const FrameStart& f, int o) {
     moved = std::max(moved, length(to - f.place(first + particle)));
   };
   const PoseDrive* drive = f.control.mesh(o);
-  if (drive != nullptr || object.carrier.moves()) {
-    const CarrierPose pose =
-        drive != nullptr ? CarrierPose(object.carrier, f.end(), drive->at(f.end())) : CarrierPose(object.carrier, f.end());
-    for (int i = 0; i < object.particles; ++i) follow(i, pose.place(i));
+  for (const double time : f.times()) {
+    if (drive != nullptr || object.carrier.moves()) {
+      const CarrierPose pose =
+          drive != nullptr ? CarrierPose(object.carrier, time, drive->at(time)) : CarrierPose(object.carrier, time);
+      for (int i = 0; i < object.particles; ++i) follow(i, pose.place(i));
+    }
+    for (const Kinematic& kinematic : object.kinematics)
+      follow(kinematic.particle, to_world(pose_at(kinematic.motion, time), convert<double>(kinematic.rest)));
   }
-  for (const Kinematic& kinematic : object.kinematics)
-    follow(kinematic.particle, to_world(pose_at(kinematic.motion, f.end()), convert<double>(kinematic.rest)));
   if (const ObjectControl* given = f.control.object(o))
     for (const Target& target : given->targets) follow(target.particle, target.to);
   return moved;
@@ -109,7 +123,15 @@ Reach reach_of(const FrameStart& f, int o, double radius) {
     fastest = max(fastest, v.x * v.x + v.y * v.y + v.z * v.z);
   }
   const double acceleration = static_cast<double>(length(f.model.gravity)) + acceleration_by_user(f, o);
-  of.moved = (std::sqrt(static_cast<double>(fastest)) + acceleration * f.dt) * f.dt;
+  float turning = 0;  // of bodies
+  for (int i = f.model.first_frame[at(o)];
+       i < f.model.first_frame[at(o)] + static_cast<int>(f.model.objects[at(o)].frames.size()); ++i) {
+    const Record& w = f.state.frames.angular_velocities[at(i)];
+    turning = max(turning, w.x * w.x + w.y * w.y + w.z * w.z);
+  }
+  const double speed = std::sqrt(static_cast<double>(fastest)) + std::sqrt(static_cast<double>(turning)) * radius +
+                       static_cast<double>(length(f.model.wind.velocity));
+  of.moved = (speed + acceleration * f.dt) * f.dt;
   of.moved = std::max(of.moved, kinematic_move(f, o));
   return of;
 }
@@ -155,6 +177,10 @@ Forest join_near(const std::vector<SetMember>& members, const std::vector<int>& 
     if (gas >= 0) forest.join(gas, i);
     gas = i;
   }
+  // Nor are grains: the force of a contact depends on the substep, so that a heap would hop where its substeps change.
+  for (int i = 0; i < static_cast<int>(among.size()); ++i)
+    for (int j = 0; j < static_cast<int>(among.size()) && members[at(among[at(i)])].is_of_grains; ++j)
+      if (i != j && meet(i, j)) forest.join(i, j);
   const auto low = [&](int i) { return reaches[at(i)].low.x - reaches[at(i)].margin(); };
   const auto high = [&](int i) { return reaches[at(i)].high.x + reaches[at(i)].margin(); };
   std::vector<int> order(among.size()), open;
@@ -201,14 +227,14 @@ NearSets::NearSets(const Model& model) : members_(set_members(model)), by_rules_
   radius_.resize(members_.size(), 0);
   for (std::vector<int>& among : sets) {
     if (!is_worth_dividing(members_, among)) continue;
-    for (const int o : among) radius_[at(o)] = radius_of(model.objects[at(o)]);
+    for (const int o : among) radius_[at(o)] = std::max(radius_of(model.objects[at(o)]), kept_distance(model, o));
     divided_.push_back(std::move(among));
   }
 }
 
 std::vector<int> NearSets::find(const Model& model, const State& state, const Control& control, double dt) const {
   std::vector<int> sets = by_rules_;
-  if (divided_.empty()) return sets;
+  if (divided_.empty() || !model.forces.empty()) return sets;  // force fields may move anything anywhere
   const FrameStart frame{model, state, control, dt};
   const std::vector<Reach> colliders = moving_colliders(frame);
   for (const std::vector<int>& among : divided_) {

@@ -104,7 +104,10 @@ std::optional<Jump> find_jump(const WorldData& world, int number, double dt) {
   const auto is_alike = [&](const Vec3d& move) { return length(move - jump.by) <= whole.size; };
   const bool is_held =
       !object.is_collider && (static_cast<int>(moves.size()) < whole.kinematic || !object.kinematics.empty());
-  jump.is_whole = !is_held && !object.carrier.moves() && std::all_of(moves.begin(), moves.end(), is_alike);
+  // Bodies that no joint connects with what is moved stay where they are.
+  const bool has_loose =
+      !object.bodies.bodies.empty() && object.joints.empty() && moves.size() < object.bodies.bodies.size();
+  jump.is_whole = !is_held && !has_loose && !object.carrier.moves() && std::all_of(moves.begin(), moves.end(), is_alike);
   return jump;
 }
 

@@ -220,7 +220,9 @@ class Movers {
     for (std::size_t b = 0; b < reach.size(); ++b) {
       const CompiledBodies::Body& body = object.bodies.bodies[b];
       const float spin = length(xyz(world_.state.frames.angular_velocities[at(first_frame + body.frame)]));
-      const float speed = moves ? unstoppable : speed_of(first + body.particle) + reach[b] * spin;
+      const bool slides =
+          surface_velocity_of_body(world_.model, world_.workspace.control, number, static_cast<int>(b)) != Vec3f{};
+      const float speed = moves || slides ? unstoppable : speed_of(first + body.particle) + reach[b] * spin;
       if (speed > 0) add(xyz(world_.state.positions[at(first + body.particle)]), reach[b], {number, speed});
     }
   }

@@ -8,6 +8,7 @@
 #include "math/vector.h"
 #include "pliant/error.h"
 #include "world/control.h"
+#include "world/resting_grains.h"
 
 namespace pliant {
 
@@ -84,7 +85,8 @@ void ObjectHandle::set_surface_velocity(int body, const Vec3f& velocity) {
   (void)body_of(of, body);
   require_velocity(velocity, of.name, "body " + std::to_string(body));
   wake_bodies(*world_, number);
-  world_->workspace.control.objects[number];  // wakes what sleeps on it, as a target does
+  world_->state.rest_times.clear();  // wakes what may sleep on it
+  wake_all_grains(*world_);
   set_in_state({SurfaceVelocity::Of::body, number, 0, body, velocity}, world_->state);
 }
 

@@ -119,6 +119,10 @@ void follow_targets(WorldData& world, int number) {
   if (found == world.workspace.control.objects.end()) return;
   for (Target& target : found->second.targets)
     target.from = precise_place(world.state, world.model.first[at(number)] + target.particle);
+  for (TurnTarget& turn : found->second.turns) {
+    const Record& q = world.state.frames.orientations[at(world.model.first_frame[at(number)] + turn.frame)];
+    turn.from = normalise(convert<double>(Quatf{q.x, q.y, q.z, q.w}));
+  }
 }
 
 HeldPose held_pose_of(bool is_mesh, int slot, int generation, const Posed& pose) {

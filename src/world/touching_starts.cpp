@@ -275,6 +275,10 @@ void TouchingStarts::meet_demands(const std::vector<Demand>& demands) {
       const double missing = demand.least - dot(shift, demand.normal);
       if (missing > 0) shift += demand.normal * missing;
     }
+  std::vector<int> between;  // opposed surfaces, of which neither side is right
+  for (const Demand& demand : demands)
+    if (dot(shifts_[at(demand.vertex)], demand.normal) < std::min(0., demand.least)) between.push_back(demand.vertex);
+  for (const int vertex : between) shifts_[at(vertex)] = {};
 }
 
 /// The share of its displacement for which a vertex has room before other surfaces and other layers of its own.

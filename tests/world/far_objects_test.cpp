@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "pliant/body.h"
-#include "pliant/grains.h"
 #include "pliant/liquid.h"
 #include "pliant/soft_body.h"
 #include "world/substep_groups_support.h"
@@ -63,10 +62,6 @@ Object jelly() {
   return moved(body, {0, 0.3f, 0});
 }
 
-Object sand() {
-  return make_grains(fill_box({0, 0, 0}, {0.3f, 0.3f, 0.3f}, 0.05f), {.name = "sand", .grains = {.radius = 0.025f}});
-}
-
 Object honey() {
   LiquidOptions options;
   options.name = "honey";
@@ -84,7 +79,7 @@ Object crate() {
   return make_body({{Box{{0.2f, 0.2f, 0.2f}}}}, options);
 }
 
-std::vector<Object> one_of_each_kind() { return {curtain(), tangled(), cord(), jelly(), sand(), honey(), crate()}; }
+std::vector<Object> one_of_each_kind() { return {curtain(), tangled(), cord(), jelly(), honey(), crate()}; }
 
 Scene over_a_floor(const std::vector<Object>& objects) {
   Scene scene;

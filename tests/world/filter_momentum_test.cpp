@@ -53,15 +53,15 @@ Object gelatine(const Vec3f& corner) {
   return object;
 }
 
-struct Momentum {
+struct Momenta {
   Vec3d linear{}, angular{};
 };
 
 Vec3d vector_of(const Record& r) { return {double(r.x), double(r.y), double(r.z)}; }
 
 /// The momentum of particles from number `first` on, about the origin.
-Momentum momentum_of(const World& world, std::size_t first, std::size_t last) {
-  Momentum sum;
+Momenta momentum_of(const World& world, std::size_t first, std::size_t last) {
+  Momenta sum;
   const State& state = world.state();
   for (std::size_t i = first; i < last; ++i) {
     const Record& x = state.positions[i];
@@ -120,7 +120,7 @@ Outcome outcome_of(Object first, Object second, int frames, const Vec3f& common 
   World world(scene);
   Watch watch(world, scene);
   const std::size_t half = first.positions.size(), all = half + second.positions.size();
-  const Momentum before = momentum_of(world, 0, all), of_second = momentum_of(world, half, all);
+  const Momenta before = momentum_of(world, 0, all), of_second = momentum_of(world, half, all);
   Outcome out;
   out.energy_before = energy_of(world, all, common);
   for (int frame = 0; frame < frames; ++frame) {
@@ -130,7 +130,7 @@ Outcome outcome_of(Object first, Object second, int frames, const Vec3f& common 
     out.crossings += watch.crossings(world);
     out.warnings.insert(out.warnings.end(), report.warnings.begin(), report.warnings.end());
   }
-  Momentum after = momentum_of(world, 0, all);
+  Momenta after = momentum_of(world, 0, all);
   after.angular += spin_of(world);  // none turns at the start
   out.exchanged = length(momentum_of(world, half, all).linear - of_second.linear);
   out.linear = length(after.linear - before.linear) / out.exchanged;

@@ -20,9 +20,9 @@ struct Load {
   float sliding;
 };
 
-enum class Ground { plane, box, mesh };
+enum class SlopeKind { plane, box, mesh };
 
-Scene on_incline(const Load& load, Ground ground) {
+Scene on_incline(const Load& load, SlopeKind ground) {
   Scene scene;
   scene.settings.threads = 1;
   const float angle = incline * 3.14159265f / 180, sine = std::sin(angle), cosine = std::cos(angle);
@@ -31,14 +31,14 @@ Scene on_incline(const Load& load, Ground ground) {
     on.static_friction = friction;
     on.kinetic_friction = load.sliding;
   };
-  if (ground == Ground::mesh) {
+  if (ground == SlopeKind::mesh) {
     MeshCollider mesh;
     mesh.mesh = grid_mesh(8, 8, 6, 6);
     rub(mesh);
     scene.add(mesh);
   } else {
     Collider solid;
-    if (ground == Ground::box) {
+    if (ground == SlopeKind::box) {
       solid.shape = Box{{3, 1, 3}};
       solid.position = {0, -1, 0};
     }
@@ -54,7 +54,7 @@ Scene on_incline(const Load& load, Ground ground) {
 }
 
 TEST(InclineStart, ABoxAtRestPicksUpNoSpeed) {
-  for (const Ground ground : {Ground::plane, Ground::box, Ground::mesh})
+  for (const SlopeKind ground : {SlopeKind::plane, SlopeKind::box, SlopeKind::mesh})
     for (const Load& load : {Load{{0.5f, 0.5f, 0.5f}, friction}, Load{{0.5f, 0.5f, 0.5f}, 0.5f},
                              Load{{0.5f, 0.1f, 0.5f}, friction}, Load{{0.05f, 0.05f, 0.05f}, friction}}) {
       World world(on_incline(load, ground));

@@ -27,10 +27,18 @@ float kept_at_rest(const Neighbourhood& near, const PairStencil& pair, float* kn
   if (known != nullptr && *known >= 0) return *known;
   const ContactTables& tables = *near.model.shared;
   const double distance = pair_distance(pair, tables.rest.data()).distance;
+  bool can_part[2] = {true, true};  // sides without pins, which stay where they are
+  float extent = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Record& place = tables.rest[pair.vertex[i]];
+    extent = max(extent, largest(Vec3f{place.x, place.y, place.z}));
+    bool& can = can_part[i < pair.first_side ? 0 : 1];
+    can = can && place.w > 0;
+  }
   const bool is_of_two = tables.vertex_body[pair.vertex[0]] != tables.vertex_body[pair.vertex[3]];
-  const Record& place = tables.rest[pair.vertex[0]];
-  const double rounding = double(least_margin_roundings * one_rounding * largest(Vec3f{place.x, place.y, place.z}));
-  const auto kept = is_of_two && distance <= rounding ? no_limit_at_rest : static_cast<float>(share_of_rest * distance);
+  const bool is_parted =
+      is_of_two && (can_part[0] || can_part[1]) && distance <= double(least_margin_roundings * one_rounding * extent);
+  const auto kept = is_parted ? no_limit_at_rest : static_cast<float>(share_of_rest * distance);
   if (known != nullptr) *known = kept;
   return kept;
 }

@@ -33,10 +33,10 @@ void fetch(const BodyContact& contact) {
 /// The speed above which a contact slides that begins where bodies are at rest against each other (Manifold::settles), else 0.
 /// `fall` is what gravity adds to velocities in a substep [m/s].
 float settling_speed(const BodyContact& contact, const Manifold& m, const BodyState& a, const BodyState& b, float fall) {
-  constexpr float at_rest = 2, slides = 0.01f;  // times `fall`
-  if (contact.substep > 0 || !(m.friction > 0)) return 0;
+  constexpr float at_rest = 2, sliding = 0.01f;                                      // times `fall`
+  if (contact.substep > 0 || !(m.friction > 0) || slides(a) || slides(b)) return 0;  // a belt sets in motion
   const Vec3f motion = (b.velocity + cross(b.spin, m.arm_b)) - (a.velocity + cross(a.spin, m.arm_a));
-  return length_squared(motion) <= (at_rest * fall) * (at_rest * fall) ? slides * fall : 0;
+  return length_squared(motion) <= (at_rest * fall) * (at_rest * fall) ? sliding * fall : 0;
 }
 
 /// Turns the arm of a body that is driven round by half of what it turns about the contact normal in `left` seconds, so that displacement and
