@@ -102,6 +102,8 @@ TEST(Warnings, DoNotRepeatWhatCrossesAtTheStart) {
 /// Layers at distance 0 have no side; the run's own warnings say so.
 TEST(Warnings, OfTheFramesAreKeptOncePerKind) {
   Scene scene = over_a_bar(true);
+  // What is pinned stays where it is, so both touch there.
+  for (const int particle : {0, 1, 2}) scene.objects[0].pins.push_back({.particle = particle});
   Object copy = scene.objects[0];
   scene.objects[0].name = "one";
   copy.name = "two";
