@@ -130,7 +130,7 @@ Reach reach_of(const FrameStart& f, int o, double radius) {
     turning = max(turning, w.x * w.x + w.y * w.y + w.z * w.z);
   }
   const double speed = std::sqrt(static_cast<double>(fastest)) + std::sqrt(static_cast<double>(turning)) * radius +
-                       static_cast<double>(length(f.model.wind.velocity));
+                       static_cast<double>(length(f.model.wind.velocity) * (1 + f.model.wind.gust));
   of.moved = (speed + acceleration * f.dt) * f.dt;
   of.moved = std::max(of.moved, kinematic_move(f, o));
   return of;

@@ -264,5 +264,40 @@ TEST(Teleport, NamesWhatIsWrong) {
   EXPECT_EQ(world.state_hash(), before) << "nothing has moved";
 }
 
+/// A pose that was set for the next step is reached from the new place, as if it had been set after the move.
+TEST(Teleport, OfAKinematicBodyTakesItsRotationAlong) {
+  Scene scene;
+  BodyOptions options;
+  options.name = "arm";
+  options.kinematic = true;
+  scene.add(make_body({{Box{{0.5f, 0.05f, 0.05f}}}}, options));
+  const RigidPose asked{{3, 2.1f, -5}, {0, std::sqrt(0.5f), 0, std::sqrt(0.5f)}};
+  World before(scene), after(scene);
+  before.object(0).set_pose("arm", asked);
+  before.object(0).teleport(quarter_turn);
+  after.object(0).teleport(quarter_turn);
+  after.object(0).set_pose("arm", asked);
+  for (World* world : {&before, &after}) world->step(dt);
+  EXPECT_EQ(before.state_hash(), after.state_hash());
+  for (const Record& w : before.state().frames.angular_velocities)
+    EXPECT_LT(std::abs(w.y), 1e-3f) << "it has turned already";
+}
+
+/// What no joint connects with a body that jumps is not of its whole.
+TEST(Teleport, LeavesWhatOnlyLiesOnABodyThatJumps) {
+  Scene scene;
+  BodyOptions lift;
+  lift.name = "lift";
+  lift.kinematic = true;
+  Object object = make_body({{Box{{0.2f, 0.05f, 0.2f}}}}, lift);
+  add_body(object, {{Box{{0.05f, 0.05f, 0.05f}}}}, {.name = "crate", .position = {0.1f, 0.1f, 0}});
+  scene.add(object);
+  scene.add(sheet_at("cloth", {5, 0, 0}, 5, 0.2f));
+  World world(scene);
+  world.object(0).set_pose("lift", {{0, -30, 0}, {}});
+  world.step(dt);
+  EXPECT_NEAR(world.object(0).pose("crate").position.y, 0.1f, 0.05f);
+}
+
 }  // namespace
 }  // namespace pliant

@@ -268,5 +268,21 @@ TEST(TouchingStart, IsTheSameInAWorldOfItsLayout) {
   }
 }
 
+/// Between two surfaces of opposed normals neither side is right, so that cloth stays where it is.
+TEST(Touching, BetweenOpposedSurfacesStays) {
+  Scene scene;
+  scene.settings = settings_of(4);
+  for (const bool is_up : {true, false}) {
+    MeshCollider plate;
+    plate.mesh = sheet(3, 0.6f, 0);
+    if (!is_up)
+      for (auto& t : plate.mesh.triangles) std::swap(t[1], t[2]);
+    scene.add(plate);
+  }
+  scene.add(named_cloth(sheet(5, 0.2f, 0), "cloth"));
+  const World world(scene);
+  for (const Vec3f& p : world.object(0).positions()) EXPECT_EQ(p.y, 0.f);
+}
+
 }  // namespace
 }  // namespace pliant
