@@ -77,10 +77,10 @@ const char* const contact_scenes[] = {
     "grains/sand_clock",  "grains/sand_castle",  "liquids/wetting",    "soft_bodies/cantilevers",
     "soft_bodies/stairs", "soft_bodies/squeeze", "soft_bodies/finger", "soft_bodies/mattress",
     "soft_bodies/bumper", "soft_bodies/muscle",  "bodies/turntable",   "gas/pump",
-    "rods/springs",       "rods/stalks",         "rods/hair",          "rods/winch",
-    "rods/mown",          "rods/bent_wire",      "soft_bodies/dancer", "tears/block",
-    "tears/sheet",        "bags/seeping",        "contact/woven",      "clusters/clay",
-    "soft_bodies/models"};
+    "bodies/belt",        "rods/springs",        "rods/stalks",        "rods/hair",
+    "rods/winch",         "rods/mown",           "rods/bent_wire",     "soft_bodies/dancer",
+    "tears/block",        "tears/sheet",         "bags/seeping",       "contact/woven",
+    "clusters/clay",      "soft_bodies/models"};
 constexpr int contact_frames = 16, tearing_frames = 40;
 
 /// Upper limit of grid nodes along a side: grids as fine as those of the scenes would take seconds to make.
