@@ -10,6 +10,7 @@
 
 #include "collision/fields/collider_pose.h"
 #include "constraints/joint_rows.h"
+#include "core/at.h"
 #include "math/motion.h"
 #include "math/vector.h"
 #include "pliant/error.h"
@@ -288,7 +289,7 @@ void ObjectHandle::set_pose(int body, const RigidPose& pose) {
   const std::string element = "body " + std::to_string(body) + (name.empty() ? "" : " '" + name + "'");
   require_pose(pose, of.name, element);
   State& state = world_->state;
-  const std::size_t frame = static_cast<std::size_t>(world_->model.first_frame[number] + place.frame);
+  const std::size_t frame = at(std::int64_t{world_->model.first_frame[number]} + place.frame);
   if (state.positions[first + place.particle].w > 0 || !is_zero(state.frames.inverse_inertias[frame]))
     refuse(of.name, element, "is dynamic, so its pose cannot be set",
            "make it kinematic: BodyOptions::kinematic, or \"kinematic\": true in a scene file");

@@ -52,7 +52,7 @@ struct Part {
 /// A vertex of the part that moves, on a triangle of the other.
 struct TouchingVertex {
   int vertex = 0, triangle = 0;
-  friend auto operator<=>(const TouchingVertex&, const TouchingVertex&) = default;
+  friend auto operator<=>(const TouchingVertex&, const TouchingVertex&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// A vertex has to move by `least` or more along `normal`.
