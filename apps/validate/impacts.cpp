@@ -1,5 +1,5 @@
-// Rigid bodies that are fast, ropes that break and liquids that overlap: nothing passes, nothing is thrown. All rows are of the
-// engine, in float, with its default substeps.
+// Rigid bodies that are fast, ropes that break and liquids that overlap: nothing passes, nothing is thrown. All rows
+// are of the engine, in float, with its default substeps.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -130,8 +130,8 @@ Hull many_corners() {
   return hull;
 }
 
-/// By how much the energy of a body of restitution 1 exceeds that at its start, at most in 10 s, as a share of it. It counts at
-/// the tops of bounces: elsewhere velocities are those of half a substep earlier than positions.
+/// By how much the energy of a body of restitution 1 exceeds that at its start, at most in 10 s, as a share of it. It
+/// counts at the tops of bounces: elsewhere velocities are those of half a substep earlier than positions.
 double gained(const SolidShape& shape) {
   Scene scene = one_thread();
   Collider ground;

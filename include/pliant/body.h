@@ -35,8 +35,9 @@ struct BodyOptions {
 
 /// Makes an object of one rigid body of solids, which may overlap: each counts with its own mass. Its particle is the centre of
 /// mass, its frame the principal axes of inertia. Throws an Error that names a solid with a size or density that is not
-/// positive, a hull whose points lie in a plane, a rotation of zero, an inertia that no body has, or a motion without `kinematic`. The
-/// object collides with others and, if bodies are added, with itself. A motion becomes a Pin of the body's particle.
+/// positive, a hull whose points lie in a plane, a rotation of zero, an inertia that no body has, or a motion without
+/// `kinematic`. The object collides with others and, if bodies are added, with itself. A motion becomes a Pin of the
+/// body's particle.
 Object make_body(const std::vector<Solid>& solids, const BodyOptions& options = {});
 
 /// Adds a rigid body to an object, for example to a pile or a mechanism, and returns its index in Object::bodies.

@@ -118,15 +118,16 @@ class ObjectHandle : public ObjectView {
   /// are, and are reached from the new place. Throws an Error if the motion is not finite, or that names what would
   /// stay behind: a pin or attachment with keyframes, a joint to the world, an emitter.
   void teleport(const RigidPose& by);
-  /// Moves a kinematic body (BodyOptions::kinematic, or infinite mass and inertia) to a pose [m] that it reaches at the end of the next
-  /// step: of the frame in which it was described, as ObjectView::pose. Its centre of mass moves at constant velocity, and it turns along
-  /// the shorter arc. After that it stays, or follows its keyframes, if any. `body` is an index in Object::bodies, or a name that only one
-  /// of these has. Throws an Error if there is no such body, it is dynamic, or the pose is not finite or has a rotation of zero.
+  /// Moves a kinematic body (BodyOptions::kinematic, or infinite mass and inertia) to a pose [m] that it reaches at the
+  /// end of the next step: of the frame in which it was described, as ObjectView::pose. Its centre of mass moves at
+  /// constant velocity, and it turns along the shorter arc. After that it stays, or follows its keyframes, if any.
+  /// `body` is an index in Object::bodies, or a name that only one of these has. Throws an Error if there is no such
+  /// body, it is dynamic, or the pose is not finite or has a rotation of zero.
   void set_pose(int body, const RigidPose& pose);
   void set_pose(const std::string& body, const RigidPose& pose);
-  /// Gives the surface of a body another surface velocity (ObjectBody::surface_velocity), in the frame in which the body was described
-  /// [m/s]. It keeps it until the next call, restore() or edit. `body` as in set_pose. Throws an Error if there is no such body, or the
-  /// velocity is not finite or above 1e6 m/s.
+  /// Gives the surface of a body another surface velocity (ObjectBody::surface_velocity), in the frame in which the
+  /// body was described [m/s]. It keeps it until the next call, restore() or edit. `body` as in set_pose. Throws an
+  /// Error if there is no such body, or the velocity is not finite or above 1e6 m/s.
   void set_surface_velocity(int body, const Vec3f& velocity);
   void set_surface_velocity(const std::string& body, const Vec3f& velocity);
   /// Sets the velocity of each particle [m/s]; those of infinite mass are skipped.
@@ -170,8 +171,8 @@ class ColliderHandle : public ColliderView {
   /// Moves the collider at once, from its present pose, as ObjectHandle::teleport: what it touches gets no velocity.
   /// Throws an Error if it follows keyframes, or the motion is not finite.
   void teleport(const RigidPose& by);
-  /// Gives its surface another velocity (Collider::surface_velocity) in the collider's frame [m/s], until the next call or restore().
-  /// Throws an Error if it is not finite or above 1e6 m/s.
+  /// Gives its surface another velocity (Collider::surface_velocity) in the collider's frame [m/s], until the next call
+  /// or restore(). Throws an Error if it is not finite or above 1e6 m/s.
   void set_surface_velocity(const Vec3f& velocity);
 
  private:

@@ -110,8 +110,9 @@ struct StrainLimit {
   float most = 1.1f;  ///< greatest length over that at rest, >= 1 [-]
 };
 
-/// A kinematic particle: it has infinite mass and follows `motion` from its rest position. If that turns, so does a body with this particle;
-/// if not, the body is free to turn, unless the inertia of its frame is infinite (BodyOptions::kinematic).
+/// A kinematic particle: it has infinite mass and follows `motion` from its rest position. If that turns, so does a
+/// body with this particle; if not, the body is free to turn, unless the inertia of its frame is infinite
+/// (BodyOptions::kinematic).
 struct Pin {
   int particle = 0;
   Motion motion{};
@@ -158,8 +159,8 @@ struct ObjectBody {
   std::vector<Solid> solids;  ///< in the frame's principal axes, about the particle; may overlap, may be empty
   Vec3f origin{};  ///< of the frame in which the body was described, in its principal axes about the particle [m]
   Quatf axes{};    ///< from that frame to the principal axes
-  /// Velocity in that frame with which the body's surface moves along itself, as that of a track: friction takes what it touches along, or
-  /// drives the body. Its part along a contact's normal has no effect [m/s].
+  /// Velocity in that frame with which the body's surface moves along itself, as that of a track: friction takes what
+  /// it touches along, or drives the body. Its part along a contact's normal has no effect [m/s].
   Vec3f surface_velocity{};
 };
 

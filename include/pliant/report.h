@@ -204,8 +204,8 @@ struct TensionActs {
   }
 };
 
-/// Linear momentum that a frame took from objects beyond what forces, constraints and contacts did. Of each substep and group of objects
-/// the length of the sum over particles, added up [kg m/s].
+/// Linear momentum that a frame took from objects beyond what forces, constraints and contacts did. Of each substep and
+/// group of objects the length of the sum over particles, added up [kg m/s].
 struct LostMomentum {
   double filter = 0;  ///< by truncated steps, where something fixed acts on the objects: elsewhere they take none
   double guards = 0;  ///< by the guards of energy, which turn a share of the corrections into velocity

@@ -78,8 +78,8 @@ struct Collider {
   float kinetic_friction = 0.3f;
   float restitution = 0;                              ///< a contact uses the larger value of both sides
   float rolling_friction = 0, spinning_friction = 0;  ///< as in Object; a contact uses the larger value of both sides [m]
-  /// Velocity in the collider's frame with which its surface moves along itself while its shape stays, as that of a conveyor belt: friction
-  /// takes bodies and particles along. Its part along a contact's normal has no effect [m/s].
+  /// Velocity in the collider's frame with which its surface moves along itself while its shape stays, as that of a
+  /// conveyor belt: friction takes bodies and particles along. Its part along a contact's normal has no effect [m/s].
   Vec3f surface_velocity{};
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
@@ -232,8 +232,8 @@ struct Settings {
   /// The least number of substeps of a frame where they follow the State, rounded up to a multiple of four; up to
   /// most_substeps. 0: 12, or 8 for cloth that only hangs by tethers. No effect elsewhere.
   int least_substeps = 0;
-  /// What happens to surfaces that intersect initially. Those that only touch, at a distance of 0, are held on the side of
-  /// the normals of colliders, of closed surfaces, or of the earlier object, unless they are refused.
+  /// What happens to surfaces that intersect initially. Those that only touch, at a distance of 0, are held on the side
+  /// of the normals of colliders, of closed surfaces, or of the earlier object, unless they are refused.
   enum class Intersections {
     leave,     ///< nothing: contact ignores them until they are apart
     untangle,  ///< they, and vertices inside closed mesh colliders, are moved apart at `untangling_speed`

@@ -71,7 +71,8 @@ class World {
 
   /// Adds an object at the current time. Its keyframes act from the next frame on. The cost is that of compiling it. If
   /// the settings name no sweep, it gets the one that it would get in a scene of all present objects and colliders;
-  /// those keep theirs, even if the new one can touch them. If they name no substeps, sets of objects that can touch and are near are
+  /// those keep theirs, even if the new one can touch them. If they name no substeps, sets of objects that can touch
+  /// and are near are
   /// formed again. Throws an Error that names the element if the object cannot be simulated, or if the settings refuse
   /// its initial intersections with present objects; that check tests all surfaces.
   ObjectId add(const Object& object);

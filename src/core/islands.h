@@ -6,8 +6,9 @@
 
 namespace pliant {
 
-/// Disjoint sets of the numbers 0 to size - 1. The smallest number of a set names it, so the names do not depend on the order in
-/// which pairs are united. Paths are halved (Tarjan, van Leeuwen 1984), so the cost is almost linear in the number of pairs.
+/// Disjoint sets of the numbers 0 to size - 1. The smallest number of a set names it, so the names do not depend on the
+/// order in which pairs are united. Paths are halved (Tarjan, van Leeuwen 1984), so the cost is almost linear in the
+/// number of pairs.
 class Islands {
  public:
   /// Makes each of `size` numbers a set of its own.

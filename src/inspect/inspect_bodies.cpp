@@ -79,7 +79,8 @@ bool is_only_moved(const Object& object, const ObjectBody& body) {
                                                     [](const Keyframe& key) { return key.rotation != Quatf{}; });
 }
 
-/// True if what lies on a body may tip it: it has a shape that a rotation changes, and neither spins nor is in a joint, which may hold it.
+/// True if what lies on a body may tip it: it has a shape that a rotation changes, and neither spins nor is in a joint,
+/// which may hold it.
 bool may_tip(const Object& object, std::size_t index) {
   const ObjectBody& body = object.bodies[index];
   const ObjectFrame& frame = object.frames[static_cast<std::size_t>(body.frame)];

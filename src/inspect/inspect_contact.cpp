@@ -178,8 +178,8 @@ double particle_mass(const Object& object) {
   return count > 0 ? sum / count : 0;
 }
 
-/// Warns of a sheet whose particles are so much heavier than those of one that it can press on that contact hardly converges: the
-/// light sheet yields in each projection, and the filter holds both in round after round.
+/// Warns of a sheet whose particles are so much heavier than those of one that it can press on that contact hardly
+/// converges: the light sheet yields in each projection, and the filter holds both in round after round.
 void doubt_masses(Problems& problems, const Object& object, const Scene& scene) {
   constexpr double most_ratio = 1e4;
   const double mass = particle_mass(object);

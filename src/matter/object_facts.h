@@ -34,7 +34,8 @@ bool has_ties(const Object& object);
 /// True if rest lengths of distances change (ConstraintGroup::keyframes), which multigrid and tethers do not see.
 bool has_changing_lengths(const Object& object);
 
-/// True if threads without compliance sew particles together, which only chains close under load: multigrid and tethers do not see them.
+/// True if threads without compliance sew particles together, which only chains close under load: multigrid and tethers
+/// do not see them.
 bool is_sewn(const Object& object);
 
 /// True if pins, attachments or infinite masses hold a part of the object.

@@ -1,4 +1,5 @@
-// Surface velocities: how fast the surface of a belt or track moves along itself while its shape stays, for what touches it.
+// Surface velocities: how fast the surface of a belt or track moves along itself while its shape stays, for what
+// touches it.
 #pragma once
 
 #include "model/control.h"
@@ -9,7 +10,8 @@ namespace pliant {
 /// That of a primitive collider in its own frame: the one that the user has set, else the one described [m/s].
 Vec3f surface_velocity_of_collider(const Model& model, const Control& control, int collider);
 
-/// That of a mesh collider, in world axes at a time. Its own frame is that of its motion or the pose that the user has set.
+/// That of a mesh collider, in world axes at a time. Its own frame is that of its motion or the pose that the user has
+/// set.
 Vec3f surface_velocity_of_mesh(const Model& model, const Control& control, int object, double time);
 
 /// That of a body in its principal axes.

@@ -48,8 +48,8 @@ class TouchingObjects {
     std::vector<char> is_held(is_held_.size(), 0);
     for (int object = 0; object < islands_.size(); ++object)
       if (is_held_[at(object)] != 0) is_held[at(islands_.find(object))] = 1;
-    for (int object = 0; object < islands_.size();
-         ++object)  // all their particles are read, so where nothing else holds them
+    // Reads all their particles, so only where nothing else holds them.
+    for (int object = 0; object < islands_.size(); ++object)
       if (char& held = is_held[at(islands_.find(object))]; held == 0) held = static_cast<char>(has_fixed(object));
     std::vector<int> group;
     group.reserve(is_held.size());
@@ -97,7 +97,8 @@ float distance(const CompiledObject& object, const PointBounds& box, const Movin
   return distance(box, solid.swept);
 }
 
-/// Where a tile has less room to colliders, or to rigid bodies of other groups, than the free object, takes that. Particles have their thickness.
+/// Where a tile has less room to colliders, or to rigid bodies of other groups, than the free object, takes that.
+/// Particles have their thickness.
 void take_room(const Substep& s, int task, FreeBodies& free) {
   const PointBounds& box = s.work.tiles[at(task)].bounds;
   const CompiledObject& object = object_of(s, task);

@@ -7,9 +7,9 @@ namespace pliant {
 
 struct Substep;
 
-/// Finds them after the solve, by what touches, where it is asked for first in a substep: only what truncates steps needs it. An object is
-/// not free if it has particles of zero inverse mass, touches a collider, has rigid bodies that touch others, or touches an object that is
-/// not free.
+/// Finds them after the solve, by what touches, where it is asked for first in a substep: only what truncates steps
+/// needs it. An object is not free if it has particles of zero inverse mass, touches a collider, has rigid bodies that
+/// touch others, or touches an object that is not free.
 const FreeBodies& free_objects(Substep& s);
 
 /// True if an object is free.

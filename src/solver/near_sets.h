@@ -5,7 +5,8 @@
 // the largest displacement in the frame of anything in its set, and by its thickness. So what is far away has no
 // influence on an object's substeps. The size is a margin: objects join while they are still apart, and sets seldom
 // change. A displacement counts twice, because an elastic impact on something light doubles a speed. Sets follow from
-// the State, the user's control and the length of the frame alone. Grains, gases, and scenes with force fields are not divided.
+// the State, the user's control and the length of the frame alone. Grains, gases, and scenes with force fields are not
+// divided.
 #pragma once
 
 #include <vector>

@@ -89,8 +89,9 @@ int substeps_to_hang(const CompiledObject& object) {
 
 /// A triangle whose longest edge is so many times as long as its shortest one is a sliver.
 constexpr float sliver_ratio = 20;
-/// The least substeps of sheets of slivers that follow the State. The few that their State demands at rest leave errors that are small
-/// beside long edges and large beside short ones, and stretch those when more follow: a fan of 1 : 127 had 16 % in 85 substeps.
+/// The least substeps of sheets of slivers that follow the State. The few that their State demands at rest leave errors
+/// that are small beside long edges and large beside short ones, and stretch those when more follow: a fan of 1 : 127
+/// had 16 % in 85 substeps.
 constexpr int substeps_of_slivers = 60;
 
 /// True if over one in a hundred triangles is a sliver at the start.

@@ -131,8 +131,8 @@ void stop_turning(WorldData& world, int number) {
   }
 }
 
-/// Sets the velocity of fixed particles and bodies to zero if the user moved them in an earlier frame and does not move them
-/// in this one.
+/// Sets the velocity of fixed particles and bodies to zero if the user moved them in an earlier frame and does not move
+/// them in this one.
 void stop_fixed(WorldData& world) {
   for (int number = 0; number < static_cast<int>(world.model.objects.size()); ++number) {
     const CompiledObject& object = world.model.objects[number];

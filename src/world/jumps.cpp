@@ -15,8 +15,8 @@ namespace pliant {
 
 namespace {
 
-/// A jump is longer than this many sizes, and this many times the largest thickness: a frame has some hundred substeps, each
-/// of which resolves half a thickness, so contact on the way of a jump is lost in any case.
+/// A jump is longer than this many sizes, and this many times the largest thickness: a frame has some hundred substeps,
+/// each of which resolves half a thickness, so contact on the way of a jump is lost in any case.
 constexpr double jump_over_size = 4, jump_over_thickness = 1000;
 /// What jumps by as much as another thing, up to this share of its size, is placed by the same displacement.
 constexpr double alike_over_size = 0.25;

@@ -34,9 +34,9 @@ std::string of_unknown(const Overstretch& found) {
   return "an object that was removed or edited stretched " + percent(found.largest) + " too far";
 }
 
-/// The substeps that should keep an object of chains within the bounds; 0: unknown. Overstretch falls with the first to second power of the
-/// substeps where a heavy body hits cloth or pins turn round (docs/internals/default_settings.md), so with the square of the excess they
-/// suffice.
+/// The substeps that should keep an object of chains within the bounds; 0: unknown. Overstretch falls with the first to
+/// second power of the substeps where a heavy body hits cloth or pins turn round (docs/internals/default_settings.md),
+/// so with the square of the excess they suffice.
 int substeps_to_hold(const Overstretch& found, const CompiledObject& object, int substeps) {
   constexpr double most = 500, multiple = 20, most_excess = 5;
   if (!solves_chains(object.sweep) || object.has_volume) return 0;

@@ -25,15 +25,17 @@ namespace {
 
 /// A vertex with less weight than this at the touching place does not touch.
 constexpr double least_weight = 1e-3;
-/// A vertex is clearly on one side of a triangle if it is above or below it by this share of its distance: beyond a border it is
-/// on neither side.
+/// A vertex is clearly on one side of a triangle if it is above or below it by this share of its distance: beyond a
+/// border it is on neither side.
 constexpr double clear_side = 0.99;
 /// Passes over the distances that a vertex has to keep from several triangles.
 constexpr int passes = 3;
-/// A vertex uses at most this share of the way to the next surface, which is searched to this multiple of its displacement.
+/// A vertex uses at most this share of the way to the next surface, which is searched to this multiple of its
+/// displacement.
 constexpr float share_of_room = 0.4f, looked_ahead = 1 / share_of_room;
 
-/// The surface of an object: triangles, or lines as triangles whose last two corners are one. Vertices have their numbers in the State.
+/// The surface of an object: triangles, or lines as triangles whose last two corners are one. Vertices have their
+/// numbers in the State.
 struct Part {
   int number = 0;  ///< of the object in the model
   int first = 0, end = 0;
@@ -217,7 +219,8 @@ int TouchingStarts::side_of(int vertex, const Part& fixed) const {
   return height > 0 ? 1 : -1;
 }
 
-/// For each vertex of the moving part: 1 if it is in a touching patch of which all that is clearly on a side is on the far one.
+/// For each vertex of the moving part: 1 if it is in a touching patch of which all that is clearly on a side is on the
+/// far one.
 std::vector<char> TouchingStarts::far_sides(const Part& moving, const Part& fixed,
                                             const std::vector<TouchingVertex>& touching) const {
   const auto count = at(moving.end - moving.first);

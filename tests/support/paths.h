@@ -1,5 +1,5 @@
-// Where the tests find files. The paths themselves are in one source alone (paths.cpp.in), so that all other sources compile
-// to the same objects wherever the tree lies, and compilers' caches find them.
+// Where the tests find files. The paths themselves are in one source alone (paths.cpp.in), so that all other sources
+// compile to the same objects wherever the tree lies, and compilers' caches find them.
 #pragma once
 
 #include <string>

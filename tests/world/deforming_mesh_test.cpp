@@ -1,4 +1,5 @@
-// Tests mesh colliders that deform by frames: the velocity of their surface acts on bodies, as that of a mesh that moves rigidly does.
+// Tests mesh colliders that deform by frames: the velocity of their surface acts on bodies, as that of a mesh that
+// moves rigidly does.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,7 +69,8 @@ TEST(DeformingMesh, CarriesABoxAsAMeshDoesThatMoves) {
   EXPECT_NEAR(place_on_mesh(deforms).y, 0.1, 1e-3);
 }
 
-/// One edge of the quad moves away from the other: what lies at a quarter of its width moves with a quarter of the speed.
+/// One edge of the quad moves away from the other: what lies at a quarter of its width moves with a quarter of the
+/// speed.
 TEST(DeformingMesh, CarriesABoxWithTheVelocityWhereItLies) {
   Scene scene;
   scene.add(box_on_mesh({-0.5f, 0.1f, 0}));

@@ -1,5 +1,5 @@
-// Tests that the contact filter changes neither linear nor angular momentum of free systems, also where cloth, soft bodies and rigid
-// bodies hit one another too hard for contacts, and that nothing crosses.
+// Tests that the contact filter changes neither linear nor angular momentum of free systems, also where cloth, soft
+// bodies and rigid bodies hit one another too hard for contacts, and that nothing crosses.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -139,8 +139,8 @@ Outcome outcome_of(Object first, Object second, int frames, const Vec3f& common 
   return out;
 }
 
-/// `rounded`: how much rounding of velocities may change the sum, over what is exchanged. `lag`: the same of angular momentum, by positions that
-/// lag behind.
+/// `rounded`: how much rounding of velocities may change the sum, over what is exchanged. `lag`: the same of angular
+/// momentum, by positions that lag behind.
 void expect_kept(const Outcome& outcome, double rounded = 1e-4, double lag = 1e-2) {
   EXPECT_GT(outcome.filtered, 0) << "the filter had nothing to do";
   EXPECT_GT(outcome.exchanged, 0.01) << "they have not met";
@@ -174,8 +174,8 @@ TEST(FilterMomentum, SheetsOnSheets) {
   for (const float speed : {2.f, 5.f, 10.f}) expect_kept(sheets(speed));
 }
 
-/// Contact depends on relative motion alone. Cloth that crumples amplifies rounding: a velocity of 1e-6 m/s in common changes what is
-/// exchanged by 1 %, and those of 20 to 50 m/s by 10 % at most.
+/// Contact depends on relative motion alone. Cloth that crumples amplifies rounding: a velocity of 1e-6 m/s in common
+/// changes what is exchanged by 1 %, and those of 20 to 50 m/s by 10 % at most.
 TEST(FilterMomentum, IsTheSameWithAVelocityInCommon) {
   const Outcome still = sheets(5), common = sheets(5, {20, 0, 0});
   expect_kept(common);
@@ -194,7 +194,8 @@ TEST(FilterMomentum, WherePinnedClothAndCollidersAreFarAway) {
                          moving(free_sheet(16, 0.8f, 0.2f, {0.05f, 0.35f, 0}, 1.f), {0, -5, 0}), 20, {}, others));
 }
 
-/// 1 : 100 in mass. The centre of mass of the heavy sheet lags by 0.3 mm, which is much of the little that the light one takes.
+/// 1 : 100 in mass. The centre of mass of the heavy sheet lags by 0.3 mm, which is much of the little that the light
+/// one takes.
 TEST(FilterMomentum, HeavySheetOnLightSheet) { expect_kept(sheets(5, {}, 20), 1e-4, 0.05); }
 
 TEST(FilterMomentum, HasTheSameBitsOnAnyThreadsAndAfterARestore) {

@@ -1,4 +1,5 @@
-// Tests kinematic bodies: they follow their motion or the poses that a program sets, whatever lies on them, and act on all else.
+// Tests kinematic bodies: they follow their motion or the poses that a program sets, whatever lies on them, and act on
+// all else.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +47,8 @@ Object loaded(const BodyOptions& options) {
   return lift;
 }
 
-/// The load rises with the platform, which stays level: where it is off the centre by 0.35 m, a pin that only moves lets it tip off.
+/// The load rises with the platform, which stays level: where it is off the centre by 0.35 m, a pin that only moves
+/// lets it tip off.
 TEST(KinematicBody, LiftsALoadThatIsOffItsCentre) {
   Scene scene;
   BodyOptions options = platform();

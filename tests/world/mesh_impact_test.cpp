@@ -1,4 +1,5 @@
-// Tests that solids which fall flat on a mesh rebound no faster than from a plane, wherever the edges of its triangles are.
+// Tests that solids which fall flat on a mesh rebound no faster than from a plane, wherever the edges of its triangles
+// are.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Tests surfaces that move along themselves while their shape stays, as belts and tracks do: friction drives what touches them.
+// Tests surfaces that move along themselves while their shape stays, as belts and tracks do: friction drives what
+// touches them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -36,7 +37,8 @@ Thing rough(Thing thing) {
 Vec3f parcel_place(const World& world, int object = 0) { return world.object(object).positions()[0]; }
 Vec3f parcel_velocity(const World& world, int object = 0) { return world.object(object).velocities()[0]; }
 
-/// From rest friction accelerates by mu g until v / (mu g) = 0.255 s; then the box goes with the belt, v^2 / (2 mu g) = 0.127 m behind it.
+/// From rest friction accelerates by mu g until v / (mu g) = 0.255 s; then the box goes with the belt, v^2 / (2 mu g) =
+/// 0.127 m behind it.
 void expect_on_belt(World& world, double tolerance = 0.01) {
   run(world, 6);
   EXPECT_NEAR(parcel_velocity(world).x, belt_mu * belt_gravity * 0.1, 0.02);
@@ -118,7 +120,8 @@ TEST(SurfaceVelocity, OfABodyDrivesItOverTheGround) {
   expect_on_belt(world);
 }
 
-/// A box on a belt that floats: friction is between the two, so momentum stays zero, and they part with the speed of the belt.
+/// A box on a belt that floats: friction is between the two, so momentum stays zero, and they part with the speed of
+/// the belt.
 TEST(SurfaceVelocity, BetweenTwoFreeBodiesKeepsMomentum) {
   Scene scene;
   Object belt = rough(make_body({{.shape = Box{{3, 0.1f, 2}}, .density = 10}}, {.position = {0, -0.1f, 0}}));

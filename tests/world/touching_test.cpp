@@ -1,5 +1,5 @@
-// Tests surfaces at distance 0 at the start, or inside a closed surface: inspect() names them, a World rejects them if the
-// scene says so, and else holds them on the side of the normals of what is fixed for them.
+// Tests surfaces at distance 0 at the start, or inside a closed surface: inspect() names them, a World rejects them if
+// the scene says so, and else holds them on the side of the normals of what is fixed for them.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -67,8 +67,9 @@ std::vector<Cluster> clusters_of(const std::vector<TrianglePoint>& points, doubl
   return clusters;
 }
 
-/// Puts four points in order around their area, as those of other contacts are: passes of the solver count on points 0 and 2
-/// being opposite each other, as 1 and 3 are. Those of a mesh come triangle by triangle, and a flat impact would turn a solid.
+/// Puts four points in order around their area, as those of other contacts are: passes of the solver count on points 0
+/// and 2 being opposite each other, as 1 and 3 are. Those of a mesh come triangle by triangle, and a flat impact would
+/// turn a solid.
 Touch around(Touch touch) {
   if (touch.count < 4) return touch;
   auto& p = touch.points;

@@ -1,8 +1,8 @@
 // The frames of reference in which the filter truncates steps.
 //
-// Bodies on which nothing fixed acts, and that touch one another, share a frame that moves with the mean displacement of what is truncated.
-// There the filter's planes do not depend on a velocity that the bodies have in common, and their centre of mass stays where the solver
-// put it. All others have the frame of the world.
+// Bodies on which nothing fixed acts, and that touch one another, share a frame that moves with the mean displacement
+// of what is truncated. There the filter's planes do not depend on a velocity that the bodies have in common, and their
+// centre of mass stays where the solver put it. All others have the frame of the world.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ namespace pliant {
 /// What acts on a body of a PairModel in a substep.
 struct FreeBody {
   int group = -1;  ///< bodies of the same number, which is that of one of them, touch; -1: something fixed acts on it
-  float room =
-      0;  ///< how far its particles may leave their paths, so that they meet nothing that the filter does not know [m]
+  /// How far its particles may leave their paths, so that they meet nothing that the filter does not know [m].
+  float room = 0;
 };
 /// [body] Empty: something fixed acts on all.
 using FreeBodies = std::vector<FreeBody>;
@@ -40,7 +40,8 @@ class FilterFrames {
   };
   /// Lets frames move with what is cut, by roots. A frame that would move farther than there is room stays.
   void move(const std::vector<Cut>& cuts);
-  /// Unites the bodies of these pairs, in any order: all are free if all were, and none if one was not. Returns false if there are none.
+  /// Unites the bodies of these pairs, in any order: all are free if all were, and none if one was not. Returns false
+  /// if there are none.
   bool unite(const std::vector<PairStencil>& pairs);
   /// From now on all frames are that of the world.
   void stop();

@@ -11,7 +11,8 @@ namespace {
 
 /// Neighbours push one another back in each sweep, so an impulse passes through several layers.
 constexpr int most_sweeps = 12;
-/// A particle changes its velocity by no more than this times its pair's approach. Near the heavy end of an edge the light one would be flung away.
+/// A particle changes its velocity by no more than this times its pair's approach. Near the heavy end of an edge the
+/// light one would be flung away.
 constexpr double longest_lever = 2;
 
 /// The order of vertices that decides bits.

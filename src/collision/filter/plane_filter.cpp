@@ -11,7 +11,8 @@ namespace {
 
 constexpr double nearest_to_a_side = 0.1, largest_slab = 0.98;
 
-/// Returns the position at the substep's end in the frame, rounded as the State stores it, relative to the start of particle `origin`.
+/// Returns the position at the substep's end in the frame, rounded as the State stores it, relative to the start of
+/// particle `origin`.
 Vec3d end_of(const Record& x, const Record& d, const Vec3f& frame, const Record& origin) {
   const float ex = x.x + d.x, ey = x.y + d.y, ez = x.z + d.z;
   return {(double(ex) - double(frame.x)) - double(origin.x), (double(ey) - double(frame.y)) - double(origin.y),

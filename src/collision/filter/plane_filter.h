@@ -35,7 +35,8 @@ inline Record truncated(const Record& d, const Vec3f& frame, float share) {
 }
 
 /// Computes the separating margin of a pair at distance `at`, of thickness min(least, 0.98 gap), and for each particle
-/// the share of its step in the frame that stays on its side (1 for zero inverse mass). Steps are those of rounded positions.
+/// the share of its step in the frame that stays on its side (1 for zero inverse mass). Steps are those of rounded
+/// positions.
 Separation plan_separation(const PairStencil& pair, const PairDistance& at, const Record* positions,
                            const Record* displacements, const Vec3f& frame, double least, SeparatingSlab& slab,
                            std::array<float, 4>& shares);

@@ -10,7 +10,8 @@ namespace {
 
 /// In these first rounds a vertex keeps the share of its step that a pair permits; in later ones it stays at its start.
 constexpr int rounds_of_shares = 3;
-/// After these rounds, or where rounding in a frame is too coarse, frames stand still, so that positions which stay are not rounded.
+/// After these rounds, or where rounding in a frame is too coarse, frames stand still, so that positions which stay are
+/// not rounded.
 constexpr int rounds_of_frames = 8;
 constexpr int passes_of_fit = 3;
 

@@ -20,8 +20,9 @@ struct Detection {
   const CoveredPairs& covered;
 };
 
-/// The largest contact distance of a pair that its distance at rest permits [m]: no limit between bodies that were described
-/// as touching, because they are moved apart when they are placed (world/touching_starts.h). `known` caches the result: < 0 if not
+/// The largest contact distance of a pair that its distance at rest permits [m]: no limit between bodies that were
+/// described as touching, because they are moved apart when they are placed (world/touching_starts.h). `known` caches
+/// the result: < 0 if not
 /// computed yet; null if it is not cached.
 float kept_at_rest(const Neighbourhood& near, const PairStencil& pair, float* known) {
   if (known != nullptr && *known >= 0) return *known;

@@ -25,8 +25,8 @@ class BodyMotions {
 
   /// Reads where bodies are at the frame's start, and their masses. Forgets what add_fixed has added.
   void begin_frame(const Substep& s);
-  /// Adds the motion of a surface that no place has, of infinite mass, and returns its index. It has moved and turned so far since contacts
-  /// were found.
+  /// Adds the motion of a surface that no place has, of infinite mass, and returns its index. It has moved and turned
+  /// so far since contacts were found.
   int add_fixed(const Vec3f& velocity, const Vec3f& spin, const Vec3f& displacement, const Vec3f& rotation);
 
   /// Reads masses and inertias of bodies by their present orientations, for contact with points.

@@ -36,8 +36,8 @@ void stay(Substep& s, int point) {
   d = start;
 }
 
-/// Puts a body, and with both sides the points, back to where they were at the substep's start. Without the points, it goes with the frame in which
-/// their steps were truncated.
+/// Puts a body, and with both sides the points, back to where they were at the substep's start. Without the points, it
+/// goes with the frame in which their steps were truncated.
 void take_back(Substep& s, const BodySolids& solids, const Contact& contact, bool both_sides) {
   const TouchedBody& body = solids.body_of(contact);
   if (s.state.positions[at(body.particle)].w > 0) {
@@ -142,13 +142,15 @@ void BodyPassing::begin_alone(const Substep& s, const BodySolids& solids) {
     before_alone_.emplace_back(s.work.displacements[at(body.particle)], s.work.frames.corrections[at(body.frame)]);
 }
 
-/// What moves bodies alone takes momentum from them. Of those on which nothing fixed acts it moves positions, and no velocities.
+/// What moves bodies alone takes momentum from them. Of those on which nothing fixed acts it moves positions, and no
+/// velocities.
 void BodyPassing::end_alone(Substep& s, const BodySolids& solids) {
   Vec3d lost{};
   for (std::size_t b = 0; b < before_alone_.size(); ++b) {
     const TouchedBody& body = solids.bodies()[b];
     const auto& [displacement, correction] = before_alone_[b];
     const Vec3f moved = xyz(s.work.displacements[at(body.particle)]) - xyz(displacement);
+    if (moved == Vec3f{} && xyz(s.work.frames.corrections[at(body.frame)]) == xyz(correction)) continue;
     if (!is_free(s, body.object)) {
       if (const float w = s.state.positions[at(body.particle)].w; w > 0)
         lost += convert<double>(moved) * (1 / (double(w) * double(s.h)));

@@ -30,8 +30,8 @@ void fetch(const BodyContact& contact) {
     __builtin_prefetch(first + byte);
 }
 
-/// The speed above which a contact slides that begins where bodies are at rest against each other (Manifold::settles), else 0.
-/// `fall` is what gravity adds to velocities in a substep [m/s].
+/// The speed above which a contact slides that begins where bodies are at rest against each other (Manifold::settles),
+/// else 0. `fall` is what gravity adds to velocities in a substep [m/s].
 float settling_speed(const BodyContact& contact, const Manifold& m, const BodyState& a, const BodyState& b, float fall) {
   constexpr float at_rest = 2, sliding = 0.01f;                                      // times `fall`
   if (contact.substep > 0 || !(m.friction > 0) || slides(a) || slides(b)) return 0;  // a belt sets in motion

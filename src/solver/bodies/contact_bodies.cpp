@@ -49,7 +49,8 @@ Vec3f round_axes_of(const CompiledSolid& solid) {
 
 namespace {
 
-/// Where the vertices of a mesh collider are now, and at the frame's end: by its keyframes, or where the user moves them [m].
+/// Where the vertices of a mesh collider are now, and at the frame's end: by its keyframes, or where the user moves
+/// them [m].
 struct VertexPaths {
   std::vector<Vec3d> now, end;
 };

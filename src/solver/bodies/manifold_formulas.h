@@ -26,7 +26,8 @@ constexpr float never = 1e30f;
 constexpr int passes_of_impact = 16;
 /// Most passes over a contact that begins at rest.
 constexpr int passes_of_settling = 8;
-/// Such a contact slides at this multiple of the speed that it may keep, or is left as it is: other passes bring it to rest.
+/// Such a contact slides at this multiple of the speed that it may keep, or is left as it is: other passes bring it to
+/// rest.
 constexpr float clearly_sliding = 10;
 /// Points that arrive within this share of the substep bounce together; of all at once, those that arrive late would be
 /// thrown by the first.
@@ -298,8 +299,8 @@ PLIANT_HD void velocity_pass(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b,
 }
 
 /// Solves contacts that begin at rest (Manifold::settles) to the end where two passes have left them sliding. A pass of
-/// friction gives a body spin that the points then take back, so a cube keeps 0.6 of what gravity adds along an incline.
-/// Later substeps start with what the earlier ones found; the first one would let it slip.
+/// friction gives a body spin that the points then take back, so a cube keeps 0.6 of what gravity adds along an
+/// incline. Later substeps start with what the earlier ones found; the first one would let it slip.
 template <class R, int lanes>
 PLIANT_HD void settle(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const PassNumbers& numbers) {
   const R zero(0.f);

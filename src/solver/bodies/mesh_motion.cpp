@@ -53,7 +53,8 @@ struct PlanePoint {
   Vec3d velocity{};
 };
 
-/// The spin about tangents and normal that fits the velocities of points about their mean: by least squares, and of all that fit the least.
+/// The spin about tangents and normal that fits the velocities of points about their mean: by least squares, and of all
+/// that fit the least.
 Vec3d spin_of(const std::array<PlanePoint, 4>& points, std::size_t count) {
   double xx = 0, yy = 0, xy = 0, along_x = 0, along_y = 0, about = 0;
   for (std::size_t i = 0; i < count; ++i) {

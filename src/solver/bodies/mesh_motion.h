@@ -14,8 +14,8 @@ struct SurfaceMotion {
   Vec3f spin{};      ///< [rad/s]
 };
 
-/// The motion of a mesh at a contact of which it is `a`. At each point it is that of the nearest triangle, by its barycentric
-/// coordinates. `triangles` are those of the mesh, `velocities` those of its vertices [m/s].
+/// The motion of a mesh at a contact of which it is `a`. At each point it is that of the nearest triangle, by its
+/// barycentric coordinates. `triangles` are those of the mesh, `velocities` those of its vertices [m/s].
 SurfaceMotion motion_of_mesh(const BodyContact& contact, const BodyMesh& mesh, const std::vector<Triangle>& triangles,
                              const std::vector<Vec3f>& velocities);
 

@@ -1,7 +1,7 @@
 // Notes in the Report what momentum the guards of energy take (guard_energy.cpp, guard_bodies.cpp).
 //
-// Corrections of constraints and contacts add up to nothing, so a share of all of them takes nothing from a group. What is taken is of
-// corrections from outside, and of islands whose corrections have different shares.
+// Corrections of constraints and contacts add up to nothing, so a share of all of them takes nothing from a group. What
+// is taken is of corrections from outside, and of islands whose corrections have different shares.
 #include "math/vector.h"
 #include "solver/bodies/body_solver.h"
 #include "solver/stages/energy_share.h"

@@ -6,10 +6,11 @@
 // sees, while an edge that is too long is seen. The filter still keeps surfaces from crossing. What is far heavier than the
 // cloth that it lies on, such as stones, would be overrun by it in this way, so its contacts do not yield.
 //
-// Rigid stitches are projected before the chains, too, which then pull sewn particles apart: in a substep by T h^2 / m, T being the
-// tension beside the seam, so cloth that is too tight round a body gapes. Closing a stitch alone would leave that error in the edges
-// beside it, and the chains would take most of it back, since a row of n particles weighs n times as much as its last one. So both
-// take turns, and Aitken's relaxation of the interface (Irons and Tuck 1969) takes the chains' share from how the gaps have changed.
+// Rigid stitches are projected before the chains, too, which then pull sewn particles apart: in a substep by T h^2 / m,
+// T being the tension beside the seam, so cloth that is too tight round a body gapes. Closing a stitch alone would
+// leave that error in the edges beside it, and the chains would take most of it back, since a row of n particles weighs
+// n times as much as its last one. So both take turns, and Aitken's relaxation of the interface (Irons and Tuck 1969)
+// takes the chains' share from how the gaps have changed.
 #include "solver/stages/solve_again.h"
 
 #include <algorithm>
@@ -81,7 +82,8 @@ namespace {
 constexpr int most_turns = 12;
 /// An object has no further turn when its stitches are open by no more than this share of its mean distance.
 constexpr float open_over_edge = 0.01f;
-/// What is left of a gap of no more than this share is closed at last, without the chains. It stretches the edges beside it by half as much.
+/// What is left of a gap of no more than this share is closed at last, without the chains. It stretches the edges
+/// beside it by half as much.
 constexpr float closed_over_edge = 0.2f;
 constexpr float least_relaxation = 0.5f, most_relaxation = 16;
 constexpr double tolerated_stitch_gap = 1e-3;  // [m]
@@ -92,8 +94,8 @@ struct Stitch {
   float allowed = 0;
 };
 
-/// Appends the stitches of a group of constraints: its distance limits without compliance. Where the surface collides with itself, contact
-/// keeps both sides apart by two thicknesses.
+/// Appends the stitches of a group of constraints: its distance limits without compliance. Where the surface collides
+/// with itself, contact keeps both sides apart by two thicknesses.
 void append_stitches(const CompiledObject& object, const ScaledGroup& group, std::vector<Stitch>& out) {
   static const int limit_type = find_constraint_type(DistanceLimit::name);
   if (group.places.empty() || object.pools[at(group.places.front().pool)].type != limit_type) return;  // all are of a type
@@ -192,7 +194,8 @@ void pull_stitches(Substep& s, const Sewn& sewn) {
   }
 }
 
-/// Notes the gaps of an object. True if one is open too far; then the relaxation follows from how they have changed since the last turn.
+/// Notes the gaps of an object. True if one is open too far; then the relaxation follows from how they have changed
+/// since the last turn.
 bool note_gaps(const Substep& s, int turn, Sewn& sewn) {
   double along = 0, squared = 0;
   bool is_open = false;

@@ -17,8 +17,8 @@ inline constexpr float overlap_left = 0.3f;
 /// Closes rigid stitches that the chains have pulled open.
 void close_stitches(Substep& s);
 
-/// Names the rigid stitch that is open farthest in each object, beyond 1 mm at the end of a frame. Threads that keyframes will shorten
-/// further are left out.
+/// Names the rigid stitch that is open farthest in each object, beyond 1 mm at the end of a frame. Threads that
+/// keyframes will shorten further are left out.
 void warn_of_stitches(const Model& model, const State& state, std::vector<std::string>& warnings);
 
 }  // namespace pliant
