@@ -98,6 +98,7 @@ bool gives_shape(const std::string& name) {
   return name == TetrahedronShear::name || name == CorotationalStrain::name || name == GreenStrain::name;
 }
 
+bool is_hinge(int type) { return is_hinge(constraint_type(type).name); }
 bool is_hinge(const std::string& name) { return name == DihedralBending::name || is_flat_hinge(name); }
 bool is_flat_hinge(const std::string& name) { return name == IsometricBending::name; }
 double fold_angle(const Vec3d (&x)[4]) { return DihedralBending::measure(x).rest_angle; }

@@ -27,6 +27,7 @@ bool is_length(const std::string& name);
 
 /// True if this constraint type bends two triangles about their edge (points: ends of the edge, then the tips).
 bool is_hinge(const std::string& name);
+bool is_hinge(int type);
 /// True if a hinge of this type always has a flat rest shape, whatever its rest data.
 bool is_flat_hinge(const std::string& name);
 /// The dihedral angle of a hinge, given by the ends of its edge and then its tips; 0 if flat [rad].

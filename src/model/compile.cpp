@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "constraints/registry.h"
 #include "model/attachments.h"
 #include "model/chains.h"
 #include "model/compile_flow.h"
@@ -15,6 +16,7 @@
 #include "model/length_ranges.h"
 #include "model/object_sets.h"
 #include "model/schedule.h"
+#include "model/sheet_bending.h"
 
 namespace pliant {
 
@@ -77,8 +79,11 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   out.substep_rule = substep_rule(object, options.sweep, static_cast<double>(options.gravity));
 
   const std::vector<ChangingGroup> changing = find_changing_groups(object);  // likewise
+  const bool is_sheet = bends_as_sheet(object, options.frame_time / options.passes) && options.sweep != Sweep::natural;
+  const std::optional<SheetFacts> sheet = is_sheet ? std::optional(facts_of_sheet(object)) : std::nullopt;
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)
                                                             : gather_constraints(object, options.passes);
+  if (is_sheet) std::erase_if(lists, [](const ConstraintList& list) { return is_hinge(list.type); });
   out.fans = join_volumes(lists, kept);
   const bool in_given_order = options.sweep == Sweep::natural;
   if (solves_chains(options.sweep)) split_off_chains(lists, held_by_targets(object, static_cast<double>(options.gravity)));
@@ -98,6 +103,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   schedule(lists, tile, in_given_order, has_tethers(options) || options.sweep == Sweep::multigrid, kept, out);
   if (kept != nullptr && has_many_additions(out)) return out;  // the caller schedules it from scratch
   fill_particles(object, positions, out);
+  if (sheet) out.sheet = build_sheet(object, *sheet, out.place, out.positions);
   append_chains(lists, options.chain_softness, out);
   schedule_stencils(lists, in_given_order, out);
   out.joints = compile_joints(object, out);

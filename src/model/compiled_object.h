@@ -18,6 +18,7 @@
 #include "model/object_sets.h"
 #include "model/phase.h"
 #include "model/pool.h"
+#include "model/sheet_bending.h"
 #include "pliant/kept_schedule.h"
 #include "pliant/scene.h"
 #include "pliant/state.h"
@@ -125,6 +126,7 @@ struct CompiledObject {
   CompiledClusters clusters;
   Tethers tethers;
   Multigrid multigrid;
+  SheetBending sheet;                 ///< bending of a fine flat sheet, in place of its hinges
   std::vector<Kinematic> kinematics;  ///< particles with keyframes
   Carrier carrier;                    ///< motion of all particles of a mesh collider
   Surface surface;

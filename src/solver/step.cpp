@@ -6,6 +6,7 @@
 //     predict       v += h g, displacement = h v                            symplectic Euler
 //                   contacts of particles with colliders along the predicted path
 //     collide       contacts between surfaces are found
+//     bend          fine flat sheets bend as a whole
 //     solve         iterations x (constraints in the order of the sweep, acceleration, tethers, contacts)
 //     solve again   chains and contacts in turn, where surfaces press on one another; contacts yield a little
 //     limit         the few distances that are still far too long are shortened
@@ -27,6 +28,7 @@
 #include "solver/bodies/body_solver.h"
 #include "solver/bodies/tie_gaps.h"
 #include "solver/free_objects.h"
+#include "solver/sheets/sheet_solver.h"
 #include "solver/stages/solve_again.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
@@ -60,6 +62,7 @@ bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   apply_forces(s);
   if (!predict(s)) return false;
   collide(s);
+  bend_sheets(s);
   solve(s);
   solve_again(s);
   limit(s);

@@ -50,6 +50,7 @@ void resize(const Model& model, Workspace& workspace) {
   workspace.gravity.resize(objects);
   workspace.last_h.resize(objects);
   workspace.anchors.resize(objects);
+  workspace.sheets.resize(objects);
   workspace.tiles.resize(model.tiles().size());
   if (!workspace.volume_gradients.empty()) workspace.volume_gradients.resize(model.particles());
 }

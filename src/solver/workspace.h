@@ -17,6 +17,7 @@
 #include "solver/limit.h"
 #include "solver/momentum.h"
 #include "solver/residual.h"
+#include "solver/sheets/sheet_solver.h"
 #include "solver/sweeps/sweep.h"
 
 namespace pliant {
@@ -101,6 +102,7 @@ struct Workspace {
   std::unique_ptr<ContactLog> contact_log;          ///< null if contact events are not requested
   Control control;                                  ///< what the user set for the current frame
   std::vector<FrameGravity> gravity;                ///< gravity in each object's velocities
+  std::vector<SheetScratch> sheets;                 ///< [object] that bends as a sheet
   std::vector<Records> anchors;                     ///< [object], a position and a displacement for each tether anchor
   SweepGroups sweeps;                               ///< the sweep groups in use
   Records predicted;                                ///< predicted displacements, kept if residuals are recorded

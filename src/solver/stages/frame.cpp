@@ -10,6 +10,7 @@
 #include "solver/gases/gas_solver.h"
 #include "solver/grains/grain_solver.h"
 #include "solver/pair_words.h"
+#include "solver/sheets/sheet_solver.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -51,7 +52,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   if (s.fluids != nullptr) s.fluids->begin_frame(s);
   if (s.grains != nullptr) s.grains->begin_frame(s);
   if (s.gases != nullptr) s.gases->begin_frame();
-  s.sweeps_on_entry = may_sweep_on_entry(s);
+  s.sweeps_on_entry = may_sweep_on_entry(s) && !has_sheets(s);
   return s;
 }
 

@@ -1,0 +1,96 @@
+// Bending of flat sheets whose edges are short: one quadratic energy of the whole sheet instead of one constraint a hinge.
+//
+// A sweep over hinges does not converge where edges are shorter than the bending length of a substep,
+// l = (h^2 B / rho)^(1/4): it sags too much by a factor 1 + 2.3 (l / edge)^4. There a substep solves
+// M + h^2 K for the whole sheet instead (solver/sheets/sheet_solver.h), so the sag depends on neither the mesh nor the
+// substeps. K is constant, the same for x, y and z:
+//
+//   energy = sum over vertices of B A / 2 (kxx^2 + 2 kxy^2 + kzz^2)
+//
+// A is a vertex's area, k the curvature of the quadratic that fits the offsets of the vertices around it best, in the rest
+// plane, weighted by 1 / distance^2. The curvature of a sheet that hardly stretches is a multiple of its normal, so each
+// component of k has three coordinates, and K applies to each coordinate alike. docs/internals/bending.md compares this energy with others.
+//
+// The solve is a multigrid cycle. Each level keeps about a third of the vertices of the finer one and interpolates linearly
+// between them. Coarse stiffness is the Galerkin product, coarse masses are lumped, so a cycle is never softer than M + h^2 K.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "model/gather_constraints.h"
+#include "pliant/scene.h"
+#include "pliant/state.h"
+
+namespace pliant {
+
+/// Rows of a level that one thread smooths one after another; rows of other blocks have the values of before.
+inline constexpr int sheet_block = 1024;
+/// Rows at which coarsening ends, and the largest number that is solved directly.
+inline constexpr int coarsest_sheet_rows = 32;
+
+/// The stiffness between the vertices of one level, in compressed rows. A row has first the columns below it in its block,
+/// then those above it in its block, then those of other blocks.
+struct SheetLevel {
+  int rows = 0;
+  std::vector<std::int32_t> begin, above, outside;  ///< of each row: its first entry, and the first of each other part
+  std::vector<std::int32_t> column;
+  std::vector<float> stiffness;                     ///< of each entry; the diagonal has none [N/m]
+  std::vector<float> diagonal, beyond;              ///< K_ii, and the sum of |K_ij| over other blocks [N/m]
+  std::vector<char> is_fixed;                       ///< 1: a pinned vertex, or one without bending
+  std::vector<std::array<std::int32_t, 3>> parent;  ///< rows of the next level between which a row is interpolated
+  std::vector<std::array<float, 3>> share;          ///< and their weights; 0 where there are fewer
+  std::vector<std::int32_t> child_begin, child;     ///< for each row of the next level, the rows that it moves
+  std::vector<float> child_share;
+
+  int blocks() const { return (rows + sheet_block - 1) / sheet_block; }
+};
+
+/// The bending energy of one object, and its levels, finest first; none if its hinges are projected instead.
+struct SheetBending {
+  std::vector<SheetLevel> levels;
+  std::vector<std::int32_t> piece;  ///< of each vertex; -1: fixed
+  int pieces = 0;
+  float damping_time = 0;  ///< damping over stiffness [s]
+  float stiffness = 0;     ///< B / (rho e^4), e the mean edge [1/s^2]
+
+  bool is_used() const { return !levels.empty(); }
+};
+
+/// True if the hinges of an object are those of a flat sheet that is too fine for them in substeps of `h` seconds: its hinges
+/// have the compliances of a material and a flat rest shape without plasticity.
+bool bends_as_sheet(const Object& object, double h);
+
+/// What the hinges of a sheet say of its material.
+struct SheetFacts {
+  std::vector<double> rigidity;  ///< B at each particle: the mean of its hinges; 0 without one [N m]
+  double stiffness = 0;          ///< SheetBending::stiffness
+  float damping_time = 0;
+};
+SheetFacts facts_of_sheet(const Object& object);
+
+/// Builds the energy and levels. `place`: storage index of each particle of the object; `positions`: in storage order, inverse
+/// mass in w. Reads no constraints of the object.
+SheetBending build_sheet(const Object& object, const SheetFacts& facts, const std::vector<int>& place,
+                         const std::vector<Record>& positions);
+
+// ------------------------------------------------------------------------------------------------ parts of the above
+
+/// A sheet being built.
+struct SheetDraft {
+  std::vector<Vec3d> rest, normal;       ///< of each row; normals are unit vectors
+  std::vector<std::vector<int>> around;  ///< rows joined to each row by an edge
+  std::vector<char> is_fixed;
+};
+
+/// A symmetric matrix by rows, with its diagonal.
+struct SparseRows {
+  std::vector<std::vector<std::pair<int, double>>> row;  ///< columns ascending
+};
+
+/// Appends the levels below a draft of the finest one.
+void append_levels(SheetDraft draft, SparseRows stiffness, std::vector<SheetLevel>& levels);
+
+}  // namespace pliant

@@ -1,0 +1,300 @@
+#include "solver/sheets/sheet_cycle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "core/at.h"
+
+namespace pliant {
+
+namespace {
+
+/// A record as four floats: x, y, z, w side by side, in the compiler's own vector type.
+typedef float Four __attribute__((vector_size(16)));
+
+Four load(const Record& r) {
+  Four out;
+  std::memcpy(&out, &r, sizeof out);
+  return out;
+}
+void store(const Four& value, Record& r) { std::memcpy(static_cast<void*>(&r), &value, sizeof value); }
+
+/// The sum of k_ij x_j over entries [first, last) of a level.
+Four sum_of(const SheetLevel& level, const Record* x, std::int32_t first, std::int32_t last) {
+  Four sum{};
+  const float* k = level.stiffness.data();
+  const std::int32_t* column = level.column.data();
+  for (std::int32_t e = first; e < last; ++e) sum += load(x[column[e]]) * k[e];
+  return sum;
+}
+
+int first_of(int block) { return block * sheet_block; }
+int last_of(int block, int rows) { return std::min(rows, (block + 1) * sheet_block); }
+
+/// Gauss-Seidel upwards from zero: (D + L) x = r within the block.
+void sweep_up(const SheetLevel& level, float h2, int block, SheetLevelScratch& own) {
+  for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
+    const Four below = sum_of(level, own.x.data(), level.begin[at(i)], level.above[at(i)]);
+    store((load(own.right[at(i)]) - below * h2) * own.inverse[at(i)], own.x[at(i)]);
+  }
+}
+
+/// What is left of the right-hand side after sweep_up, in `before`.
+void find_residual(const SheetLevel& level, float h2, int block, SheetLevelScratch& own) {
+  for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
+    const Four others = sum_of(level, own.x.data(), level.above[at(i)], level.begin[at(i) + 1]);
+    const Four left = (load(own.x[at(i)]) * level.beyond[at(i)] - others) * h2;
+    store(own.inverse[at(i)] == 0 ? Four{} : left, own.before[at(i)]);
+  }
+}
+
+/// The right-hand side of the coarser level: the transpose of the interpolation.
+void restrict_to(const SheetLevel& level, const SheetLevelScratch& own, int block, SheetLevelScratch& coarse) {
+  const int rows = static_cast<int>(level.child_begin.size()) - 1;
+  for (int i = first_of(block); i < last_of(block, rows); ++i) {
+    Four sum{};
+    for (std::int32_t e = level.child_begin[at(i)]; e < level.child_begin[at(i) + 1]; ++e)
+      sum += load(own.before[at(level.child[at(e)])]) * level.child_share[at(e)];
+    store(sum, coarse.right[at(i)]);
+  }
+}
+
+/// Adds what the coarser level has found; `before` gets a copy.
+void interpolate(const SheetLevel& level, const SheetLevelScratch& coarse, int block, SheetLevelScratch& own) {
+  for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
+    Four x = load(own.x[at(i)]);
+    if (own.inverse[at(i)] != 0)
+      for (std::size_t p = 0; p < 3; ++p)
+        x += load(coarse.x[at(level.parent[at(i)][p])]) * level.share[at(i)][p];
+    store(x, own.x[at(i)]);
+    store(x, own.before[at(i)]);
+  }
+}
+
+/// Gauss-Seidel downwards: rows of the block have their new values above, those of other blocks the values of before.
+void sweep_down(const SheetLevel& level, float h2, int block, SheetLevelScratch& own) {
+  for (int i = last_of(block, level.rows); i-- > first_of(block);) {
+    const Four inside = sum_of(level, own.x.data(), level.begin[at(i)], level.outside[at(i)]);
+    const Four outside = sum_of(level, own.before.data(), level.outside[at(i)], level.begin[at(i) + 1]);
+    const Four right = load(own.right[at(i)]) - (inside + outside - load(own.x[at(i)]) * level.beyond[at(i)]) * h2;
+    store(right * own.inverse[at(i)], own.x[at(i)]);
+  }
+}
+
+/// Solves the last level by its factor.
+void solve_directly(const SheetLevel& level, const std::vector<double>& factor, SheetLevelScratch& own) {
+  const std::size_t n = at(level.rows);
+  double x[3][coarsest_sheet_rows];
+  for (std::size_t i = 0; i < n; ++i) {
+    const Record& r = own.right[i];
+    double sum[3] = {static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.z)};
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < i; ++k) sum[c] -= factor[i * n + k] * x[c][k];
+      x[c][i] = sum[c] * factor[i * n + i];
+    }
+  }
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t i = n; i-- > 0;) {
+      for (std::size_t k = i + 1; k < n; ++k) x[c][i] -= factor[k * n + i] * x[c][k];
+      x[c][i] *= factor[i * n + i];
+    }
+  for (std::size_t i = 0; i < n; ++i)
+    own.x[i] = {static_cast<float>(x[0][i]), static_cast<float>(x[1][i]), static_cast<float>(x[2][i]), 0};
+}
+
+bool is_direct(const SheetLevel& level) { return level.rows <= coarsest_sheet_rows; }
+
+void cycle(const SheetBending& sheet, std::size_t l, BlockLoop loop, SheetScratch& scratch) {
+  const SheetLevel& level = sheet.levels[l];
+  SheetLevelScratch& own = scratch.levels[l];
+  const float h2 = scratch.h2;
+  const bool is_last = l + 1 == sheet.levels.size();
+  if (is_last && is_direct(level)) return solve_directly(level, scratch.factor, own);
+  loop(level.blocks(), [&](int block) { sweep_up(level, h2, block, own); });
+  if (is_last) {
+    own.before = own.x;
+  } else {
+    SheetLevelScratch& coarse = scratch.levels[l + 1];
+    loop(level.blocks(), [&](int block) { find_residual(level, h2, block, own); });
+    loop(sheet.levels[l + 1].blocks(), [&](int block) { restrict_to(level, own, block, coarse); });
+    cycle(sheet, l + 1, loop, scratch);
+    loop(level.blocks(), [&](int block) { interpolate(level, coarse, block, own); });
+  }
+  loop(level.blocks(), [&](int block) { sweep_down(level, h2, block, own); });
+}
+
+/// The scalar product of two arrays: by blocks, then over blocks in order, so threads change no bit.
+double product_of(const SheetLevel& level, const Records& a, const Records& b, BlockLoop loop, std::vector<double>& sums) {
+  sums.assign(at(level.blocks()), 0);
+  loop(level.blocks(), [&](int block) {
+    double sum = 0;
+    for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
+      const Record &p = a[at(i)], &q = b[at(i)];
+      sum += static_cast<double>(p.x) * static_cast<double>(q.x) + static_cast<double>(p.y) * static_cast<double>(q.y) +
+             static_cast<double>(p.z) * static_cast<double>(q.z);
+    }
+    sums[at(block)] = sum;
+  });
+  double sum = 0;
+  for (const double one : sums) sum += one;
+  return sum;
+}
+
+/// product = (M + h^2 K) direction.
+void multiply(const SheetLevel& level, int block, SheetScratch& scratch) {
+  const SheetLevelScratch& own = scratch.levels.front();
+  for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
+    const Four c = load(scratch.direction[at(i)]);
+    const Four others = sum_of(level, scratch.direction.data(), level.begin[at(i)], level.begin[at(i) + 1]);
+    const Four product = c * (own.mass[at(i)] + own.heavy[at(i)]) + (others + c * level.diagonal[at(i)]) * scratch.h2;
+    store(own.inverse[at(i)] == 0 ? Four{} : product, scratch.product[at(i)]);
+  }
+}
+
+/// to += by * from.
+void add(const SheetLevel& level, int block, float by, const Records& from, Records& to) {
+  for (int i = first_of(block); i < last_of(block, level.rows); ++i)
+    store(load(to[at(i)]) + load(from[at(i)]) * by, to[at(i)]);
+}
+
+/// direction = x + by * direction.
+void turn(const SheetLevel& level, int block, float by, SheetScratch& scratch) {
+  for (int i = first_of(block); i < last_of(block, level.rows); ++i)
+    store(load(scratch.levels.front().x[at(i)]) + load(scratch.direction[at(i)]) * by, scratch.direction[at(i)]);
+}
+
+/// Conjugate gradients with the cycle as preconditioner.
+void iterate(const SheetBending& sheet, int cycles, BlockLoop loop, SheetScratch& scratch) {
+  const SheetLevel& level = sheet.levels.front();
+  SheetLevelScratch& own = scratch.levels.front();
+  scratch.direction.assign(own.x.size(), {});
+  scratch.product.resize(own.x.size());
+  scratch.corrections.assign(own.x.size(), {});
+  double before = 0;
+  for (int made = 0; made < cycles; ++made) {
+    cycle(sheet, 0, loop, scratch);
+    const double now = product_of(level, own.right, own.x, loop, scratch.sums);
+    const auto beta = static_cast<float>(before > 0 ? now / before : 0);
+    before = now;
+    loop(level.blocks(), [&](int block) { turn(level, block, beta, scratch); });
+    loop(level.blocks(), [&](int block) { multiply(level, block, scratch); });
+    const double stiff = product_of(level, scratch.direction, scratch.product, loop, scratch.sums);
+    if (!(stiff > 0)) return;
+    const auto alpha = static_cast<float>(now / stiff);
+    loop(level.blocks(), [&](int block) {
+      add(level, block, alpha, scratch.direction, scratch.corrections);
+      add(level, block, -alpha, scratch.product, own.right);
+    });
+  }
+}
+
+/// Lumps what each row has onto the coarser level: the sum of the absolute values of a row of the Galerkin product, which is stiffer.
+void sum_to_coarser(const SheetLevel& level, const std::vector<float>& from, std::vector<float>& to) {
+  for (std::size_t i = 0; i + 1 < level.child_begin.size(); ++i) {
+    float sum = 0;
+    for (std::int32_t e = level.child_begin[i]; e < level.child_begin[i + 1]; ++e) {
+      const std::size_t child = at(level.child[at(e)]);
+      float shares = 0;
+      for (const float share : level.share[child]) shares += std::fabs(share);
+      sum += std::fabs(level.child_share[at(e)]) * shares * from[child];
+    }
+    to[i] = sum;
+  }
+}
+
+}  // namespace
+
+void set_masses(const SheetBending& sheet, const Record* positions, SheetScratch& scratch) {
+  scratch.levels.resize(sheet.levels.size());
+  for (std::size_t l = 0; l < sheet.levels.size(); ++l) {
+    const SheetLevel& level = sheet.levels[l];
+    SheetLevelScratch& own = scratch.levels[l];
+    const std::size_t rows = at(level.rows);
+    own.mass.resize(rows);
+    own.inverse.resize(rows);
+    own.heavy.assign(rows, 0);
+    for (Records* r : {&own.right, &own.x, &own.before}) r->resize(rows);
+    if (l == 0) {
+      for (std::size_t i = 0; i < rows; ++i) own.mass[i] = positions[i].w > 0 ? 1 / positions[i].w : 0;
+    } else {
+      sum_to_coarser(sheet.levels[l - 1], scratch.levels[l - 1].mass, own.mass);
+    }
+  }
+  scratch.moved.resize(scratch.levels.front().mass.size());
+  scratch.corrections.resize(scratch.moved.size());
+}
+
+void spread_load(const SheetBending& sheet, SheetScratch& scratch) {
+  for (std::size_t l = 1; l < sheet.levels.size(); ++l)
+    sum_to_coarser(sheet.levels[l - 1], scratch.levels[l - 1].heavy, scratch.levels[l].heavy);
+}
+
+void factorise(const SheetBending& sheet, SheetScratch& scratch) {
+  for (std::size_t l = 0; l < sheet.levels.size(); ++l) {
+    const SheetLevel& level = sheet.levels[l];
+    SheetLevelScratch& own = scratch.levels[l];
+    for (std::size_t i = 0; i < own.inverse.size(); ++i) {
+      const float sum = own.mass[i] + own.heavy[i] + scratch.h2 * (level.diagonal[i] + level.beyond[i]);
+      const bool is_free = own.mass[i] > 0 && (l == 0 || level.is_fixed[i] == 0);  // pins may have been released
+      own.inverse[i] = is_free ? 1 / sum : 0;
+    }
+  }
+  const SheetLevel& last = sheet.levels.back();
+  if (!is_direct(last)) return;
+  const SheetLevelScratch& own = scratch.levels.back();
+  const std::size_t n = at(last.rows);
+  std::vector<double>& a = scratch.factor;
+  a.assign(n * n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    a[i * n + i] = 1;
+    if (own.inverse[i] == 0) continue;
+    a[i * n + i] = static_cast<double>(own.mass[i] + own.heavy[i] + scratch.h2 * last.diagonal[i]);
+    for (std::int32_t e = last.begin[i]; e < last.begin[i + 1]; ++e) {
+      const std::size_t j = at(last.column[at(e)]);
+      if (own.inverse[j] != 0) a[i * n + j] = static_cast<double>(scratch.h2 * last.stiffness[at(e)]);
+    }
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t k = 0; k < j; ++k)
+      for (std::size_t i = j; i < n; ++i) a[i * n + j] -= a[i * n + k] * a[j * n + k];
+    const double pivot = a[j * n + j];
+    const double root = 1 / std::sqrt(pivot > 1e-30 ? pivot : 1e-30);
+    for (std::size_t i = j + 1; i < n; ++i) a[i * n + j] *= root;
+    a[j * n + j] = root;  // the inverse of the factor's diagonal
+  }
+}
+
+void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, BlockLoop loop, SheetScratch& scratch) {
+  const SheetLevel& level = sheet.levels.front();
+  SheetLevelScratch& own = scratch.levels.front();
+  const Four gravity{forces.gravity.x, forces.gravity.y, forces.gravity.z, 0};
+  loop(level.blocks(), [&](int block) {
+    for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
+      const bool falls = forces.positions[i].w > 0;
+      const Four d = load(forces.displacements[i]);
+      store(falls ? d - gravity : d, scratch.moved[at(i)]);
+    }
+  });
+  loop(level.blocks(), [&](int block) {
+    for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
+      const Four x = load(forces.positions[i]), u = load(scratch.moved[at(i)]);
+      Four by_place{}, by_motion{};
+      for (std::int32_t e = level.begin[at(i)]; e < level.begin[at(i) + 1]; ++e) {
+        const std::size_t j = at(level.column[at(e)]);
+        by_place += (load(forces.positions[j]) - x) * level.stiffness[at(e)];
+        by_motion += (load(scratch.moved[j]) - u) * level.stiffness[at(e)];
+      }
+      const Four r = gravity * own.mass[at(i)] - (by_place * forces.h2 + by_motion * scratch.h2);
+      store(own.inverse[at(i)] == 0 ? Four{} : r, own.right[at(i)]);
+    }
+  });
+}
+
+void solve_sheet(const SheetBending& sheet, int cycles, BlockLoop loop, SheetScratch& scratch) {
+  if (cycles > 1) return iterate(sheet, cycles, loop, scratch);
+  cycle(sheet, 0, loop, scratch);
+  scratch.corrections.swap(scratch.levels.front().x);
+}
+
+}  // namespace pliant

@@ -1,0 +1,50 @@
+// The bending of flat sheets, once a substep between contact search and the iterations (model/sheet_bending.h).
+//
+//   u = d - a,  a = h^2 g          what has been predicted, without gravity
+//   r = M a + h^2 f(x + u)         f = -K (x + u), linear, so no fold makes it stiffer than K
+//   d = u + P^-1 r                 P: a multigrid cycle on M + h^2 K
+//
+// Gravity is part of r: at rest without stretch and contact d = 0 means f = -M g, whatever P is. So the sag depends on
+// neither cycles nor substeps. P is nowhere softer than M + h^2 K, hence the step never adds energy to bending.
+// Damping of bending adds beta h to the h^2 of K in P and in u. A particle that a collider holds up is heavy in P, else it would be
+// pressed in and pushed out again, and the sheet would bend by that in each substep. A piece that nothing holds keeps its momentum: P conserves it
+// only where its solve is exact.
+#pragma once
+
+#include <vector>
+
+#include "model/sheet_bending.h"
+#include "solver/momentum.h"
+
+namespace pliant {
+
+struct Substep;
+
+/// The values of one level in a substep.
+struct SheetLevelScratch {
+  std::vector<float> mass;     ///< of each row, 0 if it is fixed [kg]
+  std::vector<float> heavy;    ///< what colliders add to it [kg]
+  std::vector<float> inverse;  ///< 1 / (M + heavy + h^2 (K_ii + sum over other blocks of |K_ij|)); 0 if it is fixed [1/kg]
+  Records right, x, before;    ///< right-hand side, solution, and the solution before the second sweep
+};
+
+/// What the bending of one object needs in a substep. Nothing of it lasts for the next frame.
+struct SheetScratch {
+  float h2 = 0;                            ///< what K is multiplied by [s^2]
+  bool is_loaded = false;                  ///< true: some row is heavy
+  std::vector<SheetLevelScratch> levels;   ///< one for each level
+  Records moved, corrections;              ///< u of each row, and P^-1 r [m]
+  Records direction, product;              ///< of conjugate gradients
+  std::vector<double> sums;                ///< of blocks
+  std::vector<double> factor;              ///< Cholesky factor of the last level, by rows
+  std::vector<char> holds;                 ///< of each piece: 1 if it has a fixed or heavy particle
+  std::vector<RigidSums> momentum;         ///< of each piece
+};
+
+/// Bends all sheets of the group.
+void bend_sheets(Substep& s);
+
+/// True if an object of the group bends as a sheet.
+bool has_sheets(const Substep& s);
+
+}  // namespace pliant
