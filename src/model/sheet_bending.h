@@ -11,8 +11,9 @@
 // plane, weighted by 1 / distance^2. The curvature of a sheet that hardly stretches is a multiple of its normal, so each
 // component of k has three coordinates, and K applies to each coordinate alike. docs/internals/bending.md compares this energy with others.
 //
-// The solve is a multigrid cycle. Each level keeps about a third of the vertices of the finer one and interpolates linearly
-// between them. Coarse stiffness is the Galerkin product, coarse masses are lumped, so a cycle is never softer than M + h^2 K.
+// The solve is a multigrid cycle. Each level keeps a quarter to a third of the vertices of the finer one and interpolates linearly
+// between them. Coarse stiffness and mass are Galerkin products, so a cycle is never softer than M + h^2 K, and moves and turns
+// what no force bends as it should: with lumped coarse masses a sheet fell at 0.8 g.
 #pragma once
 
 #include <array>
@@ -38,7 +39,9 @@ struct SheetLevel {
   std::vector<std::int32_t> begin, above, outside;  ///< of each row: its first entry, and the first of each other part
   std::vector<std::int32_t> column;
   std::vector<float> stiffness;                     ///< of each entry; the diagonal has none [N/m]
-  std::vector<float> diagonal, beyond;              ///< K_ii, and the sum of |K_ij| over other blocks [N/m]
+  std::vector<float> diagonal;                      ///< K_ii [N/m]
+  std::vector<float> mass_between;                  ///< of each entry, of coarse levels alone [kg]
+  std::vector<float> mass;                          ///< of each row, of the masses that are given [kg]
   std::vector<char> is_fixed;                       ///< 1: a pinned vertex, or one without bending
   std::vector<std::array<std::int32_t, 3>> parent;  ///< rows of the next level between which a row is interpolated
   std::vector<std::array<float, 3>> share;          ///< and their weights; 0 where there are fewer
@@ -85,9 +88,13 @@ struct SheetDraft {
   std::vector<char> is_fixed;
 };
 
-/// A symmetric matrix by rows, with its diagonal.
+/// Symmetric matrices K and M by rows, with their diagonals.
 struct SparseRows {
-  std::vector<std::vector<std::pair<int, double>>> row;  ///< columns ascending
+  struct Entry {
+    int column = 0;
+    double stiffness = 0, mass = 0;
+  };
+  std::vector<std::vector<Entry>> row;  ///< columns ascending
 };
 
 /// Appends the levels below a draft of the finest one.

@@ -256,7 +256,7 @@ SparseRows assemble(const std::vector<Curvature>& all, std::size_t rows) {
     }
     std::sort(columns.begin(), columns.end());
     for (const int j : columns) {
-      out.row[i].push_back({j, sum[at(j)]});
+      out.row[i].push_back({j, sum[at(j)], 0});
       sum[at(j)] = 0;
       is_in[at(j)] = 0;
     }
@@ -264,25 +264,27 @@ SparseRows assemble(const std::vector<Curvature>& all, std::size_t rows) {
   return out;
 }
 
-/// Renumbers rows and columns by storage, and leaves out what is next to nothing.
-SparseRows in_storage(const SparseRows& from, const std::vector<int>& place, std::size_t rows) {
+/// Renumbers rows and columns by storage, leaves out what is next to nothing, and adds the masses.
+SparseRows in_storage(const SparseRows& from, const std::vector<int>& place, const std::vector<Record>& positions) {
   SparseRows out;
-  out.row.resize(rows);
+  out.row.resize(positions.size());
   std::vector<double> diagonal(from.row.size(), 0);
   for (std::size_t i = 0; i < from.row.size(); ++i)
-    for (const auto& [j, k] : from.row[i])
-      if (at(j) == i) diagonal[i] = k;
+    for (const SparseRows::Entry& entry : from.row[i])
+      if (at(entry.column) == i) diagonal[i] = entry.stiffness;
   for (std::size_t i = 0; i < from.row.size(); ++i) {
-    double dropped = 0;
-    std::vector<std::pair<int, double>>& row = out.row[at(place[i])];
-    for (const auto& [j, k] : from.row[i]) {
-      const bool counts = at(j) == i || k * k > 1e-12 * diagonal[i] * diagonal[at(j)];
-      if (counts) row.push_back({place[at(j)], k});
-      if (!counts) dropped += k;
+    double own = diagonal[i];
+    std::vector<SparseRows::Entry>& row = out.row[at(place[i])];
+    for (const auto& [j, k, mass] : from.row[i]) {
+      if (at(j) == i) continue;
+      if (k * k > 1e-12 * diagonal[i] * diagonal[at(j)])
+        row.push_back({place[at(j)], k, 0});
+      else
+        own += k;
     }
-    for (auto& [j, k] : row)
-      if (j == place[i]) k += dropped;
-    std::sort(row.begin(), row.end());
+    const float inverse = positions[at(place[i])].w;
+    row.push_back({place[i], own, inverse > 0 ? 1 / static_cast<double>(inverse) : 0});
+    std::sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.column < b.column; });
   }
   return out;
 }
@@ -418,7 +420,7 @@ SheetBending build_sheet(const Object& object, const SheetFacts& facts, const st
   out.damping_time = facts.damping_time;
   SheetDraft draft = draft_of(mesh, place, is_fixed, positions.size());
   find_pieces(draft, out);
-  append_levels(std::move(draft), in_storage(assemble(curvatures(mesh, facts.rigidity, is_fixed), is_fixed.size()), place, positions.size()),
+  append_levels(std::move(draft), in_storage(assemble(curvatures(mesh, facts.rigidity, is_fixed), is_fixed.size()), place, positions),
                 out.levels);
   return out;
 }

@@ -114,22 +114,23 @@ std::vector<Interpolation> interpolate_all(const SheetDraft& draft, const std::v
   return out;
 }
 
-/// Adds a row of sparse numbers to one that is being summed.
+/// A row of sparse numbers that is being summed.
 class RowSum {
  public:
-  explicit RowSum(std::size_t columns) : sum_(columns, 0), is_in_(columns, 0) {}
-  void add(int column, double value) {
+  explicit RowSum(std::size_t columns) : sum_(columns), is_in_(columns, 0) {}
+  void add(int column, double stiffness, double mass) {
     if (is_in_[at(column)] == 0) columns_.push_back(column);
     is_in_[at(column)] = 1;
-    sum_[at(column)] += value;
+    sum_[at(column)].stiffness += stiffness;
+    sum_[at(column)].mass += mass;
   }
-  std::vector<std::pair<int, double>> take() {
+  std::vector<SparseRows::Entry> take() {
     std::sort(columns_.begin(), columns_.end());
-    std::vector<std::pair<int, double>> row;
+    std::vector<SparseRows::Entry> row;
     row.reserve(columns_.size());
     for (const int j : columns_) {
-      row.push_back({j, sum_[at(j)]});
-      sum_[at(j)] = 0;
+      row.push_back({j, sum_[at(j)].stiffness, sum_[at(j)].mass});
+      sum_[at(j)] = {};
       is_in_[at(j)] = 0;
     }
     columns_.clear();
@@ -137,12 +138,12 @@ class RowSum {
   }
 
  private:
-  std::vector<double> sum_;
+  std::vector<SparseRows::Entry> sum_;
   std::vector<char> is_in_;
   std::vector<int> columns_;
 };
 
-/// The Galerkin product I^T K I. `number`: the row of the next level of each kept row. Rows that are fixed do not move with coarse ones.
+/// The Galerkin products I^T K I and I^T M I. `number`: the row of the next level of each kept row. Rows that are fixed do not move with coarse ones.
 SparseRows product(const SparseRows& k, const std::vector<Interpolation>& by, const std::vector<char>& is_fixed,
                    const std::vector<int>& number, int rows) {
   std::vector<std::vector<std::pair<int, double>>> shares(at(rows));  // of each coarse row: fine rows and weights
@@ -155,11 +156,12 @@ SparseRows product(const SparseRows& k, const std::vector<Interpolation>& by, co
   RowSum sum(at(rows));
   for (int coarse = 0; coarse < rows; ++coarse) {
     for (const auto& [i, share] : shares[at(coarse)])
-      for (const auto& [j, stiffness] : k.row[at(i)]) {
+      for (const auto& [j, stiffness, mass] : k.row[at(i)]) {
         if (is_fixed[at(j)] != 0) continue;
-        for (std::size_t p = 0; p < 3; ++p)
-          if (by[at(j)].weight[p] != 0)
-            sum.add(number[at(by[at(j)].row[p])], share * stiffness * by[at(j)].weight[p]);
+        for (std::size_t p = 0; p < 3; ++p) {
+          const double both = share * by[at(j)].weight[p];
+          if (both != 0) sum.add(number[at(by[at(j)].row[p])], both * stiffness, both * mass);
+        }
       }
     out.row.push_back(sum.take());
   }
@@ -188,28 +190,27 @@ int part_of(int row, int column) {
   return column < row ? 0 : 1;
 }
 
-/// Lays out a matrix as a level.
-SheetLevel lay_out(const SheetDraft& draft, const SparseRows& k) {
+/// Lays out the matrices as a level.
+SheetLevel lay_out(const SheetDraft& draft, const SparseRows& k, bool is_finest) {
   SheetLevel out;
   out.rows = static_cast<int>(k.row.size());
   out.is_fixed = draft.is_fixed;
+  out.diagonal.assign(at(out.rows), 0);
+  out.mass.assign(at(out.rows), 0);
   out.begin.push_back(0);
   for (int i = 0; i < out.rows; ++i) {
-    float diagonal = 0, beyond = 0;
     for (int part = 0; part < 3; ++part) {
       if (part == 1) out.above.push_back(static_cast<std::int32_t>(out.column.size()));
       if (part == 2) out.outside.push_back(static_cast<std::int32_t>(out.column.size()));
-      for (const auto& [j, stiffness] : k.row[at(i)]) {
-        const auto value = static_cast<float>(stiffness);
-        if (j == i) diagonal = value;
+      for (const auto& [j, stiffness, mass] : k.row[at(i)]) {
+        if (j == i) out.diagonal[at(i)] = static_cast<float>(stiffness);
+        if (j == i) out.mass[at(i)] = static_cast<float>(mass);
         if (j == i || part_of(i, j) != part) continue;
         out.column.push_back(j);
-        out.stiffness.push_back(value);
-        if (part == 2) beyond += std::fabs(value);
+        out.stiffness.push_back(static_cast<float>(stiffness));
+        if (!is_finest) out.mass_between.push_back(static_cast<float>(mass));
       }
     }
-    out.diagonal.push_back(diagonal);
-    out.beyond.push_back(beyond);
     out.begin.push_back(static_cast<std::int32_t>(out.column.size()));
   }
   return out;
@@ -244,7 +245,7 @@ void set_parents(const std::vector<Interpolation>& by, const std::vector<char>& 
 
 void append_levels(SheetDraft draft, SparseRows stiffness, std::vector<SheetLevel>& levels) {
   while (true) {
-    levels.push_back(lay_out(draft, stiffness));
+    levels.push_back(lay_out(draft, stiffness, levels.empty()));
     if (levels.back().rows <= coarsest_sheet_rows) return;
     const std::vector<char> is_kept = kept_rows(draft);
     std::vector<int> number(is_kept.size(), -1);

@@ -21,7 +21,7 @@ int cycles_for(float edges4) {
   return cycles;
 }
 /// How much heavier a particle is in P that a collider holds up. More than a sheet's load on one particle, and little enough for floats.
-constexpr float weight_of_held = 1e4f;
+constexpr float weight_on_colliders = 1e4f;
 
 bool is_sheet(const Substep& s, int object) { return s.model.objects[at(object)].sheet.is_used(); }
 
@@ -76,7 +76,7 @@ class HeldParticles {
     SheetLevelScratch& level = scratch_.levels.front();
     const Record& r = level.right[at(row)];
     if (!(dot(c.normal, Vec3f{r.x, r.y, r.z}) * c.weight[i] < 0) || level.mass[at(row)] == 0) return false;
-    level.heavy[at(row)] = weight_of_held * level.mass[at(row)];
+    level.heavy[at(row)] = weight_on_colliders * level.mass[at(row)];
     return true;
   }
 
@@ -99,9 +99,7 @@ bool find_held(Substep& s, int object, SheetScratch& scratch) {
 }
 
 /// Adds a row's correction to the sums of its piece.
-void add_row(const Record& x, const Record& origin, const Vec3d& c, double mass, RigidSums& sums) {
-  const Vec3d p{static_cast<double>(x.x - origin.x), static_cast<double>(x.y - origin.y),
-                static_cast<double>(x.z - origin.z)};
+void add_row(const Vec3d& p, const Vec3d& c, double mass, RigidSums& sums) {
   sums.mass += mass;
   sums.first += p * mass;
   sums.squares += Vec3d{p.x * p.x, p.y * p.y, p.z * p.z} * mass;
@@ -110,46 +108,58 @@ void add_row(const Record& x, const Record& origin, const Vec3d& c, double mass,
   sums.corrections.angular += cross(p, c) * mass;
 }
 
-/// The rigid motion that the corrections of each free piece contain, which no force of bending has caused.
-std::vector<RigidStep> rigid_steps_of(const SheetBending& sheet, const Record* positions, const Vec3f& gravity,
-                                      SheetScratch& scratch) {
+/// Finds which pieces have a fixed or heavy particle. True if all have.
+bool find_pieces_held(const SheetBending& sheet, SheetScratch& scratch) {
   const SheetLevelScratch& finest = scratch.levels.front();
   scratch.holds.assign(at(sheet.pieces), 0);
+  for (std::size_t i = 0; i < finest.mass.size(); ++i)
+    if (sheet.piece[i] >= 0 && (finest.mass[i] == 0 || finest.heavy[i] > 0)) scratch.holds[at(sheet.piece[i])] = 1;
+  return std::all_of(scratch.holds.begin(), scratch.holds.end(), [](char holds) { return holds != 0; });
+}
+
+/// Removes from the corrections of each free piece the rigid motion that they contain, which no force of bending has caused.
+void keep_momentum(const SheetBending& sheet, const Record* positions, const Vec3f& gravity, SheetScratch& scratch) {
+  const std::vector<float>& mass = scratch.levels.front().mass;
+  const auto is_free = [&](std::size_t i) { return sheet.piece[i] >= 0 && scratch.holds[at(sheet.piece[i])] == 0; };
+  const auto place = [&](std::size_t i) {
+    const Record &x = positions[i], &o = positions[0];
+    return Vec3d{static_cast<double>(x.x - o.x), static_cast<double>(x.y - o.y), static_cast<double>(x.z - o.z)};
+  };
   scratch.momentum.assign(at(sheet.pieces), {});
-  for (std::size_t i = 0; i < finest.mass.size(); ++i) {
-    if (sheet.piece[i] < 0) continue;
-    if (finest.mass[i] == 0 || finest.heavy[i] > 0) scratch.holds[at(sheet.piece[i])] = 1;
-  }
-  for (std::size_t i = 0; i < finest.mass.size(); ++i) {
-    if (sheet.piece[i] < 0 || scratch.holds[at(sheet.piece[i])] != 0) continue;
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    if (!is_free(i)) continue;
     const Record& c = scratch.corrections[i];
     const Vec3d correction{static_cast<double>(c.x - gravity.x), static_cast<double>(c.y - gravity.y),
                            static_cast<double>(c.z - gravity.z)};
-    add_row(positions[i], positions[0], correction, static_cast<double>(finest.mass[i]),
-            scratch.momentum[at(sheet.piece[i])]);
+    add_row(place(i), correction, static_cast<double>(mass[i]), scratch.momentum[at(sheet.piece[i])]);
   }
-  std::vector<RigidStep> steps(at(sheet.pieces));
-  for (std::size_t p = 0; p < steps.size(); ++p)
-    if (scratch.holds[p] == 0) steps[p] = rigid_step(scratch.momentum[p]);
-  return steps;
+  std::vector<RigidStep> steps;
+  steps.reserve(scratch.momentum.size());
+  for (const RigidSums& sums : scratch.momentum) steps.push_back(rigid_step(sums));
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    if (!is_free(i)) continue;
+    const RigidStep& step = steps[at(sheet.piece[i])];
+    const Vec3f rigid = convert<float>(step.translation + cross(step.rotation, place(i)));
+    Record& c = scratch.corrections[i];
+    c = {c.x - rigid.x, c.y - rigid.y, c.z - rigid.z, 0};
+  }
 }
 
-/// d = u + corrections, less the rigid motion of free pieces.
-void apply(Substep& s, int object, const Vec3f& gravity, SheetScratch& scratch) {
+/// d = u + corrections.
+void apply(Substep& s, int object, const Vec3f& gravity, BlockLoop loop, SheetScratch& scratch) {
   const SheetBending& sheet = s.model.objects[at(object)].sheet;
   const int first = s.model.first[at(object)];
-  const Record* positions = s.state.positions.data() + first;
+  if (!find_pieces_held(sheet, scratch)) keep_momentum(sheet, s.state.positions.data() + first, gravity, scratch);
   Record* displacements = s.work.displacements.data() + first;
-  const std::vector<RigidStep> steps = rigid_steps_of(sheet, positions, gravity, scratch);
+  const SheetLevel& level = sheet.levels.front();
   const std::vector<float>& mass = scratch.levels.front().mass;
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    if (mass[i] == 0 || sheet.piece[i] < 0) continue;
-    const Record &x = positions[i], &o = positions[0], &u = scratch.moved[i], &c = scratch.corrections[i];
-    const RigidStep& step = steps[at(sheet.piece[i])];
-    const Vec3d p{static_cast<double>(x.x - o.x), static_cast<double>(x.y - o.y), static_cast<double>(x.z - o.z)};
-    const Vec3f rigid = convert<float>(step.translation + cross(step.rotation, p));
-    displacements[i] = {u.x + (c.x - rigid.x), u.y + (c.y - rigid.y), u.z + (c.z - rigid.z), 0};
-  }
+  loop(level.blocks(), [&](int block) {
+    for (int i = block * sheet_block; i < std::min(level.rows, (block + 1) * sheet_block); ++i) {
+      if (mass[at(i)] == 0 || sheet.piece[at(i)] < 0) continue;
+      const Record &u = scratch.moved[at(i)], &c = scratch.corrections[at(i)];
+      displacements[i] = {u.x + c.x, u.y + c.y, u.z + c.z, 0};
+    }
+  });
 }
 
 void bend(Substep& s, int object) {
@@ -167,7 +177,7 @@ void bend(Substep& s, int object) {
     factorise(sheet, scratch);
   }
   solve_sheet(sheet, cycles_for(scratch.h2 * sheet.stiffness), loop, scratch);
-  apply(s, object, gravity, scratch);
+  apply(s, object, gravity, loop, scratch);
 }
 
 }  // namespace

@@ -23,8 +23,10 @@ struct Substep;
 /// The values of one level in a substep.
 struct SheetLevelScratch {
   std::vector<float> mass;     ///< of each row, 0 if it is fixed [kg]
-  std::vector<float> heavy;    ///< what colliders add to it [kg]
-  std::vector<float> inverse;  ///< 1 / (M + heavy + h^2 (K_ii + sum over other blocks of |K_ij|)); 0 if it is fixed [1/kg]
+  std::vector<float> heavy;    ///< what colliders, and water, add to it; on the finest level colliders alone [kg]
+  std::vector<float> entries;  ///< of coarse levels: M_ij + h^2 K_ij [kg]
+  std::vector<float> beyond;   ///< sum over other blocks of |M_ij + h^2 K_ij| [kg]
+  std::vector<float> inverse;  ///< 1 / (M_ii + heavy + h^2 K_ii + beyond); 0 if it is fixed [1/kg]
   Records right, x, before;    ///< right-hand side, solution, and the solution before the second sweep
 };
 

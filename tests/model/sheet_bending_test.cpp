@@ -1,0 +1,176 @@
+// Tests the bending energy of fine sheets: what it says of shapes with known energies, on grids and irregular meshes, and that its levels
+// interpolate linearly and are never softer than the sheet.
+#include "model/sheet_bending.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <string>
+
+#include "core/at.h"
+#include "pliant/material.h"
+#include "pliant/mesh.h"
+
+namespace pliant {
+namespace {
+
+constexpr double spacing = 0.002;
+
+/// A square sheet of cotton in the plane y = 0. Inner vertices are moved by up to a share of an edge; diagonals alternate or not.
+Object fine_sheet(int n, double moved, bool alternates) {
+  std::mt19937 random(5);
+  const auto uniform = [&] { return static_cast<double>(random() % 65536) / 32768 - 1; };
+  TriangleMesh mesh;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const bool is_inner = i > 0 && j > 0 && i + 1 < n && j + 1 < n;
+      const double x = i + (is_inner ? moved * uniform() : 0), z = j + (is_inner ? moved * uniform() : 0);
+      mesh.positions.push_back({static_cast<float>(x * spacing), 0, static_cast<float>(z * spacing)});
+    }
+  for (int i = 0; i + 1 < n; ++i)
+    for (int j = 0; j + 1 < n; ++j) {
+      const int a = i * n + j, b = a + n, c = b + 1, d = a + 1;
+      const bool crosses = alternates && (i + j) % 2 == 1;
+      mesh.triangles.push_back(crosses ? std::array<int, 3>{a, d, b} : std::array<int, 3>{a, c, b});
+      mesh.triangles.push_back(crosses ? std::array<int, 3>{b, d, c} : std::array<int, 3>{a, d, c});
+    }
+  ClothOptions options;
+  options.material = fabric("cotton");
+  return make_cloth(mesh, options);
+}
+
+struct Built {
+  Object object;
+  SheetBending sheet;
+
+  explicit Built(Object of) : object(std::move(of)) {
+    std::vector<int> place(object.positions.size());
+    std::iota(place.begin(), place.end(), 0);
+    std::vector<Record> positions;
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      const bool is_pinned = std::any_of(object.pins.begin(), object.pins.end(), [&](const Pin& p) { return at(p.particle) == i; });
+      const Vec3f& p = object.positions[i];
+      positions.push_back({p.x, p.y, p.z, is_pinned ? 0 : 1 / object.masses[i]});
+    }
+    sheet = build_sheet(object, facts_of_sheet(object), place, positions);
+  }
+  const SheetLevel& finest() const { return sheet.levels.front(); }
+};
+
+/// K w of a level, for one number a vertex.
+std::vector<double> times(const SheetLevel& level, const std::vector<double>& w) {
+  std::vector<double> out(w.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = static_cast<double>(level.diagonal[i]) * w[i];
+    for (std::int32_t e = level.begin[i]; e < level.begin[i + 1]; ++e)
+      out[i] += static_cast<double>(level.stiffness[at(e)]) * w[at(level.column[at(e)])];
+  }
+  return out;
+}
+
+double energy(const SheetLevel& level, const std::vector<double>& w) {
+  const std::vector<double> force = times(level, w);
+  return std::inner_product(w.begin(), w.end(), force.begin(), 0.0) / 2;
+}
+
+/// The heights of a surface over the vertices of a flat object.
+template <class Height>
+std::vector<double> heights(const Object& object, const Height& of) {
+  std::vector<double> out;
+  for (const Vec3f& p : object.positions) out.push_back(of(double(p.x), double(p.z)));
+  return out;
+}
+
+class SheetEnergy : public testing::TestWithParam<std::array<int, 2>> {
+ protected:
+  Object object(int n) const { return fine_sheet(n, GetParam()[0] / 100.0, GetParam()[1] != 0); }
+};
+
+TEST_P(SheetEnergy, IsThatOfTheSurfaceWhereItIsKnown) {
+  constexpr int n = 17;
+  const Built built(object(n));
+  const double size = (n - 1) * spacing, area = size * size, rigidity = double(fabric("cotton").bending_stiffness);
+  const auto of = [&](auto height) { return energy(built.finest(), heights(built.object, height)) / (rigidity * area / 2); };
+  EXPECT_NEAR(of([](double x, double) { return x * x / 2; }), 1, 1e-3) << "rolled about z: kxx = 1";
+  EXPECT_NEAR(of([](double, double z) { return z * z / 2; }), 1, 1e-3) << "rolled about x: kzz = 1";
+  EXPECT_NEAR(of([](double x, double z) { return (x + z) * (x + z) / 4; }), 1, 1e-3) << "rolled about a diagonal";
+  EXPECT_NEAR(of([](double x, double z) { return (x - z) * (x - z) / 4; }), 1, 1e-3) << "rolled about the other one";
+  EXPECT_NEAR(of([](double x, double z) { return x * z; }), 2, 2e-3) << "twisted: kxy = 1";
+  EXPECT_NEAR(of([](double x, double z) { return (x * x + z * z) / 2; }), 2, 2e-3) << "a dome: kxx = kzz = 1";
+}
+
+TEST_P(SheetEnergy, ResistsNeitherTranslationNorRotation) {
+  const Built built(object(15));
+  const double rolled = energy(built.finest(), heights(built.object, [](double x, double) { return x * x / 2; }));
+  for (const auto& w : {heights(built.object, [](double, double) { return 0.01; }),
+                        heights(built.object, [](double x, double z) { return 0.02 * x - 0.03 * z; })})
+    EXPECT_LT(std::fabs(energy(built.finest(), w)), 1e-4 * rolled);
+}
+
+TEST_P(SheetEnergy, LevelsInterpolateLinearly) {
+  const Built built(object(21));
+  ASSERT_GE(built.sheet.levels.size(), 3u);
+  std::vector<double> exact = heights(built.object, [](double x, double z) { return 3 + 40 * x - 25 * z; });
+  // A vertex that is kept has one parent with weight 1, so the values of the next level are those of kept vertices.
+  for (std::size_t l = 0; l + 1 < built.sheet.levels.size(); ++l) {
+    const SheetLevel& level = built.sheet.levels[l];
+    std::vector<double> coarse(at(built.sheet.levels[l + 1].rows), 0);
+    std::vector<char> is_known(coarse.size(), 0);
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      for (std::size_t p = 0; p < 3; ++p)
+        if (level.share[i][p] == 1) coarse[at(level.parent[i][p])] = exact[i], is_known[at(level.parent[i][p])] = 1;
+    ASSERT_EQ(std::count(is_known.begin(), is_known.end(), 0), 0) << "level " << l;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      double found = 0;
+      for (std::size_t p = 0; p < 3; ++p) found += static_cast<double>(level.share[i][p]) * coarse[at(level.parent[i][p])];
+      EXPECT_NEAR(found, exact[i], 1e-4) << "level " << l << ", row " << i;
+    }
+    exact = coarse;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, SheetEnergy,
+                         testing::Values(std::array<int, 2>{0, 0}, std::array<int, 2>{25, 0}, std::array<int, 2>{0, 1},
+                                         std::array<int, 2>{25, 1}),
+                         [](const auto& of) {
+                           return std::string(of.param[1] != 0 ? "Alternating" : "OneDiagonal") + "MovedBy" +
+                                  std::to_string(of.param[0]) + "Percent";
+                         });
+
+TEST(SheetBending, CoarseLevelsAreGalerkinProducts) {
+  const Built built(fine_sheet(21, 0.25, false));
+  std::mt19937 random(3);
+  const SheetLevel &fine = built.sheet.levels[0], &coarse = built.sheet.levels[1];
+  std::vector<double> w;
+  for (int i = 0; i < coarse.rows; ++i) w.push_back(static_cast<double>(random() % 1000) / 1000);
+  std::vector<double> interpolated(at(fine.rows), 0);
+  for (std::size_t i = 0; i < interpolated.size(); ++i)
+    for (std::size_t p = 0; p < 3; ++p) interpolated[i] += static_cast<double>(fine.share[i][p]) * w[at(fine.parent[i][p])];
+  EXPECT_NEAR(energy(coarse, w) / energy(fine, interpolated), 1, 1e-4);
+}
+
+TEST(SheetBending, IsForFlatSheetsWithShortEdgesAndTheHingesOfAMaterial) {
+  constexpr double h = 1.0 / 60 / 20;
+  const Object fine = fine_sheet(9, 0, false);
+  EXPECT_TRUE(bends_as_sheet(fine, h));
+  EXPECT_FALSE(bends_as_sheet(fine, h / 20)) << "substeps so short that hinges converge";
+
+  Object folded = fine;
+  for (Vec3f& p : folded.positions) p.y = 0.3f * std::fabs(p.x - 0.008f);
+  EXPECT_FALSE(bends_as_sheet(folded, h)) << "a rest shape with a fold";
+
+  Object plastic = fine;
+  for (ConstraintGroup& group : plastic.constraints)
+    if (group.type == "dihedral_bending") group.plasticity = Plasticity{};
+  EXPECT_FALSE(bends_as_sheet(plastic, h));
+
+  Object as_given = fine;
+  for (ConstraintGroup& group : as_given.constraints)
+    if (group.type == "dihedral_bending") group.compliances.clear();
+  EXPECT_FALSE(bends_as_sheet(as_given, h)) << "a compliance that the user gives each hinge";
+}
+
+}  // namespace
+}  // namespace pliant

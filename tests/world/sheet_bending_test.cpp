@@ -1,0 +1,164 @@
+// Tests that fine sheets bend as their material says, whatever the mesh, the substeps and the frame time: cantilevers against the beam's
+// formula, the same sheet by halves of them against itself; and that bending moves nothing by itself.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "core/at.h"
+#include "pliant/mesh.h"
+#include "pliant/world.h"
+
+namespace pliant {
+namespace {
+
+constexpr int strip_columns = 9;
+constexpr double gravity_of_tests = 9.81, sag_over_length = 0.05;
+
+struct Strip {
+  std::string material = "cotton";
+  int edges = 12;  ///< in the free length
+  double moved = 0;
+  bool alternates = false;
+};
+
+TriangleMesh mesh_of(const Strip& strip, double edge) {
+  std::mt19937 random(1);
+  const auto uniform = [&] { return strip.moved * (static_cast<double>(random() % 65536) / 32768 - 1); };
+  const int rows = strip.edges + 2;
+  TriangleMesh mesh;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < strip_columns; ++j) {
+      const bool is_inner = i > 1 && j > 0 && i + 1 < rows && j + 1 < strip_columns;
+      const double x = i - 1 + (is_inner ? uniform() : 0), z = j + (is_inner ? uniform() : 0);
+      mesh.positions.push_back({static_cast<float>(x * edge), 0, static_cast<float>(z * edge)});
+    }
+  for (int i = 0; i + 1 < rows; ++i)
+    for (int j = 0; j + 1 < strip_columns; ++j) {
+      const int a = i * strip_columns + j, b = a + strip_columns, c = b + 1, d = a + 1;
+      const bool crosses = strip.alternates && (i + j) % 2 == 1;
+      mesh.triangles.push_back(crosses ? std::array<int, 3>{a, d, b} : std::array<int, 3>{a, c, b});
+      mesh.triangles.push_back(crosses ? std::array<int, 3>{b, d, c} : std::array<int, 3>{a, d, c});
+    }
+  return mesh;
+}
+
+/// The sag of a cantilever at rest, clamped by two rows, over q L^4 / (8 B). Its length is chosen for a sag of L / 20.
+double sag_ratio(const Strip& strip, int substeps, double frame_time = 1.0 / 60) {
+  const Fabric& material = fabric(strip.material);
+  const double q = double(material.area_density) * gravity_of_tests, b = double(material.bending_stiffness);
+  const double length = std::cbrt(8 * sag_over_length * b / q);
+  ClothOptions options;
+  options.material = material;
+  Object cloth = make_cloth(mesh_of(strip, length / strip.edges), options);
+  cloth.damping = 10;
+  for (int i = 0; i < 2 * strip_columns; ++i) cloth.pins.push_back({i, {}});
+  Scene scene;
+  scene.frame_time = frame_time;
+  scene.settings.substeps = substeps;
+  scene.add(cloth);
+  World world(scene);
+  for (int frame = 0; frame < 1.2 / frame_time; ++frame) world.step(static_cast<float>(frame_time));
+  const std::vector<Vec3f> at_rest = world.object(world.objects().front()).positions();
+  double tip = 0;
+  for (int j = 0; j < strip_columns; ++j) tip -= double(at_rest[at_rest.size() - at(j) - 1].y) / strip_columns;
+  return tip / (q * length * length * length * length / (8 * b));
+}
+
+TEST(SheetBendingInAWorld, SagsAsTheBeamOfItsFabricDoes) {
+  for (const char* material : {"cotton", "silk", "denim", "wool", "leather", "rubber sheet"})
+    for (const int edges : {6, 12, 24}) EXPECT_NEAR(sag_ratio({material, edges}, 0), 1, 0.05) << material << ", " << edges;
+}
+
+TEST(SheetBendingInAWorld, SagsAlikeOnIrregularMeshes) {
+  for (const int edges : {6, 12, 24}) {
+    EXPECT_NEAR(sag_ratio({"cotton", edges, 0.25}, 0), 1, 0.05) << edges << " edges, vertices moved";
+    EXPECT_NEAR(sag_ratio({"cotton", edges, 0, true}, 0), 1, 0.05) << edges << " edges, alternating diagonals";
+    EXPECT_NEAR(sag_ratio({"cotton", edges, 0.25, true}, 0), 1, 0.05) << edges << " edges, both";
+  }
+}
+
+TEST(SheetBendingInAWorld, SagsAlikeWhateverTheSubstepsAndTheFrameTime) {
+  const double by_default = sag_ratio({}, 0);
+  for (const int substeps : {10, 20, 80}) EXPECT_NEAR(sag_ratio({}, substeps) / by_default, 1, 0.01) << substeps;
+  EXPECT_NEAR(sag_ratio({}, 0, 1.0 / 120) / by_default, 1, 0.01);
+  EXPECT_NEAR(sag_ratio({}, 0, 1.0 / 30) / by_default, 1, 0.01);
+}
+
+/// A rumpled sheet of leather that flies and spins without gravity.
+World flying() {
+  ClothOptions options;
+  options.material = fabric("leather");
+  Object cloth = make_cloth(grid_mesh(21, 21, 0.06f, 0.06f), options);
+  for (Vec3f& p : cloth.positions) {
+    const Vec3f spin{-4 * p.z, 0.5f * std::sin(80 * p.x), 4 * p.x};
+    cloth.velocities.push_back(Vec3f{1, 2, -0.5f} + spin);
+  }
+  Scene scene;
+  scene.gravity = {};
+  scene.add(cloth);
+  return World(scene);
+}
+
+struct Momenta {
+  Vec3d linear{}, angular{};
+  double mass = 0;
+};
+
+Momenta momenta_of(const World& world) {
+  Momenta sum;
+  const State& state = world.state();
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const Record &x = state.positions[i], &v = state.velocities[i];
+    const double m = 1 / double(x.w);
+    const Vec3d p{double(x.x), double(x.y), double(x.z)}, u{double(v.x), double(v.y), double(v.z)};
+    sum.mass += m;
+    sum.linear += u * m;
+    sum.angular += cross(p, u) * m;
+  }
+  return sum;
+}
+
+TEST(SheetBendingInAWorld, BendingKeepsMomentumInFlight) {
+  World world = flying();
+  const Momenta before = momenta_of(world);
+  for (int frame = 0; frame < 30; ++frame) ASSERT_FALSE(world.step(1.f / 60).nonfinite);
+  const Momenta after = momenta_of(world);
+  EXPECT_LT(length(after.linear - before.linear), 1e-5 * length(before.linear));
+  EXPECT_LT(length(after.angular - before.angular), 0.05 * length(before.angular));
+}
+
+TEST(SheetBendingInAWorld, AFlatSheetFallsAsAStoneDoes) {
+  ClothOptions options;
+  options.material = fabric("cotton");
+  Scene scene;
+  scene.add(make_cloth(grid_mesh(41, 41, 0.1f, 0.1f), options));
+  World world(scene);
+  for (int frame = 0; frame < 30; ++frame) world.step(1.f / 60);
+  const double fallen = gravity_of_tests * 0.5 * 0.5 / 2;
+  for (const Vec3f& p : world.object(world.objects().front()).positions()) EXPECT_NEAR(double(p.y), -fallen, 0.02 * fallen);
+  float least = 1e9f, most = -1e9f;
+  for (const Vec3f& p : world.object(world.objects().front()).positions()) least = std::min(least, p.y), most = std::max(most, p.y);
+  EXPECT_LT(most - least, 1e-5f) << "it stays flat";
+}
+
+TEST(SheetBendingInAWorld, HasTheSameBitsOnAnyNumberOfThreads) {
+  std::string first;
+  for (const int threads : {1, 2, 3}) {
+    ClothOptions options;
+    options.material = fabric("denim");
+    Object cloth = make_cloth(grid_mesh(65, 65, 0.13f, 0.13f), options);  // rows in several blocks
+    cloth.pins = {{0, {}}, {64, {}}};
+    Scene scene;
+    scene.settings.threads = threads;
+    scene.add(cloth);
+    World world(scene);
+    for (int frame = 0; frame < 8; ++frame) world.step(1.f / 60);
+    if (first.empty()) first = world.state_hash();
+    EXPECT_EQ(world.state_hash(), first) << threads;
+  }
+}
+
+}  // namespace
+}  // namespace pliant
