@@ -63,6 +63,12 @@ void add_whole_object_phases(CompiledObject& out) {
                    [](const ObjectPhase& a, const ObjectPhase& b) { return a.driver < b.driver; });
 }
 
+/// The longest substep in which an object is likely to bend [s].
+double longest_substep(SubstepRule rule, const CompileOptions& options) {
+  constexpr int least_by_state = 12;  // of solver/substep_law.h
+  return options.frame_time / (rule == SubstepRule::by_state ? std::min(options.passes, least_by_state) : options.passes);
+}
+
 /// Compiles an object. `given_away` is that object if its constraints may be moved out of it, else null. `kept`: null if it is scheduled
 /// for the first time.
 CompiledObject compile(const Object& object, Object* given_away, const CompileOptions& options, const KeptSchedule* kept) {
@@ -79,7 +85,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   out.substep_rule = substep_rule(object, options.sweep, static_cast<double>(options.gravity));
 
   const std::vector<ChangingGroup> changing = find_changing_groups(object);  // likewise
-  const bool is_sheet = bends_as_sheet(object, options.frame_time / options.passes) && options.sweep != Sweep::natural;
+  const bool is_sheet = options.sweep != Sweep::natural && bends_as_sheet(object, longest_substep(out.substep_rule, options));
   const std::optional<SheetFacts> sheet = is_sheet ? std::optional(facts_of_sheet(object)) : std::nullopt;
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)
                                                             : gather_constraints(object, options.passes);

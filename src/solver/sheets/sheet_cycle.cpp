@@ -324,7 +324,8 @@ void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, 
   const SheetLevel& level = sheet.levels.front();
   SheetLevelScratch& own = scratch.levels.front();
   const Four gravity{forces.gravity.x, forces.gravity.y, forces.gravity.z, 0};
-  const float undamped = forces.h2 / scratch.h2;  // damping resists motion alone
+  const Four load_of_all = gravity * (forces.substeps * forces.substeps);
+  const float all = forces.substeps * forces.h, undamped = all * all / scratch.h2;  // damping resists motion alone
   loop(level.blocks(), [&](int block) {
     for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
       const bool falls = forces.positions[i].w > 0;
@@ -338,7 +339,7 @@ void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, 
       const auto term = [&](std::int32_t e) {
         const std::size_t j = at(level.column[at(e)]);
         const Four place = load(forces.positions[j]) - x, motion = load(scratch.moved[j]) - u;
-        return (place * undamped + motion) * level.stiffness[at(e)];
+        return (place * undamped + motion * forces.substeps) * level.stiffness[at(e)];
       };
       Four even{}, odd{};
       std::int32_t e = level.begin[at(i)];
@@ -348,7 +349,7 @@ void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, 
         odd += term(e + 1);
       }
       if (e < last) even += term(e);
-      const Four r = gravity * own.mass[at(i)] - (even + odd) * scratch.h2;
+      const Four r = load_of_all * own.mass[at(i)] - (even + odd) * scratch.h2;
       store(own.inverse[at(i)] == 0 ? Four{} : r, own.right[at(i)]);
     }
   });

@@ -13,11 +13,12 @@ namespace pliant {
 /// Calls its argument for each block, on all threads.
 using BlockLoop = FunctionRef<void(int blocks, FunctionRef<void(int)> body)>;
 
-/// What acts on a sheet: its positions and predicted displacements, h^2 times gravity, and h^2.
+/// What acts on a sheet.
 struct SheetForces {
   const Record *positions = nullptr, *displacements = nullptr;
-  Vec3f gravity{};
-  float h2 = 0;
+  Vec3f gravity{};     ///< what it moves in a substep, h^2 g [m]
+  float h = 0;         ///< length of a substep [s]
+  float substeps = 1;  ///< that the bending is for
 };
 
 /// Masses of all levels; nothing is heavy.

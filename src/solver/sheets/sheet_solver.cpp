@@ -7,6 +7,7 @@
 #include "core/at.h"
 #include "solver/sheets/sheet_cycle.h"
 #include "solver/substep.h"
+#include "solver/substep_law.h"
 
 namespace pliant {
 
@@ -23,13 +24,27 @@ int cycles_for(float edges4) {
 /// How much heavier a particle is in P that a collider holds up. More than a sheet's load on one particle, and little enough for floats.
 constexpr float weight_on_colliders = 1e4f;
 
+/// Where a group touches nothing, one bending is for as many substeps as it may bend over few edges for: (l / e)^4 is at most this.
+/// Such sheets hang, and need most of their substeps for their stretch.
+constexpr float most_edges4 = 4;
+
+/// The substeps that one bending is for, from this one on; 0 if an earlier one was for this one, too.
+int substeps_of_bending(const Substep& s, const SheetBending& sheet) {
+  if (s.has_pairs() || s.bodies != nullptr || !s.own->colliders.empty()) return 1;
+  const int together = s.follows_state() ? s.planned / quarters : s.planned, number = s.number % together;
+  const float once = s.h * s.h * sheet.stiffness;
+  int period = 1;
+  while (period < together && static_cast<float>((period + 1) * (period + 1)) * once <= most_edges4) ++period;
+  return number % period == 0 ? std::min(period, together - number) : 0;
+}
+
 bool is_sheet(const Substep& s, int object) { return s.model.objects[at(object)].sheet.is_used(); }
 
 /// Masses of all levels from the State, and the matrix for this length of substep.
-void begin_sheet(Substep& s, int object, SheetScratch& scratch) {
+void begin_sheet(Substep& s, int object, float seconds, SheetScratch& scratch) {
   const CompiledObject& of = s.model.objects[at(object)];
   const SheetBending& sheet = of.sheet;
-  const float h2 = s.h * (s.h + sheet.damping_time);
+  const float h2 = seconds * (seconds + sheet.damping_time);
   if (s.made > 0 && scratch.h2 == h2 && !scratch.is_loaded) return;
   scratch.h2 = h2;
   scratch.is_loaded = false;
@@ -145,30 +160,32 @@ void keep_momentum(const SheetBending& sheet, const Record* positions, const Vec
   }
 }
 
-/// d = u + corrections.
-void apply(Substep& s, int object, const Vec3f& gravity, BlockLoop loop, SheetScratch& scratch) {
+/// d = u + corrections / n - (n - 1) h^2 g, where bending is for n substeps, in each of which gravity acts.
+void apply(Substep& s, int object, const SheetForces& forces, BlockLoop loop, SheetScratch& scratch) {
   const SheetBending& sheet = s.model.objects[at(object)].sheet;
-  const int first = s.model.first[at(object)];
-  if (!find_pieces_held(sheet, scratch)) keep_momentum(sheet, s.state.positions.data() + first, gravity, scratch);
-  Record* displacements = s.work.displacements.data() + first;
+  const float n = forces.substeps;
+  const Vec3f back = forces.gravity * (n - 1);
+  if (!find_pieces_held(sheet, scratch)) keep_momentum(sheet, forces.positions, forces.gravity * (n * n), scratch);
+  Record* displacements = s.work.displacements.data() + s.model.first[at(object)];
   const SheetLevel& level = sheet.levels.front();
   const std::vector<float>& mass = scratch.levels.front().mass;
   loop(level.blocks(), [&](int block) {
     for (int i = block * sheet_block; i < std::min(level.rows, (block + 1) * sheet_block); ++i) {
       if (mass[at(i)] == 0 || sheet.piece[at(i)] < 0) continue;
       const Record &u = scratch.moved[at(i)], &c = scratch.corrections[at(i)];
-      displacements[i] = {u.x + c.x, u.y + c.y, u.z + c.z, 0};
+      displacements[i] = {u.x + (c.x / n - back.x), u.y + (c.y / n - back.y), u.z + (c.z / n - back.z), 0};
     }
   });
 }
 
-void bend(Substep& s, int object) {
+void bend(Substep& s, int object, int substeps) {
   const SheetBending& sheet = s.model.objects[at(object)].sheet;
   SheetScratch& scratch = s.work.sheets[at(object)];
   const int first = s.model.first[at(object)];
   const Vec3f gravity = gravity_for(s, static_cast<double>(s.h)) * s.h;
-  begin_sheet(s, object, scratch);
-  const SheetForces forces{s.state.positions.data() + first, s.work.displacements.data() + first, gravity, s.h * s.h};
+  begin_sheet(s, object, static_cast<float>(substeps) * s.h, scratch);
+  const SheetForces forces{s.state.positions.data() + first, s.work.displacements.data() + first, gravity, s.h,
+                           static_cast<float>(substeps)};
   const auto loop = [&](int blocks, FunctionRef<void(int)> body) { for_tasks(s, "bend sheets", blocks, body); };
   find_right_hand_side(sheet, forces, loop, scratch);
   if (find_held(s, object, scratch)) {
@@ -177,7 +194,7 @@ void bend(Substep& s, int object) {
     factorise(sheet, scratch);
   }
   solve_sheet(sheet, cycles_for(scratch.h2 * sheet.stiffness), loop, scratch);
-  apply(s, object, gravity, loop, scratch);
+  apply(s, object, forces, loop, scratch);
 }
 
 }  // namespace
@@ -190,7 +207,9 @@ bool has_sheets(const Substep& s) {
 
 void bend_sheets(Substep& s) {
   for_objects(s, [&](int object) {
-    if (is_sheet(s, object)) bend(s, object);
+    const SheetBending& sheet = s.model.objects[at(object)].sheet;
+    const int substeps = sheet.is_used() ? substeps_of_bending(s, sheet) : 0;
+    if (substeps > 0) bend(s, object, substeps);
   });
 }
 
