@@ -16,7 +16,7 @@ namespace {
 /// The cycles for a step that bends over so many edges, (l / e)^4. With fewer an irregular sheet keeps errors that stretching feeds on,
 /// until it bursts; measured with 10 to 40 substeps and up to 96 edges in a cantilever.
 int cycles_for(float edges4) {
-  constexpr float limits[] = {2.5f, 5, 8, 16};
+  constexpr float limits[] = {2, 3.5f, 5, 8, 16};
   int cycles = 1;
   for (const float limit : limits) cycles += edges4 > limit * limit * limit * limit ? 1 : 0;
   return cycles;
