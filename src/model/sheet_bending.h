@@ -66,6 +66,10 @@ struct SheetBending {
 /// have the compliances of a material and a flat rest shape without plasticity.
 bool bends_as_sheet(const Object& object, double h);
 
+/// By what share a sheet of hinges bends too far in substeps of `h` seconds; 0 if it bends as a sheet, or has no hinges with
+/// compliances. It is 2.3 h^2 B / (rho e^4), measured with one sweep a substep (docs/internals/bending.md).
+double excess_of_hinges(const Object& object, double h);
+
 /// What the hinges of a sheet say of its material.
 struct SheetFacts {
   std::vector<double> rigidity;  ///< B at each particle: the mean of its hinges; 0 without one [N m]

@@ -59,8 +59,7 @@ std::vector<double> rigidities(const Object& object) {
   for (const ConstraintGroup& group : object.constraints) {
     if (!is_hinge(group.type)) continue;
     for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
-      const double b =
-          rigidity_of(hinge_at(object, group, i), double(group.compliances[i]), is_flat_hinge(group.type));
+      const double b = rigidity_of(hinge_at(object, group, i), double(group.compliances[i]), is_flat_hinge(group.type));
       for (std::size_t slot = 0; slot < 4; ++slot) {
         sum[at(group.particles[4 * i + slot])] += b;
         count[at(group.particles[4 * i + slot])] += 1;
@@ -74,8 +73,8 @@ std::vector<double> rigidities(const Object& object) {
 /// The triangles of a sheet and what is around each vertex, by the object's indices.
 struct SheetMesh {
   const Object& object;
-  std::vector<double> areas;                       ///< of each triangle [m^2]
-  std::vector<std::vector<int>> star;              ///< of each vertex, its triangles
+  std::vector<double> areas;                            ///< of each triangle [m^2]
+  std::vector<std::vector<int>> star;                   ///< of each vertex, its triangles
   std::map<std::array<int, 2>, std::vector<int>> tips;  ///< of each edge, the corners opposite to it
 
   explicit SheetMesh(const Object& of) : object(of), star(of.positions.size()) {
@@ -133,7 +132,7 @@ std::vector<int> wide_stencil(const SheetMesh& mesh, const std::vector<std::vect
   std::vector<int> out = rings[at(vertex)];
   for (const int t : mesh.star[at(vertex)]) {
     const auto& [a, b, c] = mesh.object.triangles[at(t)];
-    const std::array<int, 2> across = vertex == a ? SheetMesh::edge(b, c)
+    const std::array<int, 2> across = vertex == a   ? SheetMesh::edge(b, c)
                                       : vertex == b ? SheetMesh::edge(c, a)
                                                     : SheetMesh::edge(a, b);
     const std::vector<int>& tips = mesh.tips.at(across);
@@ -225,7 +224,8 @@ double factor_of_clamp(const SheetMesh& mesh, int vertex, const std::vector<char
   for (const int t : mesh.star[at(vertex)]) {
     const auto& corners = mesh.object.triangles[at(t)];
     all += mesh.areas[at(t)];
-    if (std::all_of(corners.begin(), corners.end(), [&](int v) { return is_fixed[at(v)] != 0; })) fixed += mesh.areas[at(t)];
+    if (std::all_of(corners.begin(), corners.end(), [&](int v) { return is_fixed[at(v)] != 0; }))
+      fixed += mesh.areas[at(t)];
   }
   return fixed < all ? all / (all - fixed) : 1;
 }
@@ -250,8 +250,7 @@ SparseRows assemble(const std::vector<Curvature>& all, std::size_t rows) {
         const int j = c.of[other];
         if (is_in[at(j)] == 0) columns.push_back(j);
         is_in[at(j)] = 1;
-        sum[at(j)] +=
-            c.weight * (mine[0] * c.by[other][0] + 2 * mine[1] * c.by[other][1] + mine[2] * c.by[other][2]);
+        sum[at(j)] += c.weight * (mine[0] * c.by[other][0] + 2 * mine[1] * c.by[other][1] + mine[2] * c.by[other][2]);
       }
     }
     std::sort(columns.begin(), columns.end());
@@ -386,8 +385,8 @@ std::vector<Curvature> curvatures(const SheetMesh& mesh, const std::vector<doubl
   for (std::size_t v = 0; v < vertices; ++v) {
     if (rings[v].empty() || !(rigidity[v] > 0)) continue;
     const auto regular = [&](int n) { return may_be_regular[at(n)] != 0; };
-    const bool has_own = is_inner[v] != 0 && regular(static_cast<int>(v)) &&
-                         std::all_of(rings[v].begin(), rings[v].end(), regular);
+    const bool has_own =
+        is_inner[v] != 0 && regular(static_cast<int>(v)) && std::all_of(rings[v].begin(), rings[v].end(), regular);
     const int vertex = static_cast<int>(v);
     all.push_back(curvature_at(mesh, vertex, has_own ? rings[v] : wide_stencil(mesh, rings, vertex)));
     all.back().weight = rigidity[v] * mesh.area_at(vertex) * factor_of_clamp(mesh, vertex, is_fixed);
@@ -406,6 +405,12 @@ bool bends_as_sheet(const Object& object, double h) {
   return object.bodies.empty() && std::all_of(object.constraints.begin(), object.constraints.end(), can_be_sheet);
 }
 
+double excess_of_hinges(const Object& object, double h) {
+  constexpr double measured = 2.3;
+  if (bends_as_sheet(object, h)) return 0;
+  return measured * h * h * sheet_stiffness(object);
+}
+
 SheetFacts facts_of_sheet(const Object& object) {
   return {rigidities(object), sheet_stiffness(object), damping_time(object)};
 }
@@ -420,7 +425,8 @@ SheetBending build_sheet(const Object& object, const SheetFacts& facts, const st
   out.damping_time = facts.damping_time;
   SheetDraft draft = draft_of(mesh, place, is_fixed, positions.size());
   find_pieces(draft, out);
-  append_levels(std::move(draft), in_storage(assemble(curvatures(mesh, facts.rigidity, is_fixed), is_fixed.size()), place, positions),
+  append_levels(std::move(draft),
+                in_storage(assemble(curvatures(mesh, facts.rigidity, is_fixed), is_fixed.size()), place, positions),
                 out.levels);
   return out;
 }

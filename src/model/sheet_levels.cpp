@@ -168,8 +168,10 @@ SparseRows product(const SparseRows& k, const std::vector<Interpolation>& by, co
   return out;
 }
 
-/// Joins coarse rows between which a row is interpolated.
-std::vector<std::vector<int>> joined(const std::vector<Interpolation>& by, const std::vector<int>& number, int rows) {
+/// Joins coarse rows between which a row is interpolated; what is left alone, as a corner may be, to all rows that it acts on.
+std::vector<std::vector<int>> joined(const std::vector<Interpolation>& by, const std::vector<int>& number,
+                                     const SparseRows& matrix) {
+  const int rows = static_cast<int>(matrix.row.size());
   std::vector<std::vector<int>> out(at(rows));
   for (const Interpolation& one : by)
     for (std::size_t p = 0; p < 3; ++p)
@@ -177,6 +179,14 @@ std::vector<std::vector<int>> joined(const std::vector<Interpolation>& by, const
         if (one.weight[p] == 0 || one.weight[q] == 0 || one.row[p] == one.row[q]) continue;
         out[at(number[at(one.row[p])])].push_back(number[at(one.row[q])]);
       }
+  for (int i = 0; i < rows; ++i) {
+    if (!out[at(i)].empty()) continue;
+    for (const SparseRows::Entry& entry : matrix.row[at(i)]) {
+      if (entry.column == i) continue;
+      out[at(i)].push_back(entry.column);
+      out[at(entry.column)].push_back(i);
+    }
+  }
   for (std::vector<int>& row : out) {
     std::sort(row.begin(), row.end());
     row.erase(std::unique(row.begin(), row.end()), row.end());
@@ -260,8 +270,8 @@ void append_levels(SheetDraft draft, SparseRows stiffness, std::vector<SheetLeve
     const int rows = static_cast<int>(coarse.rest.size());
     if (rows == 0 || rows > most_kept * levels.back().rows) return;
     const std::vector<Interpolation> by = interpolate_all(draft, is_kept);
-    coarse.around = joined(by, number, rows);
     SparseRows next = product(stiffness, by, draft.is_fixed, number, rows);
+    coarse.around = joined(by, number, next);
     set_parents(by, draft.is_fixed, number, rows, levels.back());
     draft = std::move(coarse);
     stiffness = std::move(next);

@@ -139,7 +139,8 @@ TEST(SheetBendingInAWorld, AFlatSheetFallsAsAStoneDoes) {
   const double fallen = gravity_of_tests * 0.5 * 0.5 / 2;
   for (const Vec3f& p : world.object(world.objects().front()).positions()) EXPECT_NEAR(double(p.y), -fallen, 0.02 * fallen);
   float least = 1e9f, most = -1e9f;
-  for (const Vec3f& p : world.object(world.objects().front()).positions()) least = std::min(least, p.y), most = std::max(most, p.y);
+  for (const Vec3f& p : world.object(world.objects().front()).positions())
+    least = std::min(least, p.y), most = std::max(most, p.y);
   EXPECT_LT(most - least, 1e-5f) << "it stays flat";
 }
 

@@ -85,8 +85,7 @@ void interpolate(const SheetLevel& level, const SheetLevelScratch& coarse, int b
   for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
     Four x = load(own.x[at(i)]);
     if (own.inverse[at(i)] != 0)
-      for (std::size_t p = 0; p < 3; ++p)
-        x += load(coarse.x[at(level.parent[at(i)][p])]) * level.share[at(i)][p];
+      for (std::size_t p = 0; p < 3; ++p) x += load(coarse.x[at(level.parent[at(i)][p])]) * level.share[at(i)][p];
     store(x, own.x[at(i)]);
     store(x, own.before[at(i)]);
   }

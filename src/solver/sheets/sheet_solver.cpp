@@ -57,7 +57,10 @@ void begin_sheet(Substep& s, int object, float seconds, SheetScratch& scratch) {
 class HeldParticles {
  public:
   HeldParticles(Substep& s, int object, SheetScratch& scratch)
-      : s_(s), first_(s.model.first[at(object)]), scratch_(scratch), rows_(s.model.objects[at(object)].sheet.levels.front().rows) {}
+      : s_(s),
+        first_(s.model.first[at(object)]),
+        scratch_(scratch),
+        rows_(s.model.objects[at(object)].sheet.levels.front().rows) {}
 
   bool find(const std::vector<Contact>& contacts) {
     bool any = false;

@@ -32,15 +32,15 @@ struct SheetLevelScratch {
 
 /// What the bending of one object needs in a substep. Nothing of it lasts for the next frame.
 struct SheetScratch {
-  float h2 = 0;                            ///< what K is multiplied by [s^2]
-  bool is_loaded = false;                  ///< true: some row is heavy
-  std::vector<SheetLevelScratch> levels;   ///< one for each level
-  Records moved, corrections;              ///< u of each row, and P^-1 r [m]
-  Records direction, product;              ///< of conjugate gradients
-  std::vector<double> sums;                ///< of blocks
-  std::vector<double> factor;              ///< Cholesky factor of the last level, by rows
-  std::vector<char> holds;                 ///< of each piece: 1 if it has a fixed or heavy particle
-  std::vector<RigidSums> momentum;         ///< of each piece
+  float h2 = 0;                           ///< what K is multiplied by [s^2]
+  bool is_loaded = false;                 ///< true: some row is heavy
+  std::vector<SheetLevelScratch> levels;  ///< one for each level
+  Records moved, corrections;             ///< u of each row, and P^-1 r [m]
+  Records direction, product;             ///< of conjugate gradients
+  std::vector<double> sums;               ///< of blocks
+  std::vector<double> factor;             ///< Cholesky factor of the last level, by rows
+  std::vector<char> holds;                ///< of each piece: 1 if it has a fixed or heavy particle
+  std::vector<RigidSums> momentum;        ///< of each piece
 };
 
 /// Bends all sheets of the group.
