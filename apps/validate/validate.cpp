@@ -14,9 +14,9 @@ namespace {
 
 using AddRows = void (*)(Result&, bool);
 
-const AddRows adders[] = {spring_rows,      chain_rows,       momentum_rows,  pendulum_rows, contact_rows, body_rows,
-                          mechanism_rows,   collision_rows,   stiffness_rows, balloon_rows,  drape_rows,   steadiness_rows,
-                          convergence_rows, heavy_chain_rows, sweep_rows,     liquid_rows};
+const AddRows adders[] = {spring_rows,     chain_rows,       momentum_rows,    pendulum_rows, contact_rows, body_rows,
+                          mechanism_rows,  collision_rows,   stiffness_rows,   bending_rows,  balloon_rows, drape_rows,
+                          steadiness_rows, convergence_rows, heavy_chain_rows, sweep_rows,    liquid_rows};
 
 const char* word(Comparison comparison) {
   switch (comparison) {
@@ -59,6 +59,7 @@ const std::vector<Group>& groups() {
       {"mechanisms", "bodies in joints: compound pendulum, top, four-bar linkage"},
       {"collision", "pairs, continuous tests, surfaces on surfaces, with the filter and without"},
       {"stiffness", "a rest shape that is independent of iterations, time step and mesh"},
+      {"bending", "cantilevers of the fabrics against the beam's formula"},
       {"balloon", "volume against pressure"},
       {"drape", "the drape coefficient of the fabrics by Cusick's test"},
       {"steadiness", "the inextensible cloth hung by two corners stays bounded"},
