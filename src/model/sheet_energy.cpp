@@ -1,8 +1,7 @@
 // The bending energy of a flat sheet as a matrix (model/sheet_bending.h).
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
+#include <span>
 
 #include "constraints/registry.h"
 #include "core/at.h"
@@ -73,23 +72,32 @@ std::vector<double> rigidities(const Object& object) {
 /// The triangles of a sheet and what is around each vertex, by the object's indices.
 struct SheetMesh {
   const Object& object;
-  std::vector<double> areas;                            ///< of each triangle [m^2]
-  std::vector<std::vector<int>> star;                   ///< of each vertex, its triangles
-  std::map<std::array<int, 2>, std::vector<int>> tips;  ///< of each edge, the corners opposite to it
+  std::vector<double> areas;               ///< of each triangle [m^2]
+  std::vector<std::vector<int>> star;      ///< of each vertex, its triangles
+  std::vector<std::array<int, 3>> across;  ///< of each edge, by the smaller end: its ends, and a corner opposite to it
 
   explicit SheetMesh(const Object& of) : object(of), star(of.positions.size()) {
     areas.reserve(of.triangles.size());
+    across.reserve(3 * of.triangles.size());
     for (std::size_t t = 0; t < of.triangles.size(); ++t) {
       const auto& [a, b, c] = of.triangles[t];
       areas.push_back(length(cross(rest_of(of, b) - rest_of(of, a), rest_of(of, c) - rest_of(of, a))) / 2);
       for (const int v : of.triangles[t]) star[at(v)].push_back(static_cast<int>(t));
-      tips[edge(a, b)].push_back(c);
-      tips[edge(b, c)].push_back(a);
-      tips[edge(c, a)].push_back(b);
+      across.push_back({std::min(a, b), std::max(a, b), c});
+      across.push_back({std::min(b, c), std::max(b, c), a});
+      across.push_back({std::min(c, a), std::max(c, a), b});
     }
+    std::sort(across.begin(), across.end());
   }
 
-  static std::array<int, 2> edge(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+  /// The corners opposite to an edge.
+  std::span<const std::array<int, 3>> opposite(int a, int b) const {
+    const std::array<int, 2> edge{std::min(a, b), std::max(a, b)};
+    const auto first = std::lower_bound(across.begin(), across.end(), std::array<int, 3>{edge[0], edge[1], -1});
+    auto last = first;
+    while (last != across.end() && (*last)[0] == edge[0] && (*last)[1] == edge[1]) ++last;
+    return {first, last};
+  }
 
   std::vector<int> neighbours(int vertex) const {
     std::vector<int> out;
@@ -116,7 +124,7 @@ struct SheetMesh {
     return size > 0 ? sum * (1 / size) : Vec3d{0, 1, 0};
   }
   bool is_inner(int vertex, const std::vector<int>& ring) const {
-    return std::all_of(ring.begin(), ring.end(), [&](int v) { return tips.at(edge(vertex, v)).size() == 2; });
+    return std::all_of(ring.begin(), ring.end(), [&](int v) { return opposite(vertex, v).size() == 2; });
   }
 };
 
@@ -132,11 +140,8 @@ std::vector<int> wide_stencil(const SheetMesh& mesh, const std::vector<std::vect
   std::vector<int> out = rings[at(vertex)];
   for (const int t : mesh.star[at(vertex)]) {
     const auto& [a, b, c] = mesh.object.triangles[at(t)];
-    const std::array<int, 2> across = vertex == a   ? SheetMesh::edge(b, c)
-                                      : vertex == b ? SheetMesh::edge(c, a)
-                                                    : SheetMesh::edge(a, b);
-    const std::vector<int>& tips = mesh.tips.at(across);
-    out.insert(out.end(), tips.begin(), tips.end());
+    const auto tips = vertex == a ? mesh.opposite(b, c) : vertex == b ? mesh.opposite(c, a) : mesh.opposite(a, b);
+    for (const std::array<int, 3>& edge : tips) out.push_back(edge[2]);
   }
   sort_unique(out);
   if (out.size() <= least)

@@ -323,13 +323,15 @@ void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, 
   const SheetLevel& level = sheet.levels.front();
   SheetLevelScratch& own = scratch.levels.front();
   const Four gravity{forces.gravity.x, forces.gravity.y, forces.gravity.z, 0};
+  const Vec3f by = forces.lead();
+  const Four lead{by.x, by.y, by.z, 0};
   const Four load_of_all = gravity * (forces.substeps * forces.substeps);
   const float all = forces.substeps * forces.h, undamped = all * all / scratch.h2;  // damping resists motion alone
   loop(level.blocks(), [&](int block) {
     for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
       const bool falls = forces.positions[i].w > 0;
       const Four d = load(forces.displacements[i]);
-      store(falls ? d - gravity : d, scratch.moved[at(i)]);
+      store(falls ? d - gravity - lead : d, scratch.moved[at(i)]);
     }
   });
   loop(level.blocks(), [&](int block) {

@@ -18,7 +18,11 @@ struct SheetForces {
   const Record *positions = nullptr, *displacements = nullptr;
   Vec3f gravity{};     ///< what it moves in a substep, h^2 g [m]
   float h = 0;         ///< length of a substep [s]
-  float substeps = 1;  ///< that the bending is for
+  float substeps = 1;  ///< n: that the bending is for
+
+  /// What u is less than the displacement without gravity. At rest a particle begins n substeps with the velocity h g (n - 1) / 2 and
+  /// goes up and down by h^2 g n^2 / 8; forces are those of its mean position.
+  Vec3f lead() const { return gravity * ((substeps - 1) / 2 + (substeps - 1 / substeps) / 12); }
 };
 
 /// Masses of all levels; nothing is heavy.

@@ -163,11 +163,11 @@ void keep_momentum(const SheetBending& sheet, const Record* positions, const Vec
   }
 }
 
-/// d = u + corrections / n - (n - 1) h^2 g, where bending is for n substeps, in each of which gravity acts.
+/// d = u + lead + corrections / n - (n - 1) h^2 g, where bending is for n substeps, in each of which gravity acts.
 void apply(Substep& s, int object, const SheetForces& forces, BlockLoop loop, SheetScratch& scratch) {
   const SheetBending& sheet = s.model.objects[at(object)].sheet;
   const float n = forces.substeps;
-  const Vec3f back = forces.gravity * (n - 1);
+  const Vec3f back = forces.gravity * (n - 1) - forces.lead();
   if (!find_pieces_held(sheet, scratch)) keep_momentum(sheet, forces.positions, forces.gravity * (n * n), scratch);
   Record* displacements = s.work.displacements.data() + s.model.first[at(object)];
   const SheetLevel& level = sheet.levels.front();
