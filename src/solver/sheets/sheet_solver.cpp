@@ -135,32 +135,45 @@ bool find_pieces_held(const SheetBending& sheet, SheetScratch& scratch) {
   return std::all_of(scratch.holds.begin(), scratch.holds.end(), [](char holds) { return holds != 0; });
 }
 
-/// Removes from the corrections of each free piece the rigid motion that they contain, which no force of bending has caused.
+/// Calls body(i) for each row of a piece that nothing holds.
+template <class Body>
+void for_free_rows(const SheetBending& sheet, const SheetScratch& scratch, const Body& body) {
+  for (std::size_t i = 0; i < sheet.piece.size(); ++i)
+    if (sheet.piece[i] >= 0 && scratch.holds[at(sheet.piece[i])] == 0) body(i);
+}
+
+/// What nothing holds falls: gravity passes P by, which would let it fall by P^-1 M g, with ripples.
+void leave_out_gravity(const SheetBending& sheet, const Vec3f& g, SheetScratch& scratch) {
+  SheetLevelScratch& finest = scratch.levels.front();
+  for_free_rows(sheet, scratch, [&](std::size_t i) {
+    Record& r = finest.right[i];
+    const float m = finest.mass[i];
+    r = {r.x - g.x * m, r.y - g.y * m, r.z - g.z * m, r.w};
+  });
+}
+
+/// Removes from the corrections of each free piece the rigid motion that they contain, which no force of bending has caused, and adds gravity.
 void keep_momentum(const SheetBending& sheet, const Record* positions, const Vec3f& gravity, SheetScratch& scratch) {
   const std::vector<float>& mass = scratch.levels.front().mass;
-  const auto is_free = [&](std::size_t i) { return sheet.piece[i] >= 0 && scratch.holds[at(sheet.piece[i])] == 0; };
   const auto place = [&](std::size_t i) {
     const Record &x = positions[i], &o = positions[0];
     return Vec3d{static_cast<double>(x.x - o.x), static_cast<double>(x.y - o.y), static_cast<double>(x.z - o.z)};
   };
   scratch.momentum.assign(at(sheet.pieces), {});
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    if (!is_free(i)) continue;
+  for_free_rows(sheet, scratch, [&](std::size_t i) {
     const Record& c = scratch.corrections[i];
-    const Vec3d correction{static_cast<double>(c.x - gravity.x), static_cast<double>(c.y - gravity.y),
-                           static_cast<double>(c.z - gravity.z)};
+    const Vec3d correction{static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)};
     add_row(place(i), correction, static_cast<double>(mass[i]), scratch.momentum[at(sheet.piece[i])]);
-  }
+  });
   std::vector<RigidStep> steps;
   steps.reserve(scratch.momentum.size());
   for (const RigidSums& sums : scratch.momentum) steps.push_back(rigid_step(sums));
-  for (std::size_t i = 0; i < mass.size(); ++i) {
-    if (!is_free(i)) continue;
+  for_free_rows(sheet, scratch, [&](std::size_t i) {
     const RigidStep& step = steps[at(sheet.piece[i])];
-    const Vec3f rigid = convert<float>(step.translation + cross(step.rotation, place(i)));
+    const Vec3f by = gravity - convert<float>(step.translation + cross(step.rotation, place(i)));
     Record& c = scratch.corrections[i];
-    c = {c.x - rigid.x, c.y - rigid.y, c.z - rigid.z, 0};
-  }
+    c = {c.x + by.x, c.y + by.y, c.z + by.z, 0};
+  });
 }
 
 /// d = u + lead + corrections / n - (n - 1) h^2 g, where bending is for n substeps, in each of which gravity acts.
@@ -168,7 +181,6 @@ void apply(Substep& s, int object, const SheetForces& forces, BlockLoop loop, Sh
   const SheetBending& sheet = s.model.objects[at(object)].sheet;
   const float n = forces.substeps;
   const Vec3f back = forces.gravity * (n - 1) - forces.lead();
-  if (!find_pieces_held(sheet, scratch)) keep_momentum(sheet, forces.positions, forces.gravity * (n * n), scratch);
   Record* displacements = s.work.displacements.data() + s.model.first[at(object)];
   const SheetLevel& level = sheet.levels.front();
   const std::vector<float>& mass = scratch.levels.front().mass;
@@ -196,7 +208,11 @@ void bend(Substep& s, int object, int substeps) {
     spread_load(sheet, scratch);
     factorise(sheet, scratch);
   }
+  const bool is_held = find_pieces_held(sheet, scratch);
+  const Vec3f load = gravity * (forces.substeps * forces.substeps);
+  if (!is_held) leave_out_gravity(sheet, load, scratch);
   solve_sheet(sheet, cycles_for(scratch.h2 * sheet.stiffness), loop, scratch);
+  if (!is_held) keep_momentum(sheet, forces.positions, load, scratch);
   apply(s, object, forces, loop, scratch);
 }
 
