@@ -11,7 +11,7 @@ namespace pliant {
 namespace {
 
 /// How much heavier a particle is for coarse levels that has become a pin.
-constexpr float weight_of_held = 1e4f;
+constexpr float weight_of_pins = 1e4f;
 
 /// A record as four floats: x, y, z, w side by side, in the compiler's own vector type.
 typedef float Four __attribute__((vector_size(16)));
@@ -285,7 +285,7 @@ void set_masses(const SheetBending& sheet, const Record* positions, SheetScratch
     added.assign(rows, 0);
     for (std::size_t i = 0; i < rows; ++i) {
       const bool is_free = positions[i].w > 0;
-      const float now = is_free ? 1 / positions[i].w : weight_of_held * own.mass[i];
+      const float now = is_free ? 1 / positions[i].w : weight_of_pins * own.mass[i];
       added[i] = std::max(now - own.mass[i], 0.f);
       own.mass[i] = is_free ? now : 0;
     }
@@ -293,16 +293,6 @@ void set_masses(const SheetBending& sheet, const Record* positions, SheetScratch
   scratch.moved.resize(scratch.levels.front().mass.size());
   scratch.corrections.resize(scratch.moved.size());
   for (std::size_t l = 0; l < sheet.levels.size(); ++l) set_entries(sheet, l, scratch);
-}
-
-void spread_load(const SheetBending& sheet, SheetScratch& scratch) {
-  std::vector<float> from = scratch.levels.front().heavy, to;
-  for (std::size_t l = 1; l < sheet.levels.size(); ++l) {
-    to.assign(at(sheet.levels[l].rows), 0);
-    lump(sheet.levels[l - 1], from, to);
-    for (std::size_t i = 0; i < to.size(); ++i) scratch.levels[l].heavy[i] += to[i];
-    from.swap(to);
-  }
 }
 
 void factorise(const SheetBending& sheet, SheetScratch& scratch) {
@@ -323,15 +313,13 @@ void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, 
   const SheetLevel& level = sheet.levels.front();
   SheetLevelScratch& own = scratch.levels.front();
   const Four gravity{forces.gravity.x, forces.gravity.y, forces.gravity.z, 0};
-  const Vec3f by = forces.lead();
-  const Four lead{by.x, by.y, by.z, 0};
   const Four load_of_all = gravity * (forces.substeps * forces.substeps);
   const float all = forces.substeps * forces.h, undamped = all * all / scratch.h2;  // damping resists motion alone
   loop(level.blocks(), [&](int block) {
     for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
       const bool falls = forces.positions[i].w > 0;
       const Four d = load(forces.displacements[i]);
-      store(falls ? d - gravity - lead : d, scratch.moved[at(i)]);
+      store(falls ? d - gravity : d, scratch.moved[at(i)]);
     }
   });
   loop(level.blocks(), [&](int block) {

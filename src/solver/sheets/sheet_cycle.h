@@ -18,17 +18,11 @@ struct SheetForces {
   const Record *positions = nullptr, *displacements = nullptr;
   Vec3f gravity{};     ///< what it moves in a substep, h^2 g [m]
   float h = 0;         ///< length of a substep [s]
-  float substeps = 1;  ///< n: that the bending is for
-
-  /// What u is less than the displacement without gravity. At rest a particle begins n substeps with the velocity h g (n - 1) / 2 and
-  /// goes up and down by h^2 g n^2 / 8; forces are those of its mean position.
-  Vec3f lead() const { return gravity * ((substeps - 1) / 2 + (substeps - 1 / substeps) / 12); }
+  float substeps = 1;  ///< that the bending is for
 };
 
-/// Masses of all levels; nothing is heavy.
+/// Masses of all levels.
 void set_masses(const SheetBending& sheet, const Record* positions, SheetScratch& scratch);
-/// Makes coarser levels as heavy as the finest one is.
-void spread_load(const SheetBending& sheet, SheetScratch& scratch);
 /// Inverses of diagonals, and the factor of the last level.
 void factorise(const SheetBending& sheet, SheetScratch& scratch);
 /// u, and r of the finest level.

@@ -6,9 +6,8 @@
 //
 // Gravity is part of r: at rest without stretch and contact d = 0 means f = -M g, whatever P is. So the sag depends on
 // neither cycles nor substeps. P is nowhere softer than M + h^2 K, hence the step never adds energy to bending.
-// Damping of bending adds beta h to the h^2 of K in P and in u. A particle that a collider holds up is heavy in P, else it would be
-// pressed in and pushed out again, and the sheet would bend by that in each substep. A piece that nothing holds keeps its momentum: P conserves it
-// only where its solve is exact.
+// Damping of bending adds beta h to the h^2 of K in P and in u. A piece without pins keeps its momentum: P conserves it only where its
+// solve is exact. Contacts are not in P: they take up in the iterations what the bending presses into them.
 #pragma once
 
 #include <vector>
@@ -23,7 +22,7 @@ struct Substep;
 /// The values of one level in a substep.
 struct SheetLevelScratch {
   std::vector<float> mass;     ///< of each row, 0 if it is fixed [kg]
-  std::vector<float> heavy;    ///< what colliders, and water, add to it; on the finest level colliders alone [kg]
+  std::vector<float> heavy;    ///< of coarse levels: what water and new pins add to it [kg]
   std::vector<float> entries;  ///< of coarse levels: M_ij + h^2 K_ij [kg]
   std::vector<float> beyond;   ///< sum over other blocks of |M_ij + h^2 K_ij| [kg]
   std::vector<float> inverse;  ///< 1 / (M_ii + heavy + h^2 K_ii + beyond); 0 if it is fixed [1/kg]
@@ -33,13 +32,12 @@ struct SheetLevelScratch {
 /// What the bending of one object needs in a substep. Nothing of it lasts for the next frame.
 struct SheetScratch {
   float h2 = 0;                           ///< what K is multiplied by [s^2]
-  bool is_loaded = false;                 ///< true: some row is heavy
   std::vector<SheetLevelScratch> levels;  ///< one for each level
   Records moved, corrections;             ///< u of each row, and P^-1 r [m]
   Records direction, product;             ///< of conjugate gradients
   std::vector<double> sums;               ///< of blocks
   std::vector<double> factor;             ///< Cholesky factor of the last level, by rows
-  std::vector<char> holds;                ///< of each piece: 1 if it has a fixed or heavy particle
+  std::vector<char> is_pinned;            ///< of each piece: 1 if it has a particle of infinite mass
   std::vector<RigidSums> momentum;        ///< of each piece
 };
 
