@@ -67,8 +67,8 @@ int rounds_of_collisions() {
   return wanted != nullptr ? std::max(std::atoi(wanted), 1) : 1;
 }
 
-/// Velocities are rounded in each substep, which changes the sum of m |v| by some 1e-5 in a second. One of some hundred
-/// impacts of balls at a common velocity takes 1 to 3 % of the angular momentum about the centre of mass.
+/// Velocities are rounded in each substep, which changes the sum of m |v| by some 1e-5 in a second. Angular momentum about
+/// the centre of mass is kept to 1 % in all but one of 1 200.
 TEST(FilterMomentum, IsKeptByRandomPairs) {
   int met = 0, filtered = 0;
   const int pairs = 12 * rounds_of_collisions();
@@ -80,8 +80,8 @@ TEST(FilterMomentum, IsKeptByRandomPairs) {
     met += outcome.exchanged > 1e-3 ? 1 : 0;
     filtered += outcome.filtered > 0 ? 1 : 0;
     EXPECT_LT(outcome.linear, 1e-4 + rounded) << collision.what;
-    EXPECT_LT(outcome.angular, 3e-2 + rounded) << collision.what;
-    EXPECT_LT(outcome.energy_after, outcome.energy_before * 1.1) << collision.what;
+    EXPECT_LT(outcome.angular, 2e-2 + rounded) << collision.what;
+    EXPECT_LT(outcome.energy_after, outcome.energy_before * (1 + 1e-5)) << collision.what;
   }
   EXPECT_GE(met, pairs * 9 / 10);
   EXPECT_GE(filtered, pairs / 4);
@@ -101,6 +101,15 @@ TEST(FilterMomentum, AFrameRoundsNoGapsAway) {
   const Collision collision = collide(422);
   EXPECT_GT(collision.outcome.filtered, 0);
   EXPECT_LT(collision.outcome.energy_after, collision.outcome.energy_before) << collision.what;
+}
+
+/// At 14 m/s in common. A ball that comes near free cloth without touching it moves in one frame with it: else it leaves
+/// the frame of the cloth no room.
+TEST(FilterMomentum, WhatComesNearMovesInOneFrame) {
+  const Collision collision = collide(179);
+  EXPECT_GT(collision.outcome.filtered, 0);
+  EXPECT_LT(collision.outcome.angular, 1e-2) << collision.what;
+  EXPECT_LT(collision.outcome.lag, 0.01) << collision.what;
 }
 
 }  // namespace
