@@ -303,6 +303,7 @@ void body_rows(Result& result, bool) {
   body_mesh_rows(result);
   body_impact_rows(result);
   impact_of_body_rows(result);
+  trusted_contact_rows(result);
   rest_rows(result);
 }
 

@@ -44,6 +44,7 @@ void liquid_rows(Result& result, bool slow);
 void viscous_liquid_rows(Result& result);
 void overlapping_liquid_rows(Result& result);
 void impact_of_body_rows(Result& result);
+void trusted_contact_rows(Result& result);
 /// Adds rows of the group `collision` for sets of queries. Throws an Error if the folder has none.
 void query_set_rows(Result& result, const std::string& folder);
 

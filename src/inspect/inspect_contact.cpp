@@ -191,7 +191,8 @@ void doubt_masses(Problems& problems, const Object& object, const Scene& scene) 
                       "are " + words(std::round(mass / light)) + " times those of '" + other.name +
                           "', on which it can press: contact between them yields, and frames may take ten times as long",
                       "let the masses of a particle differ by less than " + words(most_ratio) +
-                          " times, hold the heavy one by pins or a collider, or let masks keep them apart");
+                          " times, hold the heavy one by pins or a collider, or let masks keep them apart; the setting "
+                          "`most_substeps` bounds what frames take");
     return;
   }
 }

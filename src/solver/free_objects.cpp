@@ -97,20 +97,53 @@ float distance(const CompiledObject& object, const PointBounds& box, const Movin
   return distance(box, solid.swept);
 }
 
+/// Calls near(solid, group, room) for the solids of rigid bodies of other groups than that of a tile's free object.
+/// `group`: that of the solid, -1 if something fixed acts on it. `room`: its distance from the surfaces of the particles [m].
+template <class Near>
+void for_solids_of_others(const Substep& s, int task, const FreeBodies& free, const Near& near) {
+  if (s.bodies == nullptr) return;
+  const CompiledObject& object = object_of(s, task);
+  const BodySolids& solids = s.bodies->solids();
+  const int group = free[at(s.model.tiles()[at(task)].object)].group;
+  for (std::size_t i = 0; i < solids.moving().size(); ++i) {
+    const FreeBody& other = free[at(solids.bodies()[at(solids.body_of_solid()[i])].object)];
+    const MovingCollider& solid = solids.moving()[i];
+    if (other.group != group)
+      near(solid, other.group, distance(object, s.work.tiles[at(task)].bounds, solid) - object.thickness);
+  }
+}
+
+template <class Body>
+void for_free_tiles(const Substep& s, const FreeBodies& free, const Body& body) {
+  for_each_tile(s, [&](int task) {
+    if (free[at(s.model.tiles()[at(task)].object)].group >= 0) body(task);
+  });
+}
+
+/// Unites free groups whose rigid bodies are nearer than twice their step. If both have a velocity in common, the body
+/// would leave the frame of the other group no room (FreeBody::room).
+void unite_near(const Substep& s, FreeBodies& free) {
+  Islands groups;
+  groups.reset(static_cast<int>(free.size()));
+  for_free_tiles(s, free, [&](int task) {
+    const int group = free[at(s.model.tiles()[at(task)].object)].group;
+    for_solids_of_others(s, task, free, [&](const MovingCollider& solid, int other, float room) {
+      const float moved = length(solid.after.position - solid.before.position);
+      if (other >= 0 && room < 2 * moved) groups.unite(group, other);
+    });
+  });
+  for (FreeBody& of : free)
+    if (of.group >= 0) of.group = groups.find(of.group);
+}
+
 /// Where a tile has less room to colliders, or to rigid bodies of other groups, than the free object, takes that.
-/// Particles have their thickness.
 void take_room(const Substep& s, int task, FreeBodies& free) {
   const PointBounds& box = s.work.tiles[at(task)].bounds;
   const CompiledObject& object = object_of(s, task);
   FreeBody& of = free[at(s.model.tiles()[at(task)].object)];
-  const auto take = [&](const MovingCollider& solid) {
-    of.room = min(of.room, distance(object, box, solid) - object.thickness);
-  };
-  for (const MovingCollider& collider : s.own->colliders) take(collider);
-  if (s.bodies == nullptr) return;
-  const BodySolids& solids = s.bodies->solids();
-  for (std::size_t i = 0; i < solids.moving().size(); ++i)
-    if (free[at(solids.bodies()[at(solids.body_of_solid()[i])].object)].group != of.group) take(solids.moving()[i]);
+  for (const MovingCollider& collider : s.own->colliders)
+    of.room = min(of.room, distance(object, box, collider) - object.thickness);
+  for_solids_of_others(s, task, free, [&](const MovingCollider&, int, float room) { of.room = min(of.room, room); });
 }
 
 FreeBodies find_free_objects(Substep& s) {
@@ -122,9 +155,8 @@ FreeBodies find_free_objects(Substep& s) {
   FreeBodies free;
   free.reserve(groups.size());
   for (const int group : groups) free.push_back({group, 1e30f});
-  for_each_tile(s, [&](int task) {
-    if (free[at(s.model.tiles()[at(task)].object)].group >= 0) take_room(s, task, free);
-  });
+  unite_near(s, free);
+  for_free_tiles(s, free, [&](int task) { take_room(s, task, free); });
   return free;
 }
 

@@ -454,6 +454,7 @@ TEST(InspectScene, NamesSheetsThatAreFarHeavierThanThoseTheyPressOn) {
   EXPECT_EQ(doubt(1e6f, false), "");
   const std::string text = doubt(1e6f, true);
   EXPECT_NE(text.find("are 1e+06 times those of 'lower'"), std::string::npos) << text;
+  EXPECT_NE(text.find("`most_substeps` bounds what frames take"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -6,6 +6,19 @@
 
 namespace pliant {
 
+namespace {
+
+/// A displacement rounded to multiples of what the largest coordinates of an extent are rounded to, so that positions keep
+/// their differences where it is added to them: else particles that go with a frame at a small gap pass one another.
+Vec3f rounded(const Vec3f& displacement, float extent) {
+  float power = 1.f / (1 << 20);
+  while (power < 1e30f && power < extent + 2 * length(displacement)) power *= 2;
+  const auto round = [base = 1.5f * power](float x) { return (base + x) - base; };
+  return {round(displacement.x), round(displacement.y), round(displacement.z)};
+}
+
+}  // namespace
+
 void FilterFrames::begin() {
   root_.clear();
   are_stopped_ = false;
@@ -35,19 +48,24 @@ void FilterFrames::find_roots() {
     room[root] = std::min(room[root], bodies_[body].room);
     sums[root].moved += cuts_[body].moved;
     sums[root].weight += cuts_[body].weight;
+    sums[root].extent = std::max(sums[root].extent, cuts_[body].extent);
   }
   displacement_.assign(count, {});
   for (std::size_t body = 0; body < count; ++body) {
     const auto root = static_cast<std::size_t>(root_[body]);
     if (is_held[root] != 0) root_[body] = -1;
     if (root != body || is_held[root] != 0 || are_stopped_ || !(sums[root].weight > 0)) continue;
-    const Vec3f mean = convert<float>(sums[root].moved * (1 / sums[root].weight));
+    const Vec3f mean = rounded(convert<float>(sums[root].moved * (1 / sums[root].weight)), sums[root].extent);
     if (length(mean) < room[root]) displacement_[root] = mean;
   }
 }
 
 void FilterFrames::move(const std::vector<Cut>& cuts) {
-  cuts_ = cuts;
+  std::vector<char> has_cuts(cuts.size(), 0);  // [root]
+  for (std::size_t body = 0; body < cuts.size(); ++body)
+    if (root_[body] >= 0 && cuts[body].weight > 0) has_cuts[static_cast<std::size_t>(root_[body])] = 1;
+  for (std::size_t body = 0; body < cuts.size(); ++body)
+    if (root_[body] >= 0 && has_cuts[static_cast<std::size_t>(root_[body])] != 0) cuts_[body] = cuts[body];
   find_roots();
 }
 

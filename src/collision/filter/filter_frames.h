@@ -33,12 +33,15 @@ class FilterFrames {
   /// True if any body is free.
   bool any() const { return !root_.empty(); }
 
-  /// Steps that are cut, of one group: the sum of displacements by their weights [kg m], and of these [kg].
+  /// Steps of a body that are cut: the sum of displacements by their weights [kg m], that of these [kg], and the largest
+  /// coordinate where they start [m].
   struct Cut {
     Vec3d moved{};
     double weight = 0;
+    float extent = 0;
   };
-  /// Lets frames move with what is cut, by roots. A frame that would move farther than there is room stays.
+  /// Lets frames move with what is cut, by bodies. The frame of a group of which nothing is cut moves on as it did, and
+  /// one that would move farther than there is room stays. Displacements are such that positions are not rounded by them.
   void move(const std::vector<Cut>& cuts);
   /// Unites the bodies of these pairs, in any order: all are free if all were, and none if one was not. Returns false
   /// if there are none.
@@ -66,7 +69,7 @@ class FilterFrames {
   FreeBodies bodies_;
   Islands islands_;                  ///< of bodies
   std::vector<int> root_;            ///< [body] the first body of its group; -1: held. Empty: all are held
-  std::vector<Cut> cuts_;            ///< [root]
+  std::vector<Cut> cuts_;            ///< [body]
   std::vector<Vec3f> displacement_;  ///< [root]
   bool are_stopped_ = false;
   Vec3f at_rest_{};

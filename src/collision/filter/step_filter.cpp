@@ -1,6 +1,7 @@
 #include "collision/filter/step_filter.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "math/vector.h"
 
@@ -12,7 +13,7 @@ namespace {
 constexpr int rounds_of_shares = 3;
 /// After these rounds, or where rounding in a frame is too coarse, frames stand still, so that positions which stay are
 /// not rounded.
-constexpr int rounds_of_frames = 8;
+constexpr int rounds_of_frames = 32;
 constexpr int passes_of_fit = 3;
 
 bool moves_in(const Vec3f& frame, const Record& d) { return d.x != frame.x || d.y != frame.y || d.z != frame.z; }
@@ -157,11 +158,12 @@ void StepFilter::fit_frames(const PairParticles& particles, FunctionRef<void()> 
     std::sort(touched_.begin(), touched_.end());  // of each body; sums are by bodies, whose blocks may be in any order
     std::fill(cuts.begin(), cuts.end(), FilterFrames::Cut{});
     for (const std::int32_t v : touched_) {
-      const Record& d = particles.displacements[v];
-      const double weight = (1 - double(shares[v])) / double(particles.positions[v].w);
+      const Record &d = particles.displacements[v], &x = particles.positions[v];
+      const double weight = (1 - double(shares[v])) / double(x.w);
       FilterFrames::Cut& cut = cuts[model_.shared->vertex_body[v]];
       cut.moved += Vec3d{double(d.x), double(d.y), double(d.z)} * weight;
       cut.weight += weight;
+      cut.extent = max(cut.extent, max(max(std::abs(x.x), std::abs(x.y)), std::abs(x.z)));
       shares[v] = 1;
     }
     frames_.move(cuts);
