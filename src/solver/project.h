@@ -55,11 +55,31 @@ struct ConstraintResponse {
   R share = R(1.f);     ///< in general sweeps: share of dlambda that is added to the multiplier
 };
 
+/// Adds to the corrections what damping takes from a strain that only changes its direction. Once in a substep: it keeps no multiplier.
+template <class T, bool general, class R>
+PLIANT_HD void damp_across(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
+                           const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],
+                           const ConstraintResponse<R>& response, const SweepArguments& a,
+                           Vec3<R> (&correction)[slot_count<T>]) {
+  if (!a.first_pass) return;
+  Vec3<R> gradient[slot_count<T>];
+  const R moved = T::strain_across(x, motion, params, gradient), mass = generalised_inverse_mass<T>(gradient, w);
+  const R compliance = min(response.softness * R(a.inverse_h2), R(largest_compliance));
+  const R gamma = min(response.softness * response.damping * R(a.inverse_h), R(largest_compliance));
+  R change = -(gamma * moved) / max(gamma * mass + compliance, R(smallest_denominator));
+  if constexpr (general) change = change * R(a.relaxation);
+  PLIANT_UNROLL
+  for (int slot = 0; slot < slot_count<T>; ++slot)
+    correction[slot] = correction[slot] + gradient[slot] * (w[slot] * change);
+}
+
 /// Computes the corrections of one constraint, or of one in each lane.
 ///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
 ///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18,
 ///   26)
 ///          with a = alpha / h^2 and g = alpha beta / h
+///   Types that measure the length of a strain are damped across it likewise:
+///          dlambda = -g C' / (g sum w |grad C'|^2 + a), C' being strain_across of the motion since the substep's start
 ///   correction_i = w_i grad_i C dlambda
 ///   In a general sweep dlambda is multiplied by the relaxation.
 template <class T, Law law, bool keeps_multiplier, bool general = false, class R>
@@ -90,6 +110,9 @@ PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_coun
   if constexpr (keeps_multiplier) response.multiplier = response.multiplier + (general ? change * response.share : change);
   PLIANT_UNROLL
   for (int slot = 0; slot < slot_count<T>; ++slot) correction[slot] = gradient[slot] * (w[slot] * change);
+  if constexpr (law == Law::damped && requires { T::is_length_of_strain; }) {
+    if constexpr (T::is_length_of_strain) damp_across<T, general>(x, w, params, motion, response, a, correction);
+  }
 }
 
 }  // namespace pliant

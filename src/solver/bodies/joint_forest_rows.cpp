@@ -6,6 +6,7 @@
 #include "solver/bodies/body_math.h"
 #include "solver/bodies/joint_forest_work.h"
 #include "solver/bodies/joint_formulas.h"
+#include "solver/damper.h"
 #include "solver/project.h"
 
 namespace pliant {
@@ -42,6 +43,34 @@ float motion_along(const JointWork& work, const JointForest::Joint& joint, const
     const Vec3f motion = slot % 2 == 1 ? xyz(work.frames.predicted[n]) + xyz(work.frames.corrections[n])
                                        : xyz(work.points.displacements[n]) - xyz(work.points.remainders[n]);
     sum = sum + dot(work.arrays.gradient(pool, row, slot), motion);
+  }
+  return sum;
+}
+
+/// The same at the velocities of the substep's start.
+float coast_along(const JointWork& work, const JointForest::Joint& joint, const Pool& pool, int row) {
+  float sum = 0;
+  for (int slot = 0; slot < 4; ++slot) {
+    const std::int32_t n = joint.slots[static_cast<std::size_t>(slot)];
+    const Vec3f motion = slot % 2 == 1 ? xyz(work.frames.predicted[n]) : coast_of(work.points, n);
+    sum = sum + dot(work.arrays.gradient(pool, row, slot), motion);
+  }
+  return sum;
+}
+
+/// J M^-1 J^T of a row of a joint.
+float inverse_mass_of(const JointWork& work, const JointForest::Joint& joint, const Pool& pool, int row) {
+  float sum = 0;
+  for (int slot = 0; slot < 4; ++slot) {
+    const std::int32_t n = joint.slots[static_cast<std::size_t>(slot)];
+    const Vec3f g = work.arrays.gradient(pool, row, slot);
+    if (slot % 2 == 0) {
+      sum = sum + work.points.positions[n].w * length_squared(g);
+      continue;
+    }
+    const Vec3f own = rotate(conjugate(quaternion(work.frames.orientations[n])), g),
+                w = xyz(work.frames.inverse_inertias[n]);
+    sum = sum + (w.x * own.x * own.x + w.y * own.y * own.y + w.z * own.z * own.z);
   }
   return sum;
 }
@@ -101,9 +130,16 @@ void fill_part(JointWork& work, std::size_t j, const JointForest::Part& part, bo
     rows.of_b[row] = {work.arrays.gradient(pool, r, 2), work.arrays.gradient(pool, r, 3)};
     const bool needs_motion = type.acts_on_motion || gamma > 0;
     const float motion = needs_motion ? motion_along(work, joint, pool, r) : 0;
-    const float error = type.acts_on_motion ? motion - work.bounds[3 * r + 2] * work.points.h : c[r];
-    rows.value[row] = (error + alpha * before + gamma * motion) / (1 + gamma);
-    rows.compliance[row] = alpha / (1 + gamma);
+    if (type.acts_on_motion) {
+      const float coast = alpha > 0 ? coast_along(work, joint, pool, r) : 0,
+                  mass = alpha > 0 ? inverse_mass_of(work, joint, pool, r) : 0;
+      const DampedRow damped = damped_row(alpha, mass, work.bounds[3 * r + 2] * work.points.h, coast);
+      rows.value[row] = motion - damped.target + damped.compliance * before;
+      rows.compliance[row] = damped.compliance;
+    } else {
+      rows.value[row] = (c[r] + alpha * before + gamma * motion) / (1 + gamma);
+      rows.compliance[row] = alpha / (1 + gamma);
+    }
     if (type.evaluate_bounded != nullptr) add_bounded(work, j, row, r, before, rows);
   }
 }
