@@ -23,7 +23,8 @@ struct SweepArguments {
   const Record* velocities = nullptr;  ///< at the substep's start, without `gravity`
   Vec3f gravity{};                     ///< this frame's gravity that the velocities of finite masses lack [m/s]
   float h = 0, inverse_h = 0, inverse_h2 = 0;
-  bool first_pass = true;  ///< true in the first pass of a substep, in which multipliers start at zero
+  bool keeps_energy = false;  ///< Settings::Integrator::energy
+  bool first_pass = true;     ///< true in the first pass of a substep, in which multipliers start at zero
 
   // For sweep_general only:
   float relaxation = 1;                  ///< factor omega of every multiplier change

@@ -94,19 +94,35 @@ float along(const Pool& pool, const Work& work, int row, const Vec3f (&motion)[m
 }
 float motion_along(const Pool& pool, const Work& work, int row) { return along(pool, work, row, work.motion); }
 
+/// How a constraint of this compliance over h^2 takes the mean of forces: equally in all rows, so that the matrix is symmetric.
+energy_law::Shares<float> mean_of(const Pool& pool, const Work& work, const SweepArguments& a, float compliance) {
+  if (!a.keeps_energy || pool.law == Law::pbd) return {0, 0};
+  const bool is_bounded = constraint_type(pool.type).evaluate_bounded != nullptr;
+  float mass = 0;
+  for (int i = 0; i < pool.components; ++i) {
+    if (is_bounded && !acts_both_ways(work.bounds[3 * i], work.bounds[3 * i + 1])) return {0, 0};
+    mass = max(mass, coupling(pool, work, i, i));
+  }
+  return energy_law::shares_of(compliance, mass, energy_law::most_of_sweep);
+}
+
 /// Computes the matrix and the right-hand side for the law of the constraint's pool.
 void assemble(const ConstraintPlace& at, const float* multipliers, const SweepArguments& a, Work& work) {
   const Pool& pool = at.pool;
   const auto [compliance, gamma] = yielding_of(at, a);
+  const auto mean = mean_of(pool, work, a, compliance);
   for (int i = 0; i < pool.components; ++i) {
     float& rhs = work.change[i];
     rhs = pool.law == Law::pbd ? -(at.value(pool.fields) * work.arrays.c[i]) : -work.arrays.c[i];
     if (multipliers != nullptr && !a.first_pass) rhs = rhs - compliance * multipliers[i * batch_width];
     if (pool.law == Law::damped) rhs = rhs - gamma * motion_along(pool, work, i);
+    if (mean.motion > 0)
+      rhs = rhs + (mean.motion * motion_along(pool, work, i) + mean.coast * along(pool, work, i, work.coast));
     for (int j = 0; j <= i; ++j) {
       const float mass = coupling(pool, work, i, j);
       work.matrix[i][j] = i == j ? mass + compliance : mass;
       if (pool.law == Law::damped) work.matrix[i][j] = work.matrix[i][j] + gamma * mass;
+      if (mean.motion > 0) work.matrix[i][j] = work.matrix[i][j] - mean.motion * mass;
     }
   }
 }

@@ -47,7 +47,8 @@ TEST(Damping, OfAHingeAndASliderIsTheirRateOfDecay) {
   }
 }
 
-/// The bearing of a body that turns about another point than its centre gives it a larger inertia than the hinge alone knows of.
+/// The bearing of a body that turns about another point than its centre gives it a larger inertia than the hinge alone
+/// knows of.
 TEST(Damping, OfAHingeBesideTheCentreIsOfSecondOrder) {
   for (const int substeps : few_some_many) {
     Mechanism m;
@@ -72,7 +73,8 @@ TEST(Damping, OfASliderGivesItsTerminalSpeedAtFewSubsteps) {
   }
 }
 
-/// The spring's own damping and that of implicit Euler, (1 + (omega h)^2 + b h / m)^(-1/2) of the amplitude in a substep.
+/// The spring's own damping and that of implicit Euler, (1 + (omega h)^2 + b h / m)^(-1/2) of the amplitude in a
+/// substep.
 TEST(Damping, OfASpringIsItsTimeBesideThatOfImplicitEuler) {
   for (const int substeps : few_some_many) {
     constexpr double mass = 2, stiffness = 200, damping = 8;
@@ -105,7 +107,8 @@ double damped_share(const Mode& mode, double tau, int substeps) {
   return std::log(trace.amplitude(0, omega) / trace.amplitude(60, omega)) / (omega * omega * tau / 2);
 }
 
-/// A solid's damping resists all rates of strain, also those that do not change the strain's size: these kept a quarter of the motion.
+/// A solid's damping resists all rates of strain, also those that do not change the strain's size: these kept a
+/// quarter of the motion.
 TEST(Damping, OfASolidIsItsTime) {
   for (const int substeps : {20, 40, 80}) {
     EXPECT_NEAR(damped_share(bar_mode(1e5, 0, 0.02, false), 0.02, substeps), 1, 0.08) << substeps;

@@ -16,6 +16,8 @@
 
 namespace pliant::testing_support {
 
+using Integrator = Settings::Integrator;
+
 /// A scene of one object at rest that has the velocity of a mode [m/s]; `frequency` is about that of the mode [rad/s].
 struct Mode {
   Scene scene;
@@ -208,5 +210,18 @@ struct ModeTrace {
     velocity.push_back(v / squares);
   }
 };
+
+/// The share of the amplitude that is left between the first period and the one that begins ten periods later.
+inline double kept_after_ten(const Mode& mode, Integrator integrator, int substeps = 0) {
+  Settings settings = mode.scene.settings;
+  settings.integrator = integrator;
+  settings.substeps = substeps;
+  const double period = 2 * 3.14159265358979324 / mode.frequency;
+  const ModeTrace trace(mode, settings, 13 * period);
+  EXPECT_TRUE(trace.ok);
+  const double omega = trace.frequency(mode.frequency);
+  return trace.amplitude(static_cast<std::size_t>(10 * 2 * 3.14159265358979324 / omega * 60), omega) /
+         trace.amplitude(0, omega);
+}
 
 }  // namespace pliant::testing_support

@@ -8,6 +8,7 @@
 #include "solver/bodies/joint_formulas.h"
 #include "solver/damper.h"
 #include "solver/project.h"
+#include "solver/stencil.h"
 
 namespace pliant {
 
@@ -75,6 +76,14 @@ float inverse_mass_of(const JointWork& work, const JointForest::Joint& joint, co
   return sum;
 }
 
+/// How a row with compliance over h^2 `alpha` takes the mean of forces.
+energy_law::Shares<float> mean_of(const JointWork& work, const JointForest::Joint& joint, const Pool& pool, int row,
+                                  float alpha) {
+  if (!work.points.keeps_energy || !(alpha > 0)) return {0, 0};
+  const float moves = length_squared(work.arrays.gradient(pool, row, 2));
+  return energy_law::shares_of(alpha, inverse_mass_of(work, joint, pool, row), energy_law::most_of_tree(moves));
+}
+
 /// Adds a row to the bounded ones. A stop that is not reached starts at its bound, so that it does not act.
 void add_bounded(JointWork& work, std::size_t j, std::size_t row, int of_part, float before, const JointRows& rows) {
   const float h2 = work.points.h * work.points.h;
@@ -128,7 +137,10 @@ void fill_part(JointWork& work, std::size_t j, const JointForest::Part& part, bo
     const float before = multipliers != nullptr ? multipliers[r * batch_width] : 0;
     rows.of_a[row] = {work.arrays.gradient(pool, r, 0), work.arrays.gradient(pool, r, 1)};
     rows.of_b[row] = {work.arrays.gradient(pool, r, 2), work.arrays.gradient(pool, r, 3)};
-    const bool needs_motion = type.acts_on_motion || gamma > 0;
+    const bool is_elastic = !type.acts_on_motion && (type.evaluate_bounded == nullptr ||
+                                                     acts_both_ways(work.bounds[3 * r], work.bounds[3 * r + 1]));
+    const auto mean = mean_of(work, joint, pool, r, is_elastic ? alpha : 0);
+    const bool needs_motion = type.acts_on_motion || gamma > 0 || mean.motion > 0;
     const float motion = needs_motion ? motion_along(work, joint, pool, r) : 0;
     if (type.acts_on_motion) {
       const float coast = alpha > 0 ? coast_along(work, joint, pool, r) : 0,
@@ -137,8 +149,10 @@ void fill_part(JointWork& work, std::size_t j, const JointForest::Part& part, bo
       rows.value[row] = motion - damped.target + damped.compliance * before;
       rows.compliance[row] = damped.compliance;
     } else {
-      rows.value[row] = (c[r] + alpha * before + gamma * motion) / (1 + gamma);
-      rows.compliance[row] = alpha / (1 + gamma);
+      const float past = mean.motion > 0 ? mean.motion * motion + mean.coast * coast_along(work, joint, pool, r) : 0;
+      const float now = (1 + gamma) - mean.motion;
+      rows.value[row] = ((c[r] + alpha * before + gamma * motion) - past) / now;
+      rows.compliance[row] = alpha / now;
     }
     if (type.evaluate_bounded != nullptr) add_bounded(work, j, row, r, before, rows);
   }
@@ -220,8 +234,13 @@ bool is_displaced(const JointWork& work, const JointForest::Joint& joint, const 
   const float* multipliers = multipliers_of(work, at);
   for (int r = 0; r < at.pool.components; ++r) {
     const float squared = length_squared(work.arrays.gradient(at.pool, r, 2));
-    const float motion = gamma > 0 ? gamma * motion_along(work, joint, at.pool, r) : 0;
-    const float error = work.arrays.c[r] + (multipliers == nullptr ? 0 : alpha * multipliers[r * batch_width]) + motion;
+    const auto mean = mean_of(work, joint, at.pool, r, alpha);
+    const float damped = gamma > 0 ? gamma * motion_along(work, joint, at.pool, r) : 0;
+    const float past = mean.motion > 0 ? mean.motion * motion_along(work, joint, at.pool, r) +
+                                             mean.coast * coast_along(work, joint, at.pool, r)
+                                       : 0;
+    const float error =
+        (work.arrays.c[r] + (multipliers == nullptr ? 0 : alpha * multipliers[r * batch_width]) + damped) - past;
     if (error * error > most * most * squared && squared > 0) return true;
   }
   return false;
