@@ -311,11 +311,12 @@ void fields(A& a, Is<SleepOptions> auto& of) {
 template <class A>
 void fields(A& a, Is<Settings> auto& of) {
   auto& [substeps, iterations, tolerance, threads, sweep, sweep_options, contact_filter, most_substeps, least_substeps,
-         initial_intersections, untangling_speed, sleep, separate_phases, measure, record_residuals, record_multipliers,
-         isa] = of;
+         initial_intersections, integrator, untangling_speed, sleep, separate_phases, measure, record_residuals,
+         record_multipliers, isa] = of;
   a(substeps, iterations, tolerance);
   a.aside(threads);
-  a(sweep, sweep_options, contact_filter, most_substeps, least_substeps, initial_intersections, untangling_speed, sleep);
+  a(sweep, sweep_options, contact_filter, most_substeps, least_substeps, initial_intersections, integrator,
+    untangling_speed, sleep);
   a.aside(separate_phases, measure, record_residuals, record_multipliers, isa);
 }
 /// Force fields are functions, so only their number is stored, by the caller of `fields`. Settings have a block of
@@ -336,6 +337,7 @@ constexpr int last_value(MeshCollider::As) { return static_cast<int>(MeshCollide
 constexpr int last_value(Sweep) { return static_cast<int>(Sweep::tethered_chains); }
 constexpr int last_value(SweepOptions::Sharing) { return static_cast<int>(SweepOptions::Sharing::average); }
 constexpr int last_value(SweepOptions::Acceleration) { return static_cast<int>(SweepOptions::Acceleration::chebyshev); }
+constexpr int last_value(Settings::Integrator) { return static_cast<int>(Settings::Integrator::energy); }
 constexpr int last_value(Settings::Intersections) { return static_cast<int>(Settings::Intersections::refuse); }
 
 }  // namespace pliant::save_file

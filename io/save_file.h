@@ -16,7 +16,7 @@
 
 namespace pliant::save_file {
 
-inline constexpr std::uint32_t version = 22;
+inline constexpr std::uint32_t version = 23;
 
 /// What a file contains.
 enum class Content : std::uint32_t { state = 1, world = 2 };

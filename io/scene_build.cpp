@@ -57,7 +57,9 @@ Settings settings_of(const JsonDocument& document, const JsonValue& at) {
   set(at, "most_substeps", settings.most_substeps);
   set(at, "least_substeps", settings.least_substeps);
   set(at, "untangling_speed", settings.untangling_speed);
-  std::string intersections;
+  std::string integrator, intersections;
+  set(at, "integrator", integrator);
+  if (integrator == "energy") settings.integrator = Settings::Integrator::energy;
   set(at, "initial_intersections", intersections);
   if (intersections == "untangle") settings.initial_intersections = Settings::Intersections::untangle;
   if (intersections == "refuse") settings.initial_intersections = Settings::Intersections::refuse;

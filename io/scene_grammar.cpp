@@ -328,6 +328,10 @@ const Record& settings_record() {
              "collider moves fast (docs/guide/contact.md)."),
        field("least_substeps", integer(0, 10000), "12; 8 for cloth that only hangs by `tethered_chains`",
              "Minimum number of substeps of a frame where they follow the State, rounded up to a multiple of four."),
+       field("integrator", choice({"pbd", "energy"}), "pbd",
+             "How elastic constraints move matter: `pbd` by their forces at the substep's end, which takes (omega h)^2 / 2 "
+             "of the amplitude of a mode in a substep; `energy` by a mean of forces of three times, which takes 1/200 of "
+             "that (docs/guide/choosing_settings.md)."),
        field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
              "Treatment of surfaces that intersect at the start: leave them, move them apart, or refuse the scene."),
        field("untangling_speed", positive("m/s", 1000), Settings{}.untangling_speed, "Speed limit of depenetration."),

@@ -31,6 +31,7 @@ void pendulum_rows(Result& result, bool slow);
 void contact_rows(Result& result, bool slow);
 void body_rows(Result& result, bool slow);
 void mechanism_rows(Result& result, bool slow);
+void motion_rows(Result& result, bool slow);
 void collision_rows(Result& result, bool slow);
 void stiffness_rows(Result& result, bool slow);
 void bending_rows(Result& result, bool slow);

@@ -14,9 +14,9 @@ namespace {
 
 using AddRows = void (*)(Result&, bool);
 
-const AddRows adders[] = {spring_rows,     chain_rows,       momentum_rows,    pendulum_rows, contact_rows, body_rows,
-                          mechanism_rows,  collision_rows,   stiffness_rows,   bending_rows,  balloon_rows, drape_rows,
-                          steadiness_rows, convergence_rows, heavy_chain_rows, sweep_rows,    liquid_rows};
+const AddRows adders[] = {spring_rows,    chain_rows,      momentum_rows,    pendulum_rows,    contact_rows, body_rows,
+                          mechanism_rows, motion_rows,     collision_rows,   stiffness_rows,   bending_rows, balloon_rows,
+                          drape_rows,     steadiness_rows, convergence_rows, heavy_chain_rows, sweep_rows,   liquid_rows};
 
 const char* word(Comparison comparison) {
   switch (comparison) {
@@ -57,6 +57,7 @@ const std::vector<Group>& groups() {
       {"contact", "incline, stopping distance, bounce"},
       {"bodies", "rigid bodies: tumbling, friction, impacts, stacks"},
       {"mechanisms", "bodies in joints: compound pendulum, top, four-bar linkage"},
+      {"motion", "amplitude of first modes after ten periods, times of damping"},
       {"collision", "pairs, continuous tests, surfaces on surfaces, with the filter and without"},
       {"stiffness", "a rest shape that is independent of iterations, time step and mesh"},
       {"bending", "cantilevers of the fabrics against the beam's formula"},

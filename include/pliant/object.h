@@ -246,7 +246,7 @@ struct Object {
   float drag = 1.2f;                  ///< drag coefficient of a triangle or capsule perpendicular to the wind [-]
   float lift = 0.8f;                  ///< lift coefficient of a triangle [-]
   Sweep sweep = Sweep::automatic;     ///< how its constraints are projected
-  float damping = 0;                  ///< rate of decay [1/s]: each substep divides velocities by 1 + h damping
+  float damping = 0;                  ///< rate of decay of velocities, linear and angular: exp(-damping t) [1/s]
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< linear RGB, 0..1
 };
 

@@ -32,7 +32,7 @@ struct ElasticSolid {
   float density = 1000;           ///< mass per volume [kg/m^3]
   float youngs_modulus = 5e4f;    ///< stress per strain of a bar that is pulled, > 0 [Pa]
   float poisson_ratio = 0.45f;    ///< how much narrower the bar becomes per strain, 0..0.495 [-]
-  float damping = 0;              ///< stress over elastic modulus and rate of strain, along the strain [s]
+  float damping = 0;              ///< stress over elastic modulus and rate of strain [s]
   float static_friction = 0.6f;   ///< coefficient of friction at rest [-]
   float kinetic_friction = 0.5f;  ///< coefficient of friction while sliding [-]
   std::string source;             ///< where the numbers come from

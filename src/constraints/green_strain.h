@@ -37,6 +37,7 @@ struct GreenStrain : TetrahedronStrain {
 
 struct GreenTrace : TetrahedronStrain {
   static constexpr const char* name = "green_trace";
+  static constexpr bool is_length_of_strain = false;
   static constexpr bool is_arithmetic = true;
 
   template <class R>

@@ -35,6 +35,7 @@ struct ByColumns {
 struct TetrahedronStrain {
   using slots = Points<4>;
   static constexpr int rows = 1;
+  static constexpr bool is_length_of_strain = true;  ///< C is in proportion to |E|, whose direction it does not see
 
   template <class R>
   struct Params {
@@ -67,6 +68,31 @@ struct TetrahedronStrain {
     if (limit_of(product(inverse(matrix(start)), to), static_cast<double>(by.most), by_limit)) to = product(to, by_limit);
     set(p, to);
     return true;
+  }
+
+  /// Of the strain that a motion of the corners adds, what is across the present strain: sqrt(2) |E'|, with its gradients at the corners.
+  /// The types of a solid measure |E| alone, so the damping of C would leave a strain that only changes its direction as it is.
+  template <class R>
+  PLIANT_HD static R strain_across(const Vec3<R> (&x)[4], const Vec3<R> (&motion)[4], const Params<R>& p,
+                                   Vec3<R> (&gradient)[4]) {
+    const ByColumns<R> f = deformation(x, p), by = deformation(motion, p);
+    const SymmetricTensor<R> e = green_strain(f);
+    const R half(0.5f);
+    const SymmetricTensor<R> all{dot(f.x, by.x),
+                                 dot(f.y, by.y),
+                                 dot(f.z, by.z),
+                                 (dot(f.x, by.y) + dot(f.y, by.x)) * half,
+                                 (dot(f.x, by.z) + dot(f.z, by.x)) * half,
+                                 (dot(f.y, by.z) + dot(f.z, by.y)) * half};
+    const R both = (e.xx * all.xx + e.yy * all.yy + e.zz * all.zz) + R(2) * (e.xy * all.xy + e.xz * all.xz + e.yz * all.yz);
+    const R along = both / max(e.squares(), R(1e-14f));
+    const SymmetricTensor<R> across{all.xx - e.xx * along, all.yy - e.yy * along, all.zz - e.zz * along,
+                                    all.xy - e.xy * along, all.xz - e.xz * along, all.yz - e.yz * along};
+    const R value = sqrt(R(2) * across.squares());
+    const R scale = R(2) / max(value, R(1e-15f));
+    const ByColumns<R> g = f.times(across);
+    to_corners({g.x * scale, g.y * scale, g.z * scale}, p, gradient);
+    return value;
   }
 
  private:

@@ -20,8 +20,11 @@ struct SweepArguments {
   float* const* multipliers = nullptr;  ///< multipliers of each pool; null if none are stored
   const char* const* skipped =
       nullptr;  ///< for each pool, by lane: 1 if the stencil driver leaves a constraint out; null: none
+  const Record* velocities = nullptr;  ///< at the substep's start, without `gravity`
+  Vec3f gravity{};                     ///< this frame's gravity that the velocities of finite masses lack [m/s]
   float h = 0, inverse_h = 0, inverse_h2 = 0;
-  bool first_pass = true;  ///< true in the first pass of a substep, in which multipliers start at zero
+  bool keeps_energy = false;  ///< Settings::Integrator::energy
+  bool first_pass = true;     ///< true in the first pass of a substep, in which multipliers start at zero
 
   // For sweep_general only:
   float relaxation = 1;                  ///< factor omega of every multiplier change
@@ -29,6 +32,13 @@ struct SweepArguments {
   const float* const* shares =
       nullptr;  ///< for each pool: the share of a change that is added to the multiplier; null: the whole change
 };
+
+/// The displacement of a particle in a substep at the velocity of its start [m].
+PLIANT_HD Vec3f coast_of(const SweepArguments& a, std::int32_t particle) {
+  const Record& v = a.velocities[particle];
+  const Vec3f gravity = a.positions[particle].w > 0 ? a.gravity : Vec3f{0, 0, 0};
+  return {(v.x + gravity.x) * a.h, (v.y + gravity.y) * a.h, (v.z + gravity.z) * a.h};
+}
 
 /// The data of one object's frames in the current substep. Pointers are to its first frame.
 struct FrameArguments {

@@ -5,6 +5,7 @@
 #include "math/scalar.h"
 #include "math/unroll.h"
 #include "model/pool.h"
+#include "solver/energy_law.h"
 #include "solver/kernels.h"
 
 namespace pliant {
@@ -16,7 +17,7 @@ inline constexpr float largest_compliance = 1e30f;
 
 /// Displacement of the stencil along the gradients since the substep's start: grad C . (x - x_start).
 template <class T, class R>
-PLIANT_HD R motion_along(const Vec3<R> (&gradient)[slot_count<T>], const Vec3<R> (&motion)[slot_count<T>]) {
+PLIANT_HD R motion_along(const Vec3<R> (&gradient)[slot_count<T>], const Vec3<R>* motion) {
   R sum = dot(gradient[0], motion[0]);
   PLIANT_UNROLL
   for (int slot = 1; slot < slot_count<T>; ++slot) sum = sum + dot(gradient[slot], motion[slot]);
@@ -48,24 +49,49 @@ PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass
 /// The inputs of a projection besides positions: compliance, damping, multiplier.
 template <class R>
 struct ConstraintResponse {
-  R softness;           ///< compliance alpha, or PBD stiffness k'
-  R damping;            ///< damping coefficient beta
-  R multiplier;         ///< lambda of this substep; updated by project
-  bool is_kept = true;  ///< false: there is no multiplier, and what it would be is not asked
-  R share = R(1.f);     ///< in general sweeps: share of dlambda that is added to the multiplier
+  R softness;             ///< compliance alpha, or PBD stiffness k'
+  R damping;              ///< damping coefficient beta
+  R multiplier;           ///< lambda of this substep; updated by project
+  bool is_kept = true;    ///< false: there is no multiplier, and what it would be is not asked
+  bool is_damped = true;  ///< false: of Law::damped, but without damping
+  R share = R(1.f);       ///< in general sweeps: share of dlambda that is added to the multiplier
 };
+
+/// Adds to the corrections what damping takes from a strain that only changes its direction. Once in a substep, as it keeps
+/// no multiplier.
+template <class T, bool general, class R>
+PLIANT_HD void damp_across(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
+                           const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],
+                           const ConstraintResponse<R>& response, const SweepArguments& a,
+                           Vec3<R> (&correction)[slot_count<T>]) {
+  if (!response.is_damped || !a.first_pass) return;
+  Vec3<R> gradient[slot_count<T>];
+  const R moved = T::strain_across(x, motion, params, gradient), mass = generalised_inverse_mass<T>(gradient, w);
+  const R compliance = min(response.softness * R(a.inverse_h2), R(largest_compliance));
+  const R gamma = min(response.softness * response.damping * R(a.inverse_h), R(largest_compliance));
+  R change = -(gamma * moved) / max(gamma * mass + compliance, R(smallest_denominator));
+  if constexpr (general) change = change * R(a.relaxation);
+  PLIANT_UNROLL
+  for (int slot = 0; slot < slot_count<T>; ++slot)
+    correction[slot] = correction[slot] + gradient[slot] * (w[slot] * change);
+}
 
 /// Computes the corrections of one constraint, or of one in each lane.
 ///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
 ///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18,
 ///   26)
 ///          with a = alpha / h^2 and g = alpha beta / h
+///          With Integrator::energy C is C^ of energy_law.h, and the 1 of (1 + g) is a.
+///   Types that measure the length of a strain are damped across it likewise:
+///          dlambda = -g C' / (g sum w |grad C'|^2 + a), C' being strain_across of the motion since the substep's start
 ///   correction_i = w_i grad_i C dlambda
 ///   In a general sweep dlambda is multiplied by the relaxation.
+/// `coast` has the displacements in a substep at the velocities of its start, with Integrator::energy; else it is null.
 template <class T, Law law, bool keeps_multiplier, bool general = false, class R>
 PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
                        const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],
-                       ConstraintResponse<R>& response, const SweepArguments& a, Vec3<R> (&correction)[slot_count<T>]) {
+                       ConstraintResponse<R>& response, const SweepArguments& a, Vec3<R> (&correction)[slot_count<T>],
+                       const Vec3<R>* coast = nullptr) {
   Vec3<R> gradient[slot_count<T>];
   const R c = T::evaluate(x, params, gradient);
   const R mass = generalised_inverse_mass<T>(gradient, w);
@@ -79,6 +105,12 @@ PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_coun
     if constexpr (keeps_multiplier) {
       if (response.is_kept) numerator = numerator - compliance * response.multiplier;
     }
+    if (coast != nullptr) {  // known at compile time
+      const auto mean = energy_law::shares_of(compliance, mass, R(energy_law::most_of_sweep));
+      numerator =
+          numerator + (mean.motion * motion_along<T>(gradient, motion) + mean.coast * motion_along<T>(gradient, coast));
+      denominator = denominator - mean.motion * mass;
+    }
     if constexpr (law == Law::damped) {
       const R gamma = min(response.softness * response.damping * R(a.inverse_h), R(largest_compliance));
       numerator = numerator - gamma * motion_along<T>(gradient, motion);
@@ -90,6 +122,9 @@ PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_coun
   if constexpr (keeps_multiplier) response.multiplier = response.multiplier + (general ? change * response.share : change);
   PLIANT_UNROLL
   for (int slot = 0; slot < slot_count<T>; ++slot) correction[slot] = gradient[slot] * (w[slot] * change);
+  if constexpr (law == Law::damped && requires { T::is_length_of_strain; }) {
+    if constexpr (T::is_length_of_strain) damp_across<T, general>(x, w, params, motion, response, a, correction);
+  }
 }
 
 }  // namespace pliant

@@ -78,7 +78,7 @@ void update_frames(Substep& s) {
   const FrameArrays arrays = frame_arrays(s);
   std::atomic<bool> are_finite{true};
   for_objects(s, [&](int o) {
-    const float kept = 1 / (1 + s.h * s.model.objects[o].damping);
+    const float kept = velocity_kept(s.h, s.model.objects[o].damping);
     const int first_of_object = s.model.first_frame[o], end = s.model.end_of_frames(o);
     for (int i = first_of_object; i < end; ++i) s.work.frames.corrections[i].w = kept;
     for (const DrivenFrame& driven : s.model.objects[o].bodies.driven)

@@ -26,7 +26,7 @@ Record* correction_of(const Pool& pool, const SweepArguments& a, int pool_number
   return a.corrections[pool_number] + batch * pool.stencil * batch_width + correction_place(lane);
 }
 
-template <class T, Law law, bool keeps_multipliers, bool general>
+template <class T, Law law, bool keeps_multipliers, bool general, bool keeps_energy>
 void project_lane(const Pool& pool, const Place& at, const std::int32_t (&particle)[slot_count<T>], float* multiplier,
                   const SweepArguments& a) {
   const std::int64_t batch = at.batch;
@@ -37,7 +37,7 @@ void project_lane(const Pool& pool, const Place& at, const std::int32_t (&partic
   typename T::template Params<float> params;
   std::memcpy(&params, rest, sizeof params);
 
-  Vec3f x[slot_count<T>], motion[slot_count<T>], correction[slot_count<T>];
+  Vec3f x[slot_count<T>], motion[slot_count<T>], coast[slot_count<T>], correction[slot_count<T>];
   float w[slot_count<T>];
   const Record &origin = a.positions[particle[0]], first = a.displacements[particle[0]];
   for (int slot = 0; slot < slot_count<T>; ++slot) {
@@ -48,12 +48,15 @@ void project_lane(const Pool& pool, const Place& at, const std::int32_t (&partic
                                 ((p.z - origin.z) + d.z) - first.z};
     w[slot] = p.w;
     motion[slot] = {d.x - r.x, d.y - r.y, d.z - r.z};
+    if constexpr (keeps_energy) coast[slot] = coast_of(a, particle[slot]);
   }
   ConstraintResponse<float> response{pool.row(fields, batch)[lane],
-                                     law == Law::damped ? pool.row(fields + 1, batch)[lane] : 0.f,
+                                     law == Law::damped && pool.law == law ? pool.row(fields + 1, batch)[lane] : 0.f,
                                      keeps_multipliers && !a.first_pass ? *multiplier : 0.f};
+  response.is_damped = pool.law == Law::damped;
   if (general && a.shares != nullptr) response.share = a.shares[at.pool][batch * batch_width + lane];
-  project<T, law, keeps_multipliers, general>(x, w, params, motion, response, a, correction);
+  project<T, law, keeps_multipliers, general>(x, w, params, motion, response, a, correction,
+                                              keeps_energy ? coast : nullptr);
   if (keeps_multipliers) *multiplier = response.multiplier;
   Record* aside = general ? correction_of(pool, a, at.pool, batch, lane) : nullptr;
   for (int slot = 0; slot < slot_count<T>; ++slot) {
@@ -66,7 +69,7 @@ void project_lane(const Pool& pool, const Place& at, const std::int32_t (&partic
   }
 }
 
-template <class T, Law law, bool keeps_multipliers, bool general>
+template <class T, Law law, bool keeps_multipliers, bool general, bool keeps_energy = false>
 void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   const std::int32_t* index = pool.indices.data() + segment.index_offset;
   for (int batch = 0; batch < segment.batches; ++batch, index += indices_per_batch(pool, segment)) {
@@ -76,7 +79,8 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
       std::int32_t particle[slot_count<T>];
       for (int slot = 0; slot < slot_count<T>; ++slot) particle[slot] = particle_of(segment, index, slot, lane);
       float* multiplier = keeps_multipliers ? multipliers + number * batch_width + lane : nullptr;
-      project_lane<T, law, keeps_multipliers, general>(pool, {segment.pool, number, lane}, particle, multiplier, a);
+      project_lane<T, law, keeps_multipliers, general, keeps_energy>(pool, {segment.pool, number, lane}, particle,
+                                                                     multiplier, a);
     }
   }
 }
@@ -84,6 +88,10 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
 template <class T, bool general>
 void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   const bool keeps = multipliers != nullptr;
+  if (a.keeps_energy && pool.law != Law::pbd) {  // a compliant pool has no damping
+    return keeps ? sweep_segment<T, Law::damped, true, general, true>(pool, segment, multipliers, a)
+                 : sweep_segment<T, Law::damped, false, general, true>(pool, segment, multipliers, a);
+  }
   switch (pool.law) {
     case Law::compliant:
       return keeps ? sweep_segment<T, Law::compliant, true, general>(pool, segment, multipliers, a)

@@ -5,6 +5,7 @@
 #include "math/record.h"
 #include "solver/bodies/joint_formulas.h"
 #include "solver/bodies/tied_body.h"
+#include "solver/damper.h"
 #include "solver/project.h"
 #include "solver/visit.h"
 
@@ -36,6 +37,7 @@ struct Work {
   StencilArrays<float> arrays;
   SlotMass mass[most_slots];
   Vec3f motion[most_slots];  ///< of each slot since the substep's start: displacement [m] or rotation [rad]
+  Vec3f coast[most_slots];   ///< likewise, by the velocity of the start
   float matrix[most_components][most_components];  ///< A, then its factors: D on the diagonal, L below it
   float change[most_components];                   ///< right-hand side, then dlambda
   float bounds[3 * most_components];               ///< of bounded types, for each row: low, high, speed
@@ -55,6 +57,7 @@ void load(const CompiledObject& object, const SweepArguments& a, const FrameArgu
       mass.orientation = quaternion(q);
       mass.inverse_inertia = xyz(f.inverse_inertias[frame]);
       work.motion[slot] = xyz(f.predicted[frame]) + xyz(f.corrections[frame]);
+      work.coast[slot] = xyz(f.predicted[frame]);
       continue;
     }
     if (origin < 0) origin = n;
@@ -67,6 +70,7 @@ void load(const CompiledObject& object, const SweepArguments& a, const FrameArgu
                            ((p.z - o.z) + d.z) - first.z, 0);
     mass.inverse_mass = p.w;
     work.motion[slot] = {d.x - r.x, d.y - r.y, d.z - r.z};
+    work.coast[slot] = a.velocities == nullptr ? Vec3f{0, 0, 0} : coast_of(a, n);
   }
 }
 
@@ -82,39 +86,61 @@ float coupling(const Pool& pool, const Work& work, int i, int j) {
   return sum;
 }
 
-float motion_along(const Pool& pool, const Work& work, int row) {
-  float sum = dot(work.arrays.gradient(pool, row, 0), work.motion[0]);
-  for (int slot = 1; slot < pool.stencil; ++slot) sum = sum + dot(work.arrays.gradient(pool, row, slot), work.motion[slot]);
+/// A row's gradients times the motion of its slots.
+float along(const Pool& pool, const Work& work, int row, const Vec3f (&motion)[most_slots]) {
+  float sum = dot(work.arrays.gradient(pool, row, 0), motion[0]);
+  for (int slot = 1; slot < pool.stencil; ++slot) sum = sum + dot(work.arrays.gradient(pool, row, slot), motion[slot]);
   return sum;
+}
+float motion_along(const Pool& pool, const Work& work, int row) { return along(pool, work, row, work.motion); }
+
+/// How a constraint of this compliance over h^2 takes the mean of forces: equally in all rows, so that the matrix is symmetric.
+energy_law::Shares<float> mean_of(const Pool& pool, const Work& work, const SweepArguments& a, float compliance) {
+  if (!a.keeps_energy || pool.law == Law::pbd) return {0, 0};
+  const bool is_bounded = constraint_type(pool.type).evaluate_bounded != nullptr;
+  float mass = 0;
+  for (int i = 0; i < pool.components; ++i) {
+    if (is_bounded && !acts_both_ways(work.bounds[3 * i], work.bounds[3 * i + 1])) return {0, 0};
+    mass = max(mass, coupling(pool, work, i, i));
+  }
+  return energy_law::shares_of(compliance, mass, energy_law::most_of_sweep);
 }
 
 /// Computes the matrix and the right-hand side for the law of the constraint's pool.
 void assemble(const ConstraintPlace& at, const float* multipliers, const SweepArguments& a, Work& work) {
   const Pool& pool = at.pool;
   const auto [compliance, gamma] = yielding_of(at, a);
+  const auto mean = mean_of(pool, work, a, compliance);
   for (int i = 0; i < pool.components; ++i) {
     float& rhs = work.change[i];
     rhs = pool.law == Law::pbd ? -(at.value(pool.fields) * work.arrays.c[i]) : -work.arrays.c[i];
     if (multipliers != nullptr && !a.first_pass) rhs = rhs - compliance * multipliers[i * batch_width];
     if (pool.law == Law::damped) rhs = rhs - gamma * motion_along(pool, work, i);
+    if (mean.motion > 0)
+      rhs = rhs + (mean.motion * motion_along(pool, work, i) + mean.coast * along(pool, work, i, work.coast));
     for (int j = 0; j <= i; ++j) {
       const float mass = coupling(pool, work, i, j);
       work.matrix[i][j] = i == j ? mass + compliance : mass;
       if (pool.law == Law::damped) work.matrix[i][j] = work.matrix[i][j] + gamma * mass;
+      if (mean.motion > 0) work.matrix[i][j] = work.matrix[i][j] - mean.motion * mass;
     }
   }
 }
 
 /// For types that act on motion: C becomes the displacement of C since the substep's start less that at the imposed speed.
-/// The compliance is a speed over a force.
+/// The compliance is a speed over a force; with it, the row is a damper.
 void assemble_motion(const ConstraintPlace& at, const float* multipliers, const SweepArguments& a, Work& work) {
   const Pool& pool = at.pool;
   const float compliance = pool.law == Law::pbd ? 0 : min(at.value(pool.fields) * a.inverse_h, largest_compliance);
   for (int i = 0; i < pool.components; ++i) {
-    work.change[i] = work.bounds[3 * i + 2] * a.h - motion_along(pool, work, i);
+    const float mass = coupling(pool, work, i, i);
+    const DampedRow row =
+        damped_row(compliance, mass, work.bounds[3 * i + 2] * a.h, compliance > 0 ? along(pool, work, i, work.coast) : 0);
+    work.change[i] = row.target - motion_along(pool, work, i);
     if (multipliers != nullptr && !a.first_pass)
-      work.change[i] = work.change[i] - compliance * multipliers[i * batch_width];
-    for (int j = 0; j <= i; ++j) work.matrix[i][j] = coupling(pool, work, i, j) + (i == j ? compliance : 0);
+      work.change[i] = work.change[i] - row.compliance * multipliers[i * batch_width];
+    for (int j = 0; j < i; ++j) work.matrix[i][j] = coupling(pool, work, i, j);
+    work.matrix[i][i] = mass + row.compliance;
   }
 }
 

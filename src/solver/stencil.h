@@ -23,6 +23,10 @@ struct Yielding {
 };
 Yielding yielding_of(const ConstraintPlace& at, const SweepArguments& a);
 
+/// True if a row of these bounds acts both ways. With Integrator::energy others, as stops, have the force of the end:
+/// before they are reached, C is no strain.
+inline bool acts_both_ways(float low, float high) { return low < -1e15f && high > 1e15f; }
+
 /// Rotates a frame by a small rotation vector in world axes [rad], and adds it to the frame's corrections.
 void rotate_frame(const Vec3f& theta, Record& orientation, Record& corrections);
 

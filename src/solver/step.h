@@ -31,6 +31,7 @@ struct StepContext {
   std::span<const GroupFrame> groups{};     ///< groups with different numbers of substeps
   OverstretchMeter* meter = nullptr;        ///< fills Report::overstretch if the frame is completed; null: not measured
   SleepOptions sleep{};                     ///< Settings::sleep
+  bool keeps_energy = false;                ///< Settings::integrator is `energy`
   /// The objects of `model`, whose rest data and pressures substeps change; null: none has any that change.
   std::vector<CompiledObject>* changing = nullptr;
 };

@@ -12,6 +12,9 @@ SweepArguments arguments(const Substep& s, int object, bool first_pass) {
   a.positions = s.state.positions.data() + first;
   a.displacements = s.work.displacements.data() + first;
   a.remainders = s.state.remainders.data() + first;
+  a.velocities = s.state.velocities.data() + first;
+  a.gravity = gravity_for(s, s.work.gravity[object].settled);
+  a.keeps_energy = s.context.keeps_energy;
   const bool is_stored = !s.work.multiplier_pointers[object].empty() && (s.is_last() || s.work.stores_in_last[object] == 0);
   a.multipliers = is_stored ? s.work.multiplier_pointers[object].data() : nullptr;
   const auto& skipped = s.work.joints[object].skipped;

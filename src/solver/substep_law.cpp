@@ -105,7 +105,7 @@ void begin_quarter_with(Substep& s, double substeps, double before) {
   s.h = static_cast<float>(s.dt / s.planned);
   for_present(s, [&](int o) {
     // The end of a quarter has put all gravity into the velocities, as the end of a frame does.
-    s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
+    s.work.gravity[o] = {0, static_cast<double>(s.h), 0, velocity_kept(s.h, s.model.objects[o].damping)};
     s.work.last_h[o] = s.h;
     s.state.substeps[o] = static_cast<float>(substeps);
   });

@@ -80,11 +80,13 @@ struct RowPointers {
   const float* at[rows];
   std::int32_t step[rows];
 
+  /// A row that the pool does not have is the last one again.
   PLIANT_HD RowPointers(const Pool& pool, int batch) {
+    const int last = static_cast<int>(pool.row_offset.size()) - 1;
     PLIANT_UNROLL
     for (int row = 0; row < rows; ++row) {
-      at[row] = pool.row(row, batch);
-      step[row] = pool.row_step(row);
+      at[row] = pool.row(std::min(row, last), batch);
+      step[row] = pool.row_step(std::min(row, last));
     }
   }
   PLIANT_HD void next() {
@@ -93,10 +95,22 @@ struct RowPointers {
   }
 };
 
-/// Projects the constraints of one register: `rows` are the batch's parameters, `multiplier` its multipliers.
-template <class T, Law law, bool keeps_multipliers, std::int32_t fixed, int row_count>
-PLIANT_HD void project_register(const RowPointers<row_count>& rows, const SlotIndices<slot_count<T>, fixed>& slots,
-                                float* multiplier, const ValidLanes& valid, const SweepArguments& a) {
+/// The displacements of a slot's particles in a substep at the velocities of its start, as coast_of.
+template <int size, std::int32_t fixed>
+PLIANT_HD Vec3<Wide> load_coast(const SweepArguments& a, const SlotIndices<size, fixed>& slots, int slot, const Wide& w) {
+  const Vec3<Wide> v = from_registers(slots.load(a.velocities, slot)).position;
+  const auto falls = w > Wide(0.f);
+  const Wide zero(0.f), h(a.h);
+  return {(v.x + select(falls, Wide(a.gravity.x), zero)) * h, (v.y + select(falls, Wide(a.gravity.y), zero)) * h,
+          (v.z + select(falls, Wide(a.gravity.z), zero)) * h};
+}
+
+/// Projects the constraints of one register: `rows` are the batch's parameters, `multiplier` its multipliers. `is_damped`: the pool has
+/// dampings.
+template <class T, Law law, bool keeps_multipliers, bool keeps_energy, std::int32_t fixed, int row_count>
+PLIANT_HD void project_register(bool is_damped, const RowPointers<row_count>& rows,
+                                const SlotIndices<slot_count<T>, fixed>& slots, float* multiplier, const ValidLanes& valid,
+                                const SweepArguments& a) {
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   Vec3<Wide> x[slot_count<T>];
   Wide w[slot_count<T>];
@@ -114,13 +128,19 @@ PLIANT_HD void project_register(const RowPointers<row_count>& rows, const SlotIn
   }
   Vec3<Wide> motion[slot_count<T>];
   if constexpr (law == Law::damped) {
-    response.damping = load_wide(rows.at[fields + 1] + slots.lane);
+    response.is_damped = !keeps_energy || is_damped;
+    response.damping = keeps_energy && !is_damped ? Wide(0.f) : load_wide(rows.at[fields + 1] + slots.lane);
     PLIANT_UNROLL
     for (int slot = 0; slot < slot_count<T>; ++slot)
       motion[slot] = from_registers(moved[slot] - slots.load(a.remainders, slot)).position;
   }
+  Vec3<Wide> coast[slot_count<T>];
+  if constexpr (keeps_energy) {
+    PLIANT_UNROLL
+    for (int slot = 0; slot < slot_count<T>; ++slot) coast[slot] = load_coast(a, slots, slot, w[slot]);
+  }
   Vec3<Wide> correction[slot_count<T>];
-  project<T, law, keeps_multipliers>(x, w, params, motion, response, a, correction);
+  project<T, law, keeps_multipliers>(x, w, params, motion, response, a, correction, keeps_energy ? coast : nullptr);
   if constexpr (keeps_multipliers) {
     if (response.is_kept) store_wide(multiplier + slots.lane, response.multiplier);
   }
@@ -129,12 +149,13 @@ PLIANT_HD void project_register(const RowPointers<row_count>& rows, const SlotIn
     slots.store(a.displacements, slot, moved[slot] + to_registers({correction[slot], Wide(0.f)}), valid);
 }
 
-template <class T, Law law, bool keeps_multipliers, std::int32_t fixed>
+template <class T, Law law, bool keeps_multipliers, bool keeps_energy, std::int32_t fixed>
 void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& arguments) {
   const SweepArguments a = arguments;  // a local copy, which no store can alias, so that it stays in registers
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   RowPointers<fields + 1 + (law == Law::damped ? 1 : 0)> rows(pool, segment.first_batch);
   SlotIndices<slot_count<T>, fixed> slots{segment.runs, pool.indices.data() + segment.index_offset};
+  const bool is_damped = pool.law == Law::damped;
   float* multiplier =
       multipliers != nullptr ? multipliers + static_cast<std::int64_t>(segment.first_batch) * batch_width : nullptr;
   // One call for both: a second copy of the projection for the last batch doubles the code for nothing.
@@ -142,11 +163,11 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
   for (int left = segment.batches; left > 0; --left) {
     const ValidLanes valid{segment.last_count, left > 1 || ends_whole};
     if constexpr (registers_per_batch == 1) {
-      project_register<T, law, keeps_multipliers>(rows, slots, multiplier, valid, a);
+      project_register<T, law, keeps_multipliers, keeps_energy>(is_damped, rows, slots, multiplier, valid, a);
     } else {
       PLIANT_KEEP_LOOP
       for (slots.lane = 0; slots.lane < batch_width; slots.lane += wide_width)
-        project_register<T, law, keeps_multipliers>(rows, slots, multiplier, valid, a);
+        project_register<T, law, keeps_multipliers, keeps_energy>(is_damped, rows, slots, multiplier, valid, a);
     }
     slots.index = slots.of(slot_count<T>);
     rows.next();
@@ -155,10 +176,10 @@ void sweep_segment(const Pool& pool, const Segment& segment, float* multipliers,
 }
 
 /// Which slots are contiguous is a template argument where loads and stores take much of the time.
-template <class T, Law law, bool keeps_multipliers>
+template <class T, Law law, bool keeps_multipliers, bool keeps_energy = false>
 void sweep_either(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
   const auto with = [&]<std::int32_t fixed>(std::integral_constant<std::int32_t, fixed>) {
-    sweep_segment<T, law, keeps_multipliers, fixed>(pool, segment, multipliers, a);
+    sweep_segment<T, law, keeps_multipliers, keeps_energy, fixed>(pool, segment, multipliers, a);
   };
   constexpr std::int32_t all = (1 << slot_count<T>)-1;
   if constexpr (largest_grouped_stencil < slot_count<T>) {
@@ -188,6 +209,8 @@ void sweep_law(const Pool& pool, const Segment& segment, float* multipliers, con
 
 template <class T>
 void sweep_type(const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
+  if (a.keeps_energy && pool.law != Law::pbd)  // for both laws, to have less code
+    return sweep_either<T, Law::damped, true, true>(pool, segment, multipliers, a);
   switch (pool.law) {
     case Law::compliant:
       return sweep_law<T, Law::compliant>(pool, segment, multipliers, a);

@@ -8,6 +8,7 @@
 #include "collision/narrow/contact.h"
 #include "collision/narrow/shape_contacts.h"
 #include "collision/surfaces/surface_contact.h"
+#include "math/functions.h"
 #include "model/control.h"
 #include "model/model.h"
 #include "pliant/state.h"
@@ -43,6 +44,11 @@ struct alignas(64) TileScratch {
   RigidSums rigid;                                                    ///< of inflated objects
   DisplacementMomentum noted;                                         ///< before an iteration, less impulses on bodies
 };
+
+/// The share of its velocity that an object with a rate of decay [1/s] keeps in h, exp(-h rate).
+inline float velocity_kept(float h, float rate) {
+  return rate > 0 ? static_cast<float>(exp(-(static_cast<double>(h) * static_cast<double>(rate)))) : 1.f;
+}
 
 /// For how long gravity of this frame has acted on an object's particles, reduced by damping [s].
 struct FrameGravity {

@@ -149,7 +149,8 @@ Report World::step(float dt) {
       {data_->model, data_->state, data_->workspace, data_->executor, data_->kernels, groups.back().substeps,
        data_->settings.iterations, data_->settings.sweep_options, data_->settings.record_residuals, data_->stop,
        data_->settings.separate_phases, static_cast<double>(data_->settings.tolerance), groups, &data_->overstretch.meter(),
-       data_->settings.sleep, changes_in_substeps(data_->model) ? &data_->model.objects : nullptr},
+       data_->settings.sleep, data_->settings.integrator == Settings::Integrator::energy,
+       changes_in_substeps(data_->model) ? &data_->model.objects : nullptr},
       dt, report);
   keep_flowed(*data_);
   forget_overlaps(*data_);

@@ -147,6 +147,7 @@ TEST(Save, BodiesThatSleepGoOnSleeping) {
   const Folder folder;
   Scene scene;
   scene.settings.sleep = {true, 0.03f, 0.05f, 0.25f};
+  scene.settings.integrator = Settings::Integrator::energy;
   scene.colliders.emplace_back();
   const ObjectId id = scene.add(make_body({{Box{}}}, {.name = "box", .position = {0, 0.5f, 0}}));
   World world(scene);
@@ -155,6 +156,7 @@ TEST(Save, BodiesThatSleepGoOnSleeping) {
   save(folder / "world", world, scene);
   LoadedWorld loaded = load_world(folder / "world");
   EXPECT_EQ(loaded.scene.settings.sleep.time, 0.25f);
+  EXPECT_EQ(loaded.scene.settings.integrator, Settings::Integrator::energy);
   EXPECT_EQ(loaded.world.state().rest_times, world.state().rest_times);
   EXPECT_EQ(loaded.world.step(dt).sleeping_bodies, 1);
   world.step(dt);
@@ -365,7 +367,7 @@ TEST(Save, TheReasonIsNamed) {
   const std::string whole = test::read(path);
   std::string changed = whole;
   changed[8] = 2;
-  says(why(changed), "has format version 2, and this Pliant reads version 22; use the Pliant that wrote it");
+  says(why(changed), "has format version 2, and this Pliant reads version 23; use the Pliant that wrote it");
   says(why(""), "is empty");
   says(why("o cloth\nv 0 0 0\n"), "is not a file saved by Pliant");
   says(why(whole.substr(0, 100)),

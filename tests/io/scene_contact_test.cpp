@@ -83,6 +83,7 @@ TEST_F(FullContact, KnowsWhatPairsAre) {
   EXPECT_FALSE(scene.pairs[1].thickness || scene.pairs[1].static_friction);
   EXPECT_EQ(scene.settings.most_substeps, 321);
   EXPECT_EQ(scene.settings.initial_intersections, Settings::Intersections::untangle);
+  EXPECT_EQ(scene.settings.integrator, Settings::Integrator::energy);
   EXPECT_EQ(scene.settings.untangling_speed, 0.25f);
   EXPECT_TRUE(scene.settings.sleep.on);
   EXPECT_EQ(scene.settings.sleep.speed, 0.0625f);

@@ -6,7 +6,9 @@
 #include "solver/bodies/body_math.h"
 #include "solver/bodies/joint_forest_work.h"
 #include "solver/bodies/joint_formulas.h"
+#include "solver/damper.h"
 #include "solver/project.h"
+#include "solver/stencil.h"
 
 namespace pliant {
 
@@ -44,6 +46,42 @@ float motion_along(const JointWork& work, const JointForest::Joint& joint, const
     sum = sum + dot(work.arrays.gradient(pool, row, slot), motion);
   }
   return sum;
+}
+
+/// The same at the velocities of the substep's start.
+float coast_along(const JointWork& work, const JointForest::Joint& joint, const Pool& pool, int row) {
+  float sum = 0;
+  for (int slot = 0; slot < 4; ++slot) {
+    const std::int32_t n = joint.slots[static_cast<std::size_t>(slot)];
+    const Vec3f motion = slot % 2 == 1 ? xyz(work.frames.predicted[n]) : coast_of(work.points, n);
+    sum = sum + dot(work.arrays.gradient(pool, row, slot), motion);
+  }
+  return sum;
+}
+
+/// J M^-1 J^T of a row of a joint.
+float inverse_mass_of(const JointWork& work, const JointForest::Joint& joint, const Pool& pool, int row) {
+  float sum = 0;
+  for (int slot = 0; slot < 4; ++slot) {
+    const std::int32_t n = joint.slots[static_cast<std::size_t>(slot)];
+    const Vec3f g = work.arrays.gradient(pool, row, slot);
+    if (slot % 2 == 0) {
+      sum = sum + work.points.positions[n].w * length_squared(g);
+      continue;
+    }
+    const Vec3f own = rotate(conjugate(quaternion(work.frames.orientations[n])), g),
+                w = xyz(work.frames.inverse_inertias[n]);
+    sum = sum + (w.x * own.x * own.x + w.y * own.y * own.y + w.z * own.z * own.z);
+  }
+  return sum;
+}
+
+/// How a row with compliance over h^2 `alpha` takes the mean of forces.
+energy_law::Shares<float> mean_of(const JointWork& work, const JointForest::Joint& joint, const Pool& pool, int row,
+                                  float alpha) {
+  if (!work.points.keeps_energy || !(alpha > 0)) return {0, 0};
+  const float moves = length_squared(work.arrays.gradient(pool, row, 2));
+  return energy_law::shares_of(alpha, inverse_mass_of(work, joint, pool, row), energy_law::most_of_tree(moves));
 }
 
 /// Adds a row to the bounded ones. A stop that is not reached starts at its bound, so that it does not act.
@@ -99,11 +137,23 @@ void fill_part(JointWork& work, std::size_t j, const JointForest::Part& part, bo
     const float before = multipliers != nullptr ? multipliers[r * batch_width] : 0;
     rows.of_a[row] = {work.arrays.gradient(pool, r, 0), work.arrays.gradient(pool, r, 1)};
     rows.of_b[row] = {work.arrays.gradient(pool, r, 2), work.arrays.gradient(pool, r, 3)};
-    const bool needs_motion = type.acts_on_motion || gamma > 0;
+    const bool is_elastic = !type.acts_on_motion && (type.evaluate_bounded == nullptr ||
+                                                     acts_both_ways(work.bounds[3 * r], work.bounds[3 * r + 1]));
+    const auto mean = mean_of(work, joint, pool, r, is_elastic ? alpha : 0);
+    const bool needs_motion = type.acts_on_motion || gamma > 0 || mean.motion > 0;
     const float motion = needs_motion ? motion_along(work, joint, pool, r) : 0;
-    const float error = type.acts_on_motion ? motion - work.bounds[3 * r + 2] * work.points.h : c[r];
-    rows.value[row] = (error + alpha * before + gamma * motion) / (1 + gamma);
-    rows.compliance[row] = alpha / (1 + gamma);
+    if (type.acts_on_motion) {
+      const float coast = alpha > 0 ? coast_along(work, joint, pool, r) : 0,
+                  mass = alpha > 0 ? inverse_mass_of(work, joint, pool, r) : 0;
+      const DampedRow damped = damped_row(alpha, mass, work.bounds[3 * r + 2] * work.points.h, coast);
+      rows.value[row] = motion - damped.target + damped.compliance * before;
+      rows.compliance[row] = damped.compliance;
+    } else {
+      const float past = mean.motion > 0 ? mean.motion * motion + mean.coast * coast_along(work, joint, pool, r) : 0;
+      const float now = (1 + gamma) - mean.motion;
+      rows.value[row] = ((c[r] + alpha * before + gamma * motion) - past) / now;
+      rows.compliance[row] = alpha / now;
+    }
     if (type.evaluate_bounded != nullptr) add_bounded(work, j, row, r, before, rows);
   }
 }
@@ -184,8 +234,13 @@ bool is_displaced(const JointWork& work, const JointForest::Joint& joint, const 
   const float* multipliers = multipliers_of(work, at);
   for (int r = 0; r < at.pool.components; ++r) {
     const float squared = length_squared(work.arrays.gradient(at.pool, r, 2));
-    const float motion = gamma > 0 ? gamma * motion_along(work, joint, at.pool, r) : 0;
-    const float error = work.arrays.c[r] + (multipliers == nullptr ? 0 : alpha * multipliers[r * batch_width]) + motion;
+    const auto mean = mean_of(work, joint, at.pool, r, alpha);
+    const float damped = gamma > 0 ? gamma * motion_along(work, joint, at.pool, r) : 0;
+    const float past = mean.motion > 0 ? mean.motion * motion_along(work, joint, at.pool, r) +
+                                             mean.coast * coast_along(work, joint, at.pool, r)
+                                       : 0;
+    const float error =
+        (work.arrays.c[r] + (multipliers == nullptr ? 0 : alpha * multipliers[r * batch_width]) + damped) - past;
     if (error * error > most * most * squared && squared > 0) return true;
   }
   return false;

@@ -124,6 +124,53 @@ struct Loops {
                                    : n.vector(v.points.displacements) - n.vector(v.points.remainders);
     }
   }
+  /// The same at the velocities of the substep's start.
+  PLIANT_HD static void coast_of(const View& v, const RodJoint& joint, Vec3<F> (&coast)[4], int l) {
+    const F zero(0.f), h(v.points.h);
+    const Vec3<F> gravity{F(v.points.gravity.x), F(v.points.gravity.y), F(v.points.gravity.z)};
+    for (int slot = 0; slot < 4; ++slot) {
+      const At n = at(joint.slots[slot] + l);
+      if (slot % 2 == 1) {
+        coast[slot] = n.vector(v.frames.predicted);
+        continue;
+      }
+      const auto falls = n.load(v.points.positions).w > zero;
+      const Vec3<F> velocity = n.vector(v.points.velocities);
+      coast[slot] = {(velocity.x + select(falls, gravity.x, zero)) * h, (velocity.y + select(falls, gravity.y, zero)) * h,
+                     (velocity.z + select(falls, gravity.z, zero)) * h};
+    }
+  }
+  /// J M^-1 J^T of a row of a joint.
+  PLIANT_HD static F inverse_mass_of(const View& v, const RodJoint& joint, const Vec3<F>* gradient, int l) {
+    F sum(0.f);
+    for (int slot = 0; slot < 4; ++slot) {
+      const At n = at(joint.slots[slot] + l);
+      if (slot % 2 == 0) {
+        sum = sum + n.load(v.points.positions).w * length_squared(gradient[slot]);
+        continue;
+      }
+      const Vec3<F> own = rotate(conjugate(n.rotation(v.frames.orientations)), gradient[slot]),
+                    w = n.vector(v.frames.inverse_inertias);
+      sum = sum + (w.x * own.x * own.x + w.y * own.y * own.y + w.z * own.z * own.z);
+    }
+    return sum;
+  }
+  /// What a row of a joint has of the past (energy_law.h), with the share of the substep's motion; both zero without Integrator::energy.
+  struct Past {
+    F share, value;
+  };
+  PLIANT_HD static Past past_of(const View& v, const RodJoint& joint, const Vec3<F>* gradient, const Vec3<F> (&motion)[4],
+                                const F& alpha, int l) {
+    const F zero(0.f);
+    if (!v.points.keeps_energy) return {zero, zero};
+    Vec3<F> coast[4];
+    coast_of(v, joint, coast, l);
+    const auto mean = energy_law::shares_of(alpha, inverse_mass_of(v, joint, gradient, l),
+                                            energy_law::most_of_tree(length_squared(gradient[2])));
+    const auto yields = alpha > zero;
+    return {select(yields, mean.motion, zero),
+            select(yields, mean.motion * along(gradient, motion) + mean.coast * along(gradient, coast), zero)};
+  }
   PLIANT_HD static F along(const Vec3<F>* gradient, const Vec3<F> (&motion)[4]) {
     F sum(0.f);
     for (int slot = 0; slot < 4; ++slot) sum = sum + dot(gradient[slot], motion[slot]);
@@ -166,16 +213,20 @@ struct Loops {
     F alpha, gamma;
     yielding(v, j, alpha, gamma, l);
     Vec3<F> motion[4];
-    if (v.nodes[j].is_damped) motion_of(v, v.kept[j], motion, l);
+    const bool needs_motion = v.nodes[j].is_damped || v.points.keeps_energy;
+    if (needs_motion) motion_of(v, v.kept[j], motion, l);
     for (int r = 0; r < rod_rows; ++r) {
       F moved = zero;
-      if (v.nodes[j].is_damped) {
+      Past past{zero, zero};
+      if (needs_motion) {
         Vec3<F> gradient[4];
         for (int slot = 0; slot < 4; ++slot) gradient[slot] = vector<F>(to.gradient[r][slot], l);
         moved = select(gamma > zero, along(gradient, motion), zero);
+        past = past_of(v, v.kept[j], gradient, motion, alpha, l);
       }
-      store_row(to.value[r] + l, (now.c[r] + alpha * get<F>(to.before[r] + l) + gamma * moved) / (one + gamma));
-      store_row(to.compliance[r] + l, alpha / (one + gamma));
+      const F share = (one + gamma) - past.share;
+      store_row(to.value[r] + l, ((now.c[r] + alpha * get<F>(to.before[r] + l) + gamma * moved) - past.value) / share);
+      store_row(to.compliance[r] + l, alpha / share);
     }
   }
 
@@ -365,14 +416,15 @@ struct Loops {
     F alpha, gamma;
     yielding(v, j, alpha, gamma, l);
     Vec3<F> motion[4];
-    if (v.nodes[j].is_damped) motion_of(v, v.kept[j], motion, l);
+    if (v.nodes[j].is_damped || v.points.keeps_energy) motion_of(v, v.kept[j], motion, l);
     const auto is_soft = get<F>(joint.rest[rod_fields] + l) > zero;
     F open = zero;
     for (int r = 0; r < rod_rows; ++r) {
       const F squared = length_squared(now.gradient[r][2]);
       F moved = zero;
       if (v.nodes[j].is_damped) moved = select(gamma > zero, gamma * along(now.gradient[r], motion), zero);
-      const F error = now.c[r] + alpha * get<F>(joint.before[r] + l) + moved;
+      const Past past = past_of(v, v.kept[j], now.gradient[r], motion, alpha, l);
+      const F error = (now.c[r] + alpha * get<F>(joint.before[r] + l) + moved) - past.value;
       const F displaced = select(squared > zero, select(error * error > of_soft * of_soft * squared, one, zero), zero);
       open = max(open, select(is_soft, displaced, select(abs(now.c[r]) > of_rigid, one, zero)));
     }

@@ -42,7 +42,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   if (of.group != nullptr) s.gases = of.group->gases.get();
   if (of.group != nullptr) s.own_lengths = &of.group->lengths;
   for_objects(s, [&](int o) {
-    s.work.gravity[o] = {0, static_cast<double>(s.h), 0, 1 / (1 + s.h * s.model.objects[o].damping)};
+    s.work.gravity[o] = {0, static_cast<double>(s.h), 0, velocity_kept(s.h, s.model.objects[o].damping)};
     s.work.last_h[o] = s.h;
   });
   forget_substeps(s);

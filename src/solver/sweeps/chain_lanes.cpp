@@ -46,6 +46,21 @@ struct ChainRows {
   }
 };
 
+/// The displacements of sixteen particles in a substep, so far and at the velocities of its start, as coast_of.
+struct WideMotion {
+  Vec3<Wide> motion{}, coast{};
+
+  PLIANT_HD WideMotion() {}
+  PLIANT_HD WideMotion(const SweepArguments& a, const std::int32_t* index, const Registers& displacements, const Wide& w)
+      : motion(from_registers(displacements - load_indexed(a.remainders, index)).position) {
+    const Vec3<Wide> v = from_registers(load_indexed(a.velocities, index)).position;
+    const auto falls = w > Wide(0.f);
+    const Wide zero(0.f), h(a.h);
+    coast = {(v.x + select(falls, Wide(a.gravity.x), zero)) * h, (v.y + select(falls, Wide(a.gravity.y), zero)) * h,
+             (v.z + select(falls, Wide(a.gravity.z), zero)) * h};
+  }
+};
+
 /// Forward elimination over all links. Returns the displacements of the first particles.
 PLIANT_HD Registers eliminate_chain(const Pool& pool, const Segment* links, int steps, const float* softness,
                                     const float* multipliers, const SweepArguments& a, float* scratch, Wide& first_weight) {
@@ -56,11 +71,19 @@ PLIANT_HD Registers eliminate_chain(const Pool& pool, const Segment* links, int 
   Registers moved = start;
   ChainEnd<Wide> end{};
   first_weight = end.weight = from_registers(from).w;
+  WideMotion before;
+  if (a.keeps_energy) before = WideMotion(a, index, start, first_weight);
   for (int k = 0; k < steps; ++k, index += 2 * batch_width, rows.next(), scratch += chain_scratch_floats) {
     const Registers to = load_indexed(a.positions, index + batch_width);
     const Registers displacements = load_indexed(a.displacements, index + batch_width);
     const WideRecords across = from_registers((to - without_w(from)) + (displacements - moved));
-    const ChainParams<Wide> params = rows.at(multipliers != nullptr ? multipliers + k * batch_width : nullptr);
+    ChainParams<Wide> params = rows.at(multipliers != nullptr ? multipliers + k * batch_width : nullptr);
+    if (a.keeps_energy) {
+      const WideMotion of(a, index + batch_width, displacements, from_registers(to).w);
+      params.motion = of.motion - before.motion;
+      params.coast = of.coast - before.coast;
+      before = of;
+    }
     keep(scratch,
          k == 0 ? eliminate<true>(across.position, across.w, params, a, end)
                 : eliminate<false>(across.position, across.w, params, a, end),

@@ -17,6 +17,9 @@
 
 namespace pliant {
 
+/// The limit of stiffness up to which links have the mean of forces (energy_law.h). A path is solved exactly, crossing paths are not.
+inline constexpr float most_of_chain = 10;
+
 /// Results of link k that link k + 1 needs.
 template <class R>
 struct ChainEnd {
@@ -42,6 +45,8 @@ struct ChainLink {
 template <class R>
 struct ChainParams {
   R rest_length, compliance, softness, multiplier;
+  Vec3<R> motion{},
+      coast{};  ///< with Integrator::energy: displacements of the second particle less those of the first (energy_law.h)
 };
 
 /// Eliminates a link. `across`: from its first particle to its second, whose inverse mass is `weight`. `end`: results
@@ -60,10 +65,16 @@ PLIANT_HD ChainLink<R> eliminate(const Vec3<R>& across, const R& weight, const C
     mobility = w * ((end.mobility + end.added + w * sine2) * end.inverse_pivot);
     coupling = coupled * end.inverse_pivot;
   }
-  const R compliance = min(params.compliance * R(a.inverse_h2), R(largest_compliance));
+  R compliance = min(params.compliance * R(a.inverse_h2), R(largest_compliance));
+  R numerator = params.rest_length - length - compliance * params.multiplier;
+  if (a.keeps_energy) {
+    const auto mean = energy_law::shares_of(compliance, R(w + weight), R(most_of_chain));
+    const R share = R(1) / (R(1) - mean.motion);
+    numerator = (numerator + (mean.motion * dot(n, params.motion) + mean.coast * dot(n, params.coast))) * share;
+    compliance = compliance * share;
+  }
   const R added = params.softness + compliance;
   const R inverse_pivot = R(1) / max(mobility + weight + added, tiny);
-  R numerator = params.rest_length - length - compliance * params.multiplier;
   if constexpr (!first) numerator = numerator + coupled * end.change;
   const R change = numerator * inverse_pivot;
   end = {n, length, weight, mobility, added, inverse_pivot, change};

@@ -23,8 +23,12 @@ class Lane {
       const Record &d = a_.displacements[from], &e = a_.displacements[to];
       const Vec3f across{(q.x - p.x) + (e.x - d.x), (q.y - p.y) + (e.y - d.y), (q.z - p.z) + (e.z - d.z)};
       const std::int64_t batch = links_[k].first_batch;
-      const ChainParams<float> params{pool_.row(0, batch)[lane_], pool_.row(1, batch)[lane_], softness,
-                                      multipliers_ != nullptr && !a_.first_pass ? *multiplier(k) : 0.f};
+      ChainParams<float> params{pool_.row(0, batch)[lane_], pool_.row(1, batch)[lane_], softness,
+                                multipliers_ != nullptr && !a_.first_pass ? *multiplier(k) : 0.f};
+      if (a_.keeps_energy) {
+        params.motion = motion_of(to) - motion_of(from);
+        params.coast = coast_of(a_, to) - coast_of(a_, from);
+      }
       const ChainLink<float> link =
           k == 0 ? eliminate<true>(across, q.w, params, a_, end) : eliminate<false>(across, q.w, params, a_, end);
       std::memcpy(scratch + k * floats_per_link, &link, sizeof link);
@@ -53,6 +57,10 @@ class Lane {
 
   int particle(int k, int slot) const {
     return pool_.indices[static_cast<std::size_t>(links_[k].index_offset) + slot * batch_width + lane_];
+  }
+  Vec3f motion_of(int particle) const {
+    const Record &d = a_.displacements[particle], &r = a_.remainders[particle];
+    return {d.x - r.x, d.y - r.y, d.z - r.z};
   }
   float* multiplier(int k) const {
     return multipliers_ + static_cast<std::int64_t>(links_[k].first_batch) * batch_width + lane_;
