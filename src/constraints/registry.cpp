@@ -98,6 +98,11 @@ bool gives_shape(const std::string& name) {
   return name == TetrahedronShear::name || name == CorotationalStrain::name || name == GreenStrain::name;
 }
 
+bool belongs_to_solid(int type) {
+  const std::string& name = constraint_type(type).name;
+  return gives_shape(name) || name == TetrahedronVolume::name || name == VolumeAroundEdge::name || name == GreenTrace::name;
+}
+
 bool is_hinge(const std::string& name) { return name == DihedralBending::name || is_flat_hinge(name); }
 bool is_flat_hinge(const std::string& name) { return name == IsometricBending::name; }
 double fold_angle(const Vec3d (&x)[4]) { return DihedralBending::measure(x).rest_angle; }
