@@ -41,6 +41,7 @@ void steadiness_rows(Result& result, bool slow);
 void heavy_chain_rows(Result& result, bool slow);
 void convergence_rows(Result& result, bool slow);
 void sweep_rows(Result& result, bool slow);
+void solid_rows(Result& result, bool slow);
 void liquid_rows(Result& result, bool slow);
 void viscous_liquid_rows(Result& result);
 void overlapping_liquid_rows(Result& result);

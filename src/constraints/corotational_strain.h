@@ -19,6 +19,7 @@ namespace pliant {
 
 struct CorotationalStrain : TetrahedronStrain {
   static constexpr const char* name = "corotational_strain";
+  static constexpr bool is_of_solid = true;
   static constexpr bool is_arithmetic = true;
 
   /// C is zero without a direction at rest, and where all corners are in one place; the gradients are then zero.

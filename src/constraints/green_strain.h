@@ -17,6 +17,7 @@ namespace pliant {
 
 struct GreenStrain : TetrahedronStrain {
   static constexpr const char* name = "green_strain";
+  static constexpr bool is_of_solid = true;
   static constexpr bool is_arithmetic = true;
   /// Largest change of F in one projection, as a share of |F| or of 1, by which C is held. It matters alone where a tetrahedron that is not
   /// stretched is pressed nearly flat, to a twentieth: the gradient vanishes there, and C does not.
@@ -38,6 +39,7 @@ struct GreenStrain : TetrahedronStrain {
 struct GreenTrace : TetrahedronStrain {
   static constexpr const char* name = "green_trace";
   static constexpr bool is_length_of_strain = false;
+  static constexpr bool is_of_solid = true;
   static constexpr bool is_arithmetic = true;
 
   template <class R>

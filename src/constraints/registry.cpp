@@ -99,6 +99,11 @@ bool gives_shape(const std::string& name) {
 }
 
 bool is_hinge(int type) { return is_hinge(constraint_type(type).name); }
+bool belongs_to_solid(int type) {
+  const std::string& name = constraint_type(type).name;
+  return gives_shape(name) || name == TetrahedronVolume::name || name == VolumeAroundEdge::name || name == GreenTrace::name;
+}
+
 bool is_hinge(const std::string& name) { return name == DihedralBending::name || is_flat_hinge(name); }
 bool is_flat_hinge(const std::string& name) { return name == IsometricBending::name; }
 double fold_angle(const Vec3d (&x)[4]) { return DihedralBending::measure(x).rest_angle; }

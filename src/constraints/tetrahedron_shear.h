@@ -18,6 +18,7 @@ namespace pliant {
 
 struct TetrahedronShear : TetrahedronStrain {
   static constexpr const char* name = "tetrahedron_shear";
+  static constexpr bool is_of_solid = true;
 
   /// C is zero without a direction at rest, and where all corners are in one place; the gradients are then zero.
   template <class R>

@@ -20,6 +20,7 @@ namespace pliant {
 
 struct TetrahedronVolume {
   static constexpr const char* name = "tetrahedron_volume";
+  static constexpr bool is_of_solid = true;
   using slots = Points<4>;
   static constexpr int rows = 1;
   static constexpr bool rest_scales = true;

@@ -23,6 +23,7 @@ namespace pliant {
 
 struct VolumeAroundEdge {
   static constexpr const char* name = "volume_around_edge";
+  static constexpr bool is_of_solid = true;
   using slots = Points<8>;  ///< r0 to r5, a, b: the ends of the edge last, since their corrections are stored last
   static constexpr int rows = 1;
   static constexpr int most_ring = 6;

@@ -16,7 +16,6 @@
 #include "math/vector.h"
 #include "matter/object_facts.h"
 #include "model/object_sets.h"
-#include "model/soft_body_substeps.h"
 #include "pliant/error.h"
 #include "pliant/substep_bounds.h"
 #include "solver/kernels.h"
@@ -196,47 +195,6 @@ void doubt_settings(Problems& problems, const Scene& scene) {
 }
 
 /// Warns of grains for which the named substeps are too few: those at the bottom yield, and heaps are flatter.
-/// Says which soft bodies have numbers that are probably in another unit.
-void doubt_soft_bodies(Problems& problems, const Scene& scene) {
-  constexpr double most_strain = 1, most_damping = 0.1;  // [-], [s]
-  for (const Object& object : scene.objects) {
-    if (!is_soft_body(object)) continue;
-    const SoftBodyNumbers found = numbers_of_soft_body(object, scene.gravity);
-    problems.at(object.name);
-    if (found.strain_by_weight > most_strain)
-      problems.doubtful("material, youngs_modulus",
-                        "is so low that the weight of the body presses its lowest layer to nothing: strain " +
-                            words(std::round(10 * found.strain_by_weight) / 10),
-                        "Young's modulus is in Pa, lengths are in metres, densities in kg/m^3");
-    if (found.damping_time > most_damping)
-      problems.doubtful("material, damping", "is " + words(found.damping_time) + " s: the body resists like tar",
-                        "it is a time, 0.002 s of gelatine; that of the object is a rate in 1/s");
-  }
-  problems.at("");
-}
-
-/// Says by how much too few substeps soften soft bodies: by up to the square of their length, over their iterations.
-void doubt_substeps_of_soft_bodies(Problems& problems, const Scene& scene) {
-  constexpr double tolerated = 2, excess_by_default = 0.1;  // what the needed substeps leave
-  if (std::none_of(scene.objects.begin(), scene.objects.end(), is_soft_body)) return;
-  const std::vector<int> all = chosen_substeps(scene);
-  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
-    if (!is_soft_body(scene.objects[o]) || all[o] <= 0) continue;  // 0: they follow the State, and are as many as it needs
-    const double needed = needed_substeps_of_soft_body(scene.objects[o], static_cast<double>(scene.frame_time));
-    const double longer = needed / all[o], slack = longer * longer / scene.settings.iterations;
-    if (slack <= tolerated) continue;
-    const std::string wanted = std::to_string(std::llround(std::ceil(std::min(needed, 1e9))));
-    problems.doubtful(
-        "settings, substeps",
-        "are " + std::to_string(all[o]) + ", so few that '" + scene.objects[o].name + "' will yield about " +
-            words(std::round(10 * (1 + excess_by_default * slack)) / 10) + " times as much as its modulus says",
-        scene.settings.substeps > 0
-            ? "give " + wanted + ", or leave substeps out"
-            : "it needs " + wanted +
-                  ": use larger tetrahedra, a smaller modulus or a rigid body, and no PBD stiffness in what it meets");
-  }
-}
-
 void doubt_substeps_of_grains(Problems& problems, const Scene& scene) {
   constexpr double planned = 0.03,
                    tolerated = 0.05;  // overlaps over the diameter: of the default substeps, and without a warning

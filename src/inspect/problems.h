@@ -97,6 +97,10 @@ void doubt_substeps_of_rods(Problems& problems, const Scene& scene);
 void doubt_jumps_of_volumes(Problems& problems, const Scene& scene);
 /// Doubts particles of liquids, gases and grains that start within one another, and emitters that shoot.
 void doubt_flows(Problems& problems, const Scene& scene);
+/// Says which soft bodies have numbers that are probably in another unit. The scene must have no grave findings.
+void doubt_soft_bodies(Problems& problems, const Scene& scene);
+/// Says by how much too few substeps soften soft bodies. The scene must have no grave findings.
+void doubt_substeps_of_soft_bodies(Problems& problems, const Scene& scene);
 /// Doubts particles of liquids, gases and grains that start inside solids.
 void doubt_starts_in_solids(Problems& problems, const Scene& scene);
 /// Warns of bodies that a pin moves, but that a load can turn.

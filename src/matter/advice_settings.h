@@ -24,6 +24,8 @@ Settings left_open(Settings settings);
 std::string departures(const Scene& scene, const Settings& given, const Settings& chosen);
 /// Like chosen_settings in pliant/scene.h, with `settings` instead of the scene's own.
 Settings chosen_settings(const Scene& scene, Settings settings, std::string* reason = nullptr);
+/// Like chosen_substeps in pliant/scene.h, with `settings` instead of the scene's own.
+std::vector<int> chosen_substeps(const Scene& scene, const Settings& settings);
 /// Like chosen_sweep in pliant/scene.h, with `settings` instead of the scene's own.
 Sweep chosen_sweep(const Scene& scene, const Settings& settings, int object, std::string* reason = nullptr);
 /// The sweeps of all objects, as chosen_sweep returns them.

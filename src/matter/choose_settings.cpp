@@ -216,9 +216,11 @@ std::vector<int> substeps_of_objects(const Scene& scene, const Settings& setting
 
 }  // namespace
 
-std::vector<int> chosen_substeps(const Scene& scene) {
-  if (scene.settings.substeps != 0) return std::vector<int>(scene.objects.size(), scene.settings.substeps);
-  return substeps_of_objects(scene, scene.settings, chosen_sweeps(scene, scene.settings));
+std::vector<int> chosen_substeps(const Scene& scene) { return chosen_substeps(scene, scene.settings); }
+
+std::vector<int> chosen_substeps(const Scene& scene, const Settings& settings) {
+  if (settings.substeps != 0) return std::vector<int>(scene.objects.size(), settings.substeps);
+  return substeps_of_objects(scene, settings, chosen_sweeps(scene, settings));
 }
 
 Settings chosen_settings(const Scene& scene, std::string* reason) { return chosen_settings(scene, scene.settings, reason); }

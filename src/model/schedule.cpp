@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "constraints/gives_shape.h"
 #include "constraints/registry.h"
 #include "model/fill_pool.h"
 #include "model/keep_schedule.h"
@@ -140,6 +141,7 @@ struct ListSchedule {
   std::vector<Segment> segments;
   std::vector<char> are_added;            ///< 1 for each segment that was coloured after an edit
   std::vector<int> tile_end, colour_end;  ///< one past the last segment of each tile; of each inter-tile colour
+  bool takes_turns = false;               ///< true: the list is of a solid, whose lists take turns
 };
 
 /// Reserves more than needed: reserved pages that are never written cost no memory, but a growing array is copied.
@@ -160,6 +162,7 @@ struct Scheduler {
 
   ListSchedule schedule(ConstraintList& list, int number, Pool& pool) {
     ListSchedule out;
+    out.takes_turns = !in_given_order && belongs_to_solid(list.type);
     const ByTile split = split_by_tile(list, tile_of, tiles);
     KeptColours colours;
     if (kept != nullptr) colours = keep_colours(*kept, list, tile_of, tiles);
@@ -190,30 +193,67 @@ struct Scheduler {
   }
 };
 
-/// Merges the segments of all lists: tile by tile, then inter-tile colour by colour; within each, in the order of the
-/// lists.
+/// Segments of a list up to `end`, and where they stand among those of all lists.
+struct Piece {
+  double place;
+  std::size_t list;
+  int end;
+};
+
+/// Adds the pieces of a list, which end at `ends`. Lists come one after another; but those of a solid take turns, in proportion to their
+/// pieces, at the place `of_solid`. With all volumes after all shear, surface particles are moved too far by what comes first
+/// (docs/internals/solids.md). Pieces that an edit added come last, so that the others keep their order.
+void add_pieces(const ListSchedule& from, std::size_t list, std::size_t of_solid, const std::vector<int>& ends,
+                std::vector<Piece>& out) {
+  const auto is_added = [&](int end) { return from.are_added[static_cast<std::size_t>(end) - 1] != 0; };
+  const auto kept = static_cast<double>(std::count_if(ends.begin(), ends.end(), [&](int end) { return !is_added(end); }));
+  double number = 0.5;
+  for (const int end : ends) {
+    double place = static_cast<double>(list);
+    if (from.takes_turns) place = static_cast<double>(of_solid) + (is_added(end) ? 0.999 : number++ / kept);
+    out.push_back({place, list, end});
+  }
+}
+
+/// The pieces of all lists in order; `ends(list)` are where those of a list end.
+template <class Ends>
+std::vector<Piece> in_order(const std::vector<ListSchedule>& schedules, const Ends& ends) {
+  std::vector<Piece> pieces;
+  std::size_t of_solid = 0;
+  while (of_solid < schedules.size() && !schedules[of_solid].takes_turns) ++of_solid;
+  for (std::size_t i = 0; i < schedules.size(); ++i) add_pieces(schedules[i], i, of_solid, ends(i), pieces);
+  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.place < b.place; });
+  return pieces;
+}
+
+/// Merges the segments of all lists: tile by tile, then inter-tile colour by colour.
 void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
   std::vector<int> next(schedules.size(), 0);
-  const auto append_to = [&](std::size_t i, int end) {
-    const auto first = schedules[i].segments.begin();
-    out.segments.insert(out.segments.end(), first + next[i], first + end);
-    const auto added = schedules[i].are_added.begin();
-    if (out.additions.are_used) out.additions.segments.insert(out.additions.segments.end(), added + next[i], added + end);
-    next[i] = end;
+  const auto append = [&](const Piece& piece) {
+    const ListSchedule& from = schedules[piece.list];
+    int& begin = next[piece.list];
+    out.segments.insert(out.segments.end(), from.segments.begin() + begin, from.segments.begin() + piece.end);
+    const auto added = from.are_added.begin();
+    if (out.additions.are_used)
+      out.additions.segments.insert(out.additions.segments.end(), added + begin, added + piece.end);
+    begin = piece.end;
   };
   for (std::size_t t = 0; t < out.tiles.size(); ++t) {
     out.tiles[t].first_segment = static_cast<int>(out.segments.size());
-    for (std::size_t i = 0; i < schedules.size(); ++i)
-      if (!schedules[i].tile_end.empty()) append_to(i, schedules[i].tile_end[t]);
+    const auto ends = [&](std::size_t i) {
+      std::vector<int> each(schedules[i].tile_end.empty() ? 0
+                                                          : static_cast<std::size_t>(schedules[i].tile_end[t] - next[i]));
+      std::iota(each.begin(), each.end(), next[i] + 1);
+      return each;
+    };
+    for (const Piece& piece : in_order(schedules, ends)) append(piece);
     out.tiles[t].last_segment = static_cast<int>(out.segments.size());
   }
   out.phases.push_back({Driver::tile, 0, static_cast<int>(out.tiles.size())});
-  for (std::size_t i = 0; i < schedules.size(); ++i) {
-    for (const int end : schedules[i].colour_end) {
-      const int first = static_cast<int>(out.segments.size());
-      append_to(i, end);
-      out.phases.push_back({Driver::inter_tile, first, static_cast<int>(out.segments.size())});
-    }
+  for (const Piece& piece : in_order(schedules, [&](std::size_t i) { return schedules[i].colour_end; })) {
+    const int first = static_cast<int>(out.segments.size());
+    append(piece);
+    out.phases.push_back({Driver::inter_tile, first, static_cast<int>(out.segments.size())});
   }
 }
 

@@ -114,7 +114,7 @@ TEST(Elasticity, SubstepsHardlyChangeHowFarABarSags) {
 TEST(Elasticity, SubstepsByDefaultKeepTheModulus) {
   for (const float modulus : {2e4f, 2e5f, 2e6f}) {
     const double chosen = sag_over_beam(3, modulus, 0.3f, 0);
-    EXPECT_NEAR(chosen, 0.681, 0.1) << modulus;  // with ten times as many substeps
+    EXPECT_NEAR(chosen, 0.681, 0.02) << modulus;  // with ten times as many substeps
   }
 }
 
@@ -267,6 +267,17 @@ TEST(SoftBodySubsteps, AreThoseOfFlatTetrahedra) {
               0.3);  // gradients of 1 / 25 mm, one of them of 1 / 2.5 mm
 }
 
+TEST(SoftBodySubsteps, GrowWhereTheVolumeHardlyChanges) {
+  const auto of = [](float poisson_ratio) {
+    SoftBodyOptions options;
+    options.material = solid_of(4e6f * (1 + poisson_ratio), poisson_ratio);  // one shear modulus
+    return static_cast<double>(
+        chosen_substeps(scene_of(make_soft_body(box_tetrahedra({0.4f, 0.1f, 0.1f}, {12, 3, 3}), options), 0))[0]);
+  };
+  EXPECT_EQ(of(0.45f), of(0.3f));
+  EXPECT_NEAR(of(0.49f) / of(0.45f), 1.33, 0.03);  // 1.4 - 0.4 * 9 / 49
+}
+
 TEST(SoftBodySubsteps, DoNotCountTheBodiesThatItIsTiedTo) {
   SoftBodyOptions options;
   options.material = solid_of(1e6f, 0.3f);
@@ -286,7 +297,8 @@ TEST(SoftBodySubsteps, TooFewAreADoubt) {
     for (const Finding& finding : inspect(scene_of(bar, substeps))) all += finding.message + "\n";
     return all;
   };
-  EXPECT_NE(doubts(20).find("modulus"), std::string::npos) << doubts(20);
+  EXPECT_NE(doubts(12).find("modulus"), std::string::npos) << doubts(12);  // 1.3 times as far
+  EXPECT_EQ(doubts(25).find("modulus"), std::string::npos) << doubts(25);
   EXPECT_EQ(doubts(0).find("modulus"), std::string::npos) << doubts(0);
 }
 

@@ -17,13 +17,13 @@
 namespace pliant {
 namespace {
 
-constexpr float ball = 0.12f;  ///< radius [m]
-constexpr int columns = 13, rows = 17;
+constexpr float ball_radius = 0.12f;  ///< radius [m]
+constexpr int panel_columns = 13, panel_rows = 17;
 
 /// Two upright panels, 0.3 m apart, of a width that is 8 % too narrow to go round a ball together.
 Object narrow_panels(const Fabric& material, float height = 0.44f) {
-  const float half_girth = 3.14159265f * ball * 0.92f;
-  const TriangleMesh flat = grid_mesh(columns, rows, half_girth, height);
+  const float half_girth = 3.14159265f * ball_radius * 0.92f;
+  const TriangleMesh flat = grid_mesh(panel_columns, panel_rows, half_girth, height);
   TriangleMesh mesh;
   for (const float z : {-0.15f, 0.15f}) {
     const int first = static_cast<int>(mesh.positions.size());
@@ -42,9 +42,9 @@ Object narrow_panels(const Fabric& material, float height = 0.44f) {
 /// The pairs of both sides: column 0 and the last one of both panels.
 std::vector<std::array<int, 2>> sides_of(bool both = true) {
   std::vector<std::array<int, 2>> pairs;
-  for (int row = 0; row < rows; ++row)
-    for (const int column : {0, columns - 1})
-      if (both || column == 0) pairs.push_back({row * columns + column, (rows + row) * columns + column});
+  for (int row = 0; row < panel_rows; ++row)
+    for (const int column : {0, panel_columns - 1})
+      if (both || column == 0) pairs.push_back({row * panel_columns + column, (panel_rows + row) * panel_columns + column});
   return pairs;
 }
 
@@ -55,8 +55,8 @@ Scene round_balls(const Fabric& material) {
   Object cover = narrow_panels(material);
   add_stitches(cover, sides_of(), {.closing_time = 0.5f});
   scene.add(std::move(cover));
-  for (const float y : {-ball, ball})
-    scene.add(Collider{.name = y < 0 ? "low" : "high", .shape = Sphere{ball}, .position = {0, y, 0}});
+  for (const float y : {-ball_radius, ball_radius})
+    scene.add(Collider{.name = y < 0 ? "low" : "high", .shape = Sphere{ball_radius}, .position = {0, y, 0}});
   return scene;
 }
 

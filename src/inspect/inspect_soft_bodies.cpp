@@ -1,0 +1,87 @@
+// Soft bodies whose numbers are probably in another unit, and those that their substeps leave softer than their modulus says.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "inspect/inspect_scene.h"
+#include "inspect/problems.h"
+#include "matter/advice_settings.h"
+#include "model/soft_body_substeps.h"
+
+namespace pliant {
+
+namespace {
+
+/// A soft body that yields far more than its modulus says.
+struct TooSoft {
+  const Object* object = nullptr;
+  std::string problem, advice;  ///< "are 20, so few that ..."
+};
+
+/// How many times as much a body yields as with enough substeps, which are `longer` times as many. Fitted to bars in tension and bent, of a
+/// Poisson's ratio of 0.3 and 0.49, with up to seven times too few (docs/internals/solids.md). With more iterations than one the compliance
+/// is not lowered (solver/project.h).
+double yield_over_right_one(double longer, int iterations) {
+  constexpr double slope = 0.085, harmless = 3.2, slope_of_more = 0.1;
+  if (iterations > 1) return 1 + slope_of_more * longer * longer / iterations;
+  return 1 + slope * std::max(longer * longer - harmless, 0.);
+}
+
+std::vector<TooSoft> find_too_soft(const Scene& scene, const Settings& settings) {
+  constexpr double tolerated = 1.1;
+  std::vector<TooSoft> found;
+  if (std::none_of(scene.objects.begin(), scene.objects.end(), is_soft_body)) return found;
+  const std::vector<int> all = chosen_substeps(scene, settings);
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    if (!is_soft_body(scene.objects[o]) || all[o] <= 0) continue;  // 0: they follow the State, and are as many as it needs
+    const double needed = needed_substeps_of_soft_body(scene.objects[o], static_cast<double>(scene.frame_time));
+    const double times = yield_over_right_one(needed / all[o], settings.iterations);
+    if (times <= tolerated) continue;
+    const std::string wanted = std::to_string(std::llround(std::ceil(std::min(needed, 1e9))));
+    found.push_back({&scene.objects[o],
+                     "are " + std::to_string(all[o]) + ", so few that '" + scene.objects[o].name + "' will yield about " +
+                         words(std::round(10 * times) / 10) + " times as much as its modulus says",
+                     settings.substeps > 0 ? "give " + wanted + ", or leave substeps out"
+                                           : "it needs " + wanted +
+                                                 ": use larger tetrahedra, a smaller modulus or a rigid body, and no PBD "
+                                                 "stiffness in what it meets"});
+  }
+  return found;
+}
+
+}  // namespace
+
+/// Says which soft bodies have numbers that are probably in another unit.
+void doubt_soft_bodies(Problems& problems, const Scene& scene) {
+  constexpr double most_strain = 1, most_damping = 0.1;  // [-], [s]
+  for (const Object& object : scene.objects) {
+    if (!is_soft_body(object)) continue;
+    const SoftBodyNumbers found = numbers_of_soft_body(object, scene.gravity);
+    problems.at(object.name);
+    if (found.strain_by_weight > most_strain)
+      problems.doubtful("material, youngs_modulus",
+                        "is so low that the weight of the body presses its lowest layer to nothing: strain " +
+                            words(std::round(10 * found.strain_by_weight) / 10),
+                        "Young's modulus is in Pa, lengths are in metres, densities in kg/m^3");
+    if (found.damping_time > most_damping)
+      problems.doubtful("material, damping", "is " + words(found.damping_time) + " s: the body resists like tar",
+                        "it is a time, 0.002 s of gelatine; that of the object is a rate in 1/s");
+  }
+  problems.at("");
+}
+
+void doubt_substeps_of_soft_bodies(Problems& problems, const Scene& scene) {
+  for (const TooSoft& one : find_too_soft(scene, scene.settings))
+    problems.doubtful("settings, substeps", one.problem, one.advice);
+}
+
+std::vector<std::string> warnings_of_soft_bodies(const Scene& scene, const Settings& settings) {
+  std::vector<std::string> warnings;
+  for (const TooSoft& one : find_too_soft(scene, settings))
+    warnings.push_back("settings, substeps " + one.problem + "; " + one.advice);
+  return warnings;
+}
+
+}  // namespace pliant
