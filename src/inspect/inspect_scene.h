@@ -31,4 +31,7 @@ void refuse_initial_intersections(const Scene& scene);
 /// their number.
 std::vector<std::string> warnings_of_starts_in_solids(const Scene& scene);
 
+/// For each woven cloth whose triangles yield much more than their stiffness says with these settings: a warning with by how much.
+std::vector<std::string> warnings_of_woven(const Scene& scene, const Settings& settings);
+
 }  // namespace pliant
