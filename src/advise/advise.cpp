@@ -21,6 +21,7 @@
 #include "matter/advice_settings.h"
 #include "model/object_sets.h"
 #include "model/soft_body_substeps.h"
+#include "model/woven_substeps.h"
 #include "solver/substep_law.h"
 #include "world/advice.h"
 
@@ -37,20 +38,21 @@ constexpr double clearly_better = 0.8;
 /// Share of the time that the trial of the scene's own settings may take; the rest is for the others.
 constexpr double own_share = 0.3;
 
-/// The largest number of substeps that the default chooses for a soft body; 0: the scene has none.
+/// The largest number of substeps that the default chooses for a soft body or woven cloth; 0: the scene has none.
 int default_substeps_of_soft_bodies(const Scene& scene) {
   Scene by_default = scene;
   by_default.settings = left_open(scene.settings);
   const std::vector<int> substeps = chosen_substeps(by_default);
   int most = 0;
   for (std::size_t o = 0; o < substeps.size(); ++o)
-    if (is_soft_body(scene.objects[o])) most = std::max(most, substeps[o]);
+    if (is_soft_body(scene.objects[o]) || is_woven(scene.objects[o])) most = std::max(most, substeps[o]);
   return most;
 }
 
 /// The fewest substeps that are tried. Multigrid keeps lengths with any number, so overstretch alone would advise one. But
 /// long substeps damp motion: cloth of 32 x 32 that swings down from two pins reaches 60 % of the kinetic energy of 20
-/// substeps with 1 substep, 85 % with 2, and 92 % with 4. Soft bodies become softer with fewer than `of_soft_bodies`.
+/// substeps with 1 substep, 85 % with 2, and 92 % with 4. Soft bodies and woven cloth become softer with fewer than
+/// `of_soft_bodies`.
 int least_substeps_of(const Settings& settings, int of_soft_bodies) {
   return std::max(of_soft_bodies, settings.sweep == Sweep::multigrid ? 4 : 1);
 }

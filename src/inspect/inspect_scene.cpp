@@ -305,6 +305,7 @@ void look_through(Problems& problems, const Scene& scene) {
   if (problems.grave_count() == 0) {
     doubt_soft_bodies(problems, scene);
     doubt_substeps_of_soft_bodies(problems, scene);
+    doubt_substeps_of_woven(problems, scene);
     doubt_substeps_of_rods(problems, scene);
     doubt_jumps_of_volumes(problems, scene);
     doubt_flows(problems, scene);

@@ -3,6 +3,7 @@
 #include "matter/object_facts.h"
 #include "model/object_sets.h"
 #include "model/soft_body_substeps.h"
+#include "model/woven_substeps.h"
 
 #include <algorithm>
 #include <utility>
@@ -67,7 +68,7 @@ bool lacks_lengths(const Scene& scene) {
 
 bool may_tether(const Scene& scene) {
   const auto hangs_and_stretches = [](const Object& object) {
-    const bool stretches = !is_rigid(object) || is_soft_body(object);
+    const bool stretches = !is_rigid(object) || is_soft_body(object) || is_woven(object);
     return (!object.pins.empty() && stretches) || has_changing_lengths(object);
   };
   return std::any_of(scene.objects.begin(), scene.objects.end(), hangs_by_lengths) &&
@@ -80,7 +81,8 @@ std::vector<Sweep> better_sweeps(const Scene& scene) {
   if (chosen_settings(scene, left_open(scene.settings)).sweep == Sweep::multigrid) std::swap(better[0], better[1]);
   better.erase(std::remove(better.begin(), better.end(), scene.settings.sweep), better.end());
   const bool changes = std::any_of(scene.objects.begin(), scene.objects.end(), has_changing_lengths);
-  if (changes || has_stiff_sheet(scene) || movers_may_touch(scene) || may_meet_collider(scene))
+  const bool shears = std::any_of(scene.objects.begin(), scene.objects.end(), is_woven);
+  if (changes || shears || has_stiff_sheet(scene) || movers_may_touch(scene) || may_meet_collider(scene))
     better.erase(std::remove(better.begin(), better.end(), Sweep::multigrid), better.end());
   return better;
 }

@@ -10,6 +10,7 @@
 #include "matter/surroundings.h"
 #include "model/object_sets.h"
 #include "model/soft_body_substeps.h"
+#include "model/woven_substeps.h"
 #include "pliant/scene.h"
 
 namespace pliant {
@@ -59,6 +60,7 @@ Choice choose(const Given& given, const Object& object, std::size_t number) {
   if (is_coarse(particles) && is_tied) return {Sweep::chains, name + ", which is tied to bodies"};
   if (is_coarse(particles)) return {Sweep::tiled, too_coarse};
   if (object.volume) return choose_for_volume(given, object, number);
+  if (is_woven(object)) return {Sweep::chains, name + ", woven cloth, whose shear tethers and multigrid do not see"};
   // Neither tethers nor multigrid know of bending, which demands more substeps than they need for stretch.
   const bool is_stiff = is_stiff_sheet(object, gravity), is_in_rows = is_regular(object);
   const bool touches = can_touch(given.surroundings, object, number);

@@ -5,6 +5,7 @@
 // same piece then stretches and folds alike. All values are computed in double and rounded once.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -215,23 +216,72 @@ Yarns yarns_of(const ClothDraft& piece, std::size_t triangle) {
   return {shares(warp), shares(cross(normal, warp))};
 }
 
-/// Makes the constraints of woven cloth: of each triangle the stretch of its warp and its weft. A modulus Y of an area A has the compliance
-/// 1 / (Y A).
-ConstraintGroup yarn_group(const ClothDraft& piece) {
-  ConstraintGroup group;
-  group.type = "triangle_stretch";
+/// The sine of the angle within which an edge lies along a yarn.
+constexpr double along_yarn = 1e-3;
+
+/// The edge of a triangle that lies along a direction, shares of its first two edges: the number of its first corner; -1: none.
+int edge_along(const ClothDraft& piece, std::size_t triangle, const std::array<float, 2>& shares) {
+  const Triangle& t = piece.triangles[triangle];
+  const double a1 = static_cast<double>(shares[0]), a2 = static_cast<double>(shares[1]);
+  // The gradients of the three corners: that of the corner opposite to an edge along the yarn is zero.
+  const double a[3] = {-a1 - a2, a1, a2};
+  int best = -1;
+  double least = along_yarn;
+  for (int k = 0; k < 3; ++k) {
+    const int b = (k + 1) % 3, c = (k + 2) % 3;
+    const double length = std::sqrt(length_squared(piece.at(t[c]) - piece.at(t[b])));
+    const double height = 2 * piece.areas[triangle] / length, sine = std::fabs(a[k]) * height;
+    if (sine < least) {
+      least = sine;
+      best = b;
+    }
+  }
+  return best;
+}
+
+/// The stretch of woven cloth. Of a triangle with an edge along a yarn, the yarn's stretch is that of the edge: a distance, which chains solve
+/// whatever the mesh. A modulus Y of the areas A beside an edge of length L has the compliance L^2 / (Y A).
+struct YarnGroups {
+  ConstraintGroup edges, triangles;
+};
+
+void add_triangle_stretch(const ClothDraft& piece, std::size_t t, const std::array<float, 2>& a, double stiffness,
+                          ConstraintGroup& group) {
+  group.particles.insert(group.particles.end(), piece.triangles[t].begin(), piece.triangles[t].end());
+  group.rest.insert(group.rest.end(), {1, a[0], a[1]});
+  group.compliances.push_back(as_compliance(1 / (stiffness * piece.areas[t])));
+}
+
+YarnGroups yarn_groups(const ClothDraft& piece) {
+  YarnGroups groups;
+  groups.edges.type = "distance";
+  groups.triangles.type = "triangle_stretch";
   const Fabric& m = piece.options.material;
   const double warp = m.stretch_stiffness, weft = m.weft_stiffness > 0 ? m.weft_stiffness : m.stretch_stiffness;
+  std::map<std::pair<int, int>, double> forces;  // of edges: modulus times area [N m]
   for (std::size_t t = 0; t < piece.triangles.size(); ++t) {
     const Yarns yarns = yarns_of(piece, t);
     for (const bool is_warp : {true, false}) {
       const std::array<float, 2>& a = is_warp ? yarns.warp : yarns.weft;
-      group.particles.insert(group.particles.end(), piece.triangles[t].begin(), piece.triangles[t].end());
-      group.rest.insert(group.rest.end(), {1, a[0], a[1]});
-      group.compliances.push_back(as_compliance(1 / ((is_warp ? warp : weft) * piece.areas[t])));
+      const double stiffness = is_warp ? warp : weft;
+      const int first = edge_along(piece, t, a);
+      if (first < 0) {
+        add_triangle_stretch(piece, t, a, stiffness, groups.triangles);
+        continue;
+      }
+      const int v0 = piece.triangles[t][first], v1 = piece.triangles[t][(first + 1) % 3];
+      forces[{std::min(v0, v1), std::max(v0, v1)}] += stiffness * piece.areas[t];
     }
   }
-  return group;
+  groups.edges.particles.reserve(2 * forces.size());
+  for (const auto& [ends, force] : forces) {
+    const double squared = length_squared(piece.at(ends.second) - piece.at(ends.first));
+    groups.edges.particles.push_back(ends.first);
+    groups.edges.particles.push_back(ends.second);
+    groups.edges.rest.push_back(static_cast<float>(std::sqrt(squared)));
+    groups.edges.compliances.push_back(as_compliance(squared / force));
+  }
+  return groups;
 }
 
 /// A fabric that does not say has a hundredth of its stretch stiffness, as woven ones have about.
@@ -354,7 +404,9 @@ Object assemble(ClothDraft& piece) {
   if (options.stretch_model == ClothOptions::Stretching::springs) {
     cloth.constraints.push_back(stretch_group(piece));
   } else {
-    cloth.constraints.push_back(yarn_group(piece));
+    YarnGroups yarns = yarn_groups(piece);
+    for (ConstraintGroup* group : {&yarns.edges, &yarns.triangles})
+      if (!group->particles.empty()) cloth.constraints.push_back(std::move(*group));
     cloth.constraints.push_back(shear_group(piece));
   }
   if (bends(options)) cloth.constraints.push_back(bending_group(piece));

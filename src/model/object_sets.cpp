@@ -15,6 +15,7 @@
 #include "model/compile_surface.h"
 #include "model/forest.h"
 #include "model/soft_body_substeps.h"
+#include "model/woven_substeps.h"
 
 namespace pliant {
 
@@ -125,12 +126,6 @@ int substeps_of_stretching(const Object& object) {
   const double borne = static_cast<double>(object.positions.size()) / static_cast<double>(std::max<std::size_t>(held, 2));
   const int quarter = static_cast<int>(std::ceil(std::min(substeps_per_edge_of_stretching * std::sqrt(borne) / 4, 1e4)));
   return std::clamp(4 * quarter, substeps_of_others, most_substeps_of_volumes);
-}
-
-/// True if triangles hold a sheet together. Chains do not solve them, so what it hangs from needs many substeps to bear it.
-bool is_woven(const Object& object) {
-  return std::any_of(object.constraints.begin(), object.constraints.end(),
-                     [](const ConstraintGroup& group) { return group.type == "triangle_stretch"; });
 }
 
 /// True if both are liquids that mix.
@@ -332,7 +327,8 @@ SubstepRule substep_rule(const Object& object, Sweep sweep, double gravity) {
   if (has_converted(object)) return SubstepRule::fixed;
   if (!object.bodies.empty() || object.grains) return SubstepRule::constant;
   if (object.volume) return SubstepRule::any;  // chosen by measurements of volumes, not of strain
-  if (!solves_chains(sweep)) return SubstepRule::any;
+  // The law of the State sees distances alone, so woven cloth would get too few for its triangles.
+  if (!solves_chains(sweep) || is_woven(object)) return SubstepRule::any;
   const std::optional<double> strain = strain_by_weight(object, gravity);
   return strain && *strain <= most_strain_by_weight ? SubstepRule::by_state : SubstepRule::any;
 }

@@ -332,6 +332,27 @@ TEST(InspectScene, NamesConstraintsOnFlatElements) {
   }
 }
 
+/// Where no edge lies along a yarn, its stretch is that of triangles, which yield by 1 + 1.1 Y h^2 / (2 rho e^2) on squares of edges e.
+TEST(InspectScene, DoubtsWovenClothThatYieldsTooMuch) {
+  const auto doubt = [](const Vec3f& warp, int substeps, float stiffness) {
+    Scene scene;
+    ClothOptions options{.name = "sheet", .stretch_model = ClothOptions::Stretching::woven, .warp = warp};
+    options.material.area_density = 0.2f;
+    options.material.stretch_stiffness = stiffness;
+    scene.add_cloth(grid_mesh(11, 81, 0.125f, 1), options);
+    scene.settings.substeps = substeps;
+    return finding(scene, "woven so finely");
+  };
+  EXPECT_EQ(doubt({0, 0, 1}, 20, 200), "");
+  EXPECT_EQ(doubt({0.1f, 0, 1}, 150, 200), "");
+  EXPECT_EQ(doubt({0.1f, 0, 1}, 20, 2), "");
+  const std::string text =
+      doubt({0.1f, 0, 1}, 20, 200);  // 1 + 1.1 x 200 x 6400 / (2 x 0.2 x 1200^2), and 3 x 1.1 at borders
+  EXPECT_NE(text.find("is woven so finely that with 20 substeps its triangles yield about 3."), std::string::npos) << text;
+  EXPECT_NE(doubt({0.1f, 0, 1}, 0, 200), "");
+  EXPECT_NE(text.find("edges along the yarns"), std::string::npos) << text;
+}
+
 TEST(InspectScene, NamesElementsWhoseRestDataAreZero) {
   const std::vector<Vec3f> flat{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
   EXPECT_NE(finding(element("fibre", flat, {1, 0, 0, 0}), "has rest data of 0"), "");

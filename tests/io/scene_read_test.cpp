@@ -217,6 +217,17 @@ TEST_F(FullScene, HasItsPinsAndAttachments) {
   EXPECT_EQ(sheet.attachments[1].target, sheet.positions[5]);
 }
 
+/// The sum of 1 / compliance of the triangles at an edge.
+float area_at(const ConstraintGroup& triangles, int a, int b) {
+  float sum = 0;
+  for (std::size_t t = 0; t < triangles.compliances.size(); ++t) {
+    const int* corners = &triangles.particles[3 * t];
+    const bool has_both = std::count(corners, corners + 3, a) + std::count(corners, corners + 3, b) == 2;
+    sum += has_both ? 1 / triangles.compliances[t] : 0;
+  }
+  return sum;
+}
+
 TEST_F(FullScene, HasItsBalloonAndTube) {
   const Object& balloon = scene.objects.at(1);
   EXPECT_EQ(balloon.name, "cloth");
@@ -233,12 +244,17 @@ TEST_F(FullScene, HasItsBalloonAndTube) {
   const Object& tube = scene.objects.at(2);
   EXPECT_EQ(tube.name, "cloth_2");
   EXPECT_EQ(tube.positions.size(), 48U);
-  const ConstraintGroup &yarns = tube.constraints.at(0), &shear = tube.constraints.at(1);
-  ASSERT_EQ(yarns.type, "triangle_stretch");
+  // The weft runs along the rings: its stretch is that of their edges. No edge lies along the warp of a cone.
+  const ConstraintGroup &weft = tube.constraints.at(0), &warp = tube.constraints.at(1), &shear = tube.constraints.at(2);
+  ASSERT_EQ(weft.type, "distance");
+  ASSERT_EQ(warp.type, "triangle_stretch");
   ASSERT_EQ(shear.type, "triangle_shear");
-  EXPECT_EQ(yarns.compliances.at(0), 0.f);  // of the warp, which runs along the tube
-  EXPECT_NEAR(yarns.compliances.at(1), 40.f / 300 * shear.compliances.at(0), 1e-6f * shear.compliances.at(0));
-  EXPECT_NEAR(yarns.rest.at(1), shear.rest.at(0), 0);
+  EXPECT_EQ(warp.compliances, std::vector<float>(shear.compliances.size(), 0.f));
+  EXPECT_EQ(std::vector<float>(warp.rest.begin() + 1, warp.rest.begin() + 3),
+            std::vector<float>(shear.rest.begin(), shear.rest.begin() + 2));
+  for (std::size_t i = 0; i < weft.compliances.size(); ++i)  // alpha = L^2 / (Y A), of shear 1 / (G A)
+    EXPECT_NEAR(300 * weft.compliances[i] * area_at(shear, weft.particles[2 * i], weft.particles[2 * i + 1]),
+                40 * weft.rest[i] * weft.rest[i], 1e-5);
   for (const ConstraintGroup& group : tube.constraints) {
     ASSERT_EQ(group.plasticity.has_value(), group.type == "dihedral_bending");
     if (!group.plasticity) continue;
@@ -246,7 +262,7 @@ TEST_F(FullScene, HasItsBalloonAndTube) {
     EXPECT_EQ(group.plasticity->rate, 2.f);
     EXPECT_EQ(group.plasticity->most, 1.5f);
   }
-  EXPECT_EQ(yarns.stiffness.value, 0.f);
+  EXPECT_EQ(weft.stiffness.value, 0.f);
 }
 
 TEST(SceneRead, TakesAnyConstraintTypeTheLibraryHas) {
