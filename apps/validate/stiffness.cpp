@@ -14,7 +14,6 @@ constexpr double cloth_density = 0.5,
 struct Run {
   int side = 9, substeps = 20, iterations = 2;
   double dt = 1.0 / 60;
-  bool is_woven = false;
 };
 
 // A square mesh of 1 m x 1 m in the xy-plane.
@@ -33,7 +32,6 @@ double sinking(const Run& run) {
   options.material.area_density = static_cast<float>(cloth_density);
   options.material.stretch_stiffness = static_cast<float>(membrane);
   options.bending_model = ClothOptions::Bending::none;
-  if (run.is_woven) options.stretch_model = ClothOptions::Stretching::woven;
   Object object = make_cloth(upright(run.side), options);
   object.damping = 6;
   for (std::size_t i = 0; i < object.positions.size(); ++i)
@@ -94,18 +92,6 @@ void mesh_rows(Result& result) {
   }
 }
 
-/// Woven cloth bears its weight by the warp alone, so the sag is rho g L^2 / (2 Y) exactly.
-void woven_rows(Result& result) {
-  const double expected = cloth_density * standard_gravity / (2 * membrane);
-  for (int side : {41, 81})
-    for (int substeps : {10, 20, 40}) {
-      const Run run{side, substeps, 1, 1.0 / 60, true};
-      result.rows.push_back(relative("stiffness: engine, woven, sinking, mesh " + brief(side) + " x " + brief(side) + ", " +
-                                         brief(substeps) + " substeps",
-                                     expected, sinking(run), 0.03, "m", "rho g L^2 / (2 Y); dt 1/60 s"));
-    }
-}
-
 }  // namespace
 
 void stiffness_rows(Result& result, bool) {
@@ -115,7 +101,6 @@ void stiffness_rows(Result& result, bool) {
   iteration_rows(result, expected);
   time_step_rows(result, expected);
   mesh_rows(result);
-  woven_rows(result);
 }
 
 }  // namespace pliant::validate

@@ -8,6 +8,7 @@
 
 #include "constraints/triangle_shear.h"
 #include "constraints/triangle_stretch.h"
+#include "model/attachments.h"
 #include "model/object_sets.h"
 
 namespace pliant {
