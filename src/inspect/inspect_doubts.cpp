@@ -206,7 +206,7 @@ void doubt_convergence_of_hinges(const Doubts& d) {
   constexpr int by_default = 20;
   const Settings& settings = d.scene.settings;
   const int substeps = settings.substeps > 0 ? settings.substeps : by_default;
-  const double h = double(d.scene.frame_time) / double(substeps * std::max(1, settings.iterations));
+  const double h = double(d.scene.frame_time) / (substeps * std::sqrt(double(std::max(1, settings.iterations))));
   const double excess = excess_of_hinges(d.object, h);
   if (!(excess > tolerated) || d.object.volume) return;
   const double factor = std::sqrt(excess / wanted);

@@ -6,6 +6,7 @@
 
 #include "inspect/inspect_scene.h"
 #include "inspect/problems.h"
+#include "matter/advice_settings.h"
 #include "model/woven_substeps.h"
 #include "solver/substep_law.h"
 
@@ -23,8 +24,7 @@ struct SoftWoven {
 
 /// The number of substeps that the settings give each object; the least, where they follow the State.
 std::vector<int> substeps_of_all(const Scene& scene, const Settings& settings) {
-  if (settings.substeps > 0) return std::vector<int>(scene.objects.size(), settings.substeps);
-  std::vector<int> all = chosen_substeps(scene);
+  std::vector<int> all = chosen_substeps(scene, settings);
   for (int& substeps : all)
     if (substeps <= 0) substeps = std::max(least_by_state, settings.least_substeps);
   return all;

@@ -123,6 +123,8 @@ struct SweepsInUse {
 /// tethers would hold back an object that is meant to stretch, or whose pins move apart.
 Sweep sweep_of_coarse(const Object& object, double gravity, Sweep common) {
   if (common == Sweep::tethered_chains && has_fixed(object) && !may_be_tethered(object, gravity)) return Sweep::chains;
+  if (is_woven(object) && (common == Sweep::multigrid || solves_chains(common)))
+    return Sweep::chains;  // others hold back shear
   return common == Sweep::multigrid || solves_chains(common) ? common : Sweep::tiled;
 }
 

@@ -1,5 +1,6 @@
 // Compiles an object's description to a schedule: tiles, storage order, colours, batches.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -63,10 +64,21 @@ void add_whole_object_phases(CompiledObject& out) {
                    [](const ObjectPhase& a, const ObjectPhase& b) { return a.driver < b.driver; });
 }
 
-/// The longest substep in which an object is likely to bend [s].
+/// The longest substep in which an object is likely to bend, for excess_of_hinges() [s].
 double longest_substep(SubstepRule rule, const CompileOptions& options) {
-  constexpr int least_by_state = 12;  // of solver/substep_law.h
-  return options.frame_time / (rule == SubstepRule::by_state ? std::min(options.passes, least_by_state) : options.passes);
+  const bool follows_state = rule == SubstepRule::by_state && !options.names_substeps;
+  const double substeps = follows_state ? least_substeps_of_sheets : double(options.passes) / options.iterations;
+  return options.frame_time / (substeps * std::sqrt(double(options.iterations)));
+}
+
+/// True if an object bends as a sheet. Matter that is to keep its motion has hinges, which keep it; so have large sheets that come apart, for
+/// which each tear would build the levels anew.
+bool is_sheet(const Object& object, SubstepRule rule, const CompileOptions& options) {
+  constexpr std::size_t most_torn = 10000;
+  const bool comes_apart = object.tearing || !object.cuts.empty();
+  if (options.sweep == Sweep::natural || options.keeps_energy) return false;
+  if (comes_apart && object.positions.size() > most_torn) return false;
+  return bends_as_sheet(object, longest_substep(rule, options));
 }
 
 /// Compiles an object. `given_away` is that object if its constraints may be moved out of it, else null. `kept`: null if it is scheduled
@@ -87,10 +99,11 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   const std::vector<ChangingGroup> changing = find_changing_groups(object);  // likewise
   const bool is_sheet =
       options.sweep != Sweep::natural && bends_as_sheet(object, longest_substep(out.substep_rule, options));
-  const std::optional<SheetFacts> sheet = is_sheet ? std::optional(facts_of_sheet(object)) : std::nullopt;
+  std::optional<SheetFacts> sheet;
+  if (is_sheet(object, out.substep_rule, options)) sheet = facts_of_sheet(object);
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)
                                                             : gather_constraints(object, options.passes);
-  if (is_sheet) std::erase_if(lists, [](const ConstraintList& list) { return is_hinge(list.type); });
+  if (sheet) std::erase_if(lists, [](const ConstraintList& list) { return is_hinge(list.type); });
   out.fans = join_volumes(lists, kept);
   const bool in_given_order = options.sweep == Sweep::natural;
   if (solves_chains(options.sweep)) split_off_chains(lists, held_by_targets(object, static_cast<double>(options.gravity)));

@@ -168,6 +168,9 @@ struct CompileOptions {
   float gravity = 0;             ///< magnitude of gravity, from which multigrid estimates the load on an object [m/s^2]
   bool is_blown = false;         ///< blows() of model/object_sets.h
   double frame_time = 1.0 / 60;  ///< Scene::frame_time [s]
+  int iterations = 1;            ///< of the `passes`
+  bool names_substeps = true;    ///< false: substeps may follow the State
+  bool keeps_energy = false;     ///< Settings::Integrator::energy
 };
 
 /// Compiles a mesh collider to an object of kinematic particles, so that contact treats it like any other object.

@@ -205,12 +205,13 @@ struct Piece {
 /// (docs/internals/solids.md). Pieces that an edit added come last, so that the others keep their order.
 void add_pieces(const ListSchedule& from, std::size_t list, std::size_t of_solid, const std::vector<int>& ends,
                 std::vector<Piece>& out) {
+  constexpr double last_of_all = 1 - 1e-12;
   const auto is_added = [&](int end) { return from.are_added[static_cast<std::size_t>(end) - 1] != 0; };
   const auto kept = static_cast<double>(std::count_if(ends.begin(), ends.end(), [&](int end) { return !is_added(end); }));
   double number = 0.5;
   for (const int end : ends) {
     double place = static_cast<double>(list);
-    if (from.takes_turns) place = static_cast<double>(of_solid) + (is_added(end) ? 0.999 : number++ / kept);
+    if (from.takes_turns) place = static_cast<double>(of_solid) + (is_added(end) ? last_of_all : number++ / kept);
     out.push_back({place, list, end});
   }
 }

@@ -42,7 +42,7 @@ struct SheetLevel {
   std::vector<float> diagonal;                      ///< K_ii [N/m]
   std::vector<float> mass_between;                  ///< of each entry, of coarse levels alone [kg]
   std::vector<float> mass;                          ///< of each row, of the masses that are given [kg]
-  std::vector<char> is_fixed;                       ///< 1: a pinned vertex, or one without bending
+  std::vector<char> is_fixed;                       ///< 1: a pinned vertex, or one without triangles
   std::vector<std::array<std::int32_t, 3>> parent;  ///< rows of the next level between which a row is interpolated
   std::vector<std::array<float, 3>> share;          ///< and their weights; 0 where there are fewer
   std::vector<std::int32_t> child_begin, child;     ///< for each row of the next level, the rows that it moves
@@ -54,16 +54,21 @@ struct SheetLevel {
 /// The bending energy of one object, and its levels, finest first; none if its hinges are projected instead.
 struct SheetBending {
   std::vector<SheetLevel> levels;
-  std::vector<std::int32_t> piece;  ///< of each vertex; -1: fixed
+  std::vector<std::int32_t> piece;  ///< of each vertex; -1: it has no triangle
   int pieces = 0;
   float damping_time = 0;  ///< damping over stiffness [s]
-  float stiffness = 0;     ///< B / (rho e^4), e the mean edge [1/s^2]
+  float stiffness = 0;     ///< B / (rho e^4), e the mean edge, or of the finest parts if it is more there [1/s^2]
 
   bool is_used() const { return !levels.empty(); }
 };
 
+/// The least substeps a frame of a sheet whose substeps follow the State (solver/substep_law.h).
+inline constexpr int least_substeps_of_sheets = 12;
+
 /// True if the hinges of an object are those of a flat sheet that is too fine for them in substeps of `h` seconds: its hinges
-/// have the compliances of a material and a flat rest shape without plasticity.
+/// have the compliances of a material and a flat rest shape without plasticity. All inner edges have one hinge, of much the same stiffness as those
+/// beside it: seams that bend freely, creases and edges of three triangles keep hinges. `h` of several iterations is that of a substep
+/// over the square root of their number.
 bool bends_as_sheet(const Object& object, double h);
 
 /// By what share a sheet of hinges bends too far in substeps of `h` seconds; 0 if it bends as a sheet, or has no hinges with

@@ -15,6 +15,10 @@ namespace {
 
 /// Hinges err by 2.3 of this: where s = h^2 B / (rho e^4) is less, they are within 5 %, and cost less.
 constexpr double most_of_hinges = 0.02;
+/// Beyond this, l / e = 18, floats of M + h^2 K have no room for M: measured up to 16.
+constexpr double most_of_floats = 1e5;
+/// Hinges at a vertex that differ by more in their stiffness are a crease, or a seam of another material.
+constexpr double largest_ratio = 4;
 /// A rest shape is flat if no hinge is folded by more [rad].
 constexpr double largest_fold = 1e-3;
 
@@ -42,6 +46,43 @@ bool is_flat(const Object& object, const ConstraintGroup& group) {
   for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
     const std::array<Vec3d, 4> x = hinge_at(object, group, i);
     if (std::fabs(fold_angle({x[0], x[1], x[2], x[3]})) > largest_fold) return false;
+  }
+  return true;
+}
+
+/// True if every edge of two triangles has one hinge, and none has three or more triangles. A seam or crease without hinges bends freely.
+bool has_hinges_everywhere(const Object& object) {
+  std::vector<std::array<int, 2>> hinges;
+  for (const ConstraintGroup& group : object.constraints) {
+    if (!is_hinge(group.type)) continue;
+    for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
+      const auto [a, b] = std::minmax(group.particles[4 * i], group.particles[4 * i + 1]);
+      hinges.push_back({a, b});
+    }
+  }
+  std::sort(hinges.begin(), hinges.end());
+  std::size_t inner = 0;
+  for (const Edge& edge : find_edges(object.triangles, static_cast<int>(object.positions.size()))) {
+    if (edge.triangle_count > 2) return false;
+    if (!edge.is_inner()) continue;
+    const std::array<int, 2> ends{std::min(edge.a, edge.b), std::max(edge.a, edge.b)};
+    const auto [first, last] = std::equal_range(hinges.begin(), hinges.end(), ends);
+    if (last - first != 1) return false;
+    ++inner;
+  }
+  return inner == hinges.size();
+}
+
+/// True if the initial positions are the rest shape, as they are not where pieces were welded.
+bool is_at_rest(const Object& object) {
+  constexpr double tolerated = 0.01;
+  for (const ConstraintGroup& group : object.constraints) {
+    if (!is_length(group.type) || group.rest.empty()) continue;
+    for (std::size_t i = 0; 2 * i + 1 < group.particles.size() && i < group.rest.size(); ++i) {
+      const double rest = double(group.rest[i]);
+      const double now = length(rest_of(object, group.particles[2 * i + 1]) - rest_of(object, group.particles[2 * i]));
+      if (std::fabs(now - rest) > tolerated * std::max(now, rest)) return false;
+    }
   }
   return true;
 }
@@ -189,7 +230,7 @@ Curvature curvature_at(const SheetMesh& mesh, int vertex, const std::vector<int>
     const Vec3d d = rest_of(mesh.object, i) - origin;
     size += length_squared(d) / static_cast<double>(ring.size());
   }
-  size = std::sqrt(size);
+  size = std::sqrt(std::max(size, 1e-30));
   std::array<std::array<double, 5>, 5> normal_matrix{};
   for (const int i : ring) {
     const Vec3d d = (rest_of(mesh.object, i) - origin) * (1 / size);
@@ -201,7 +242,8 @@ Curvature curvature_at(const SheetMesh& mesh, int vertex, const std::vector<int>
   }
   double trace = 0;
   for (std::size_t r = 0; r < 5; ++r) trace += normal_matrix[r][r];
-  for (std::size_t r = 0; r < 5; ++r) normal_matrix[r][r] += 1e-9 * trace;  // where too few vertices tell
+  // Where too few vertices tell, as in a strip one cell wide: what may be a slope is one.
+  for (std::size_t r = 0; r < 5; ++r) normal_matrix[r][r] += (r < 2 ? 1e-13 : 1e-9) * trace;
   std::array<std::array<double, 3>, 5> solution{};
   for (std::size_t c = 0; c < 3; ++c) solution[2 + c][c] = 1;
   solve_five(normal_matrix, solution);
@@ -293,7 +335,21 @@ SparseRows in_storage(const SparseRows& from, const std::vector<int>& place, con
   return out;
 }
 
-/// Numbers the pieces of a sheet; fixed vertices belong to none and separate nothing.
+/// B / (rho e^4) of the finest hundredth of a sheet: by its diagonals, which in a grid are 28.5 times that.
+double stiffness_of_finest(const SparseRows& matrices) {
+  constexpr double of_grid = 28.5;
+  std::vector<double> rates;
+  rates.reserve(matrices.row.size());
+  for (std::size_t i = 0; i < matrices.row.size(); ++i)
+    for (const auto& [j, stiffness, mass] : matrices.row[i])
+      if (at(j) == i && mass > 0) rates.push_back(stiffness / mass);
+  if (rates.empty()) return 0;
+  const auto place = rates.begin() + static_cast<std::ptrdiff_t>(rates.size() - 1 - rates.size() / 100);
+  std::nth_element(rates.begin(), place, rates.end());
+  return *place / of_grid;
+}
+
+/// Numbers the pieces of a sheet.
 void find_pieces(const SheetDraft& draft, SheetBending& out) {
   const std::size_t rows = draft.rest.size();
   out.piece.assign(rows, -1);
@@ -317,6 +373,26 @@ void find_pieces(const SheetDraft& draft, SheetBending& out) {
   }
 }
 
+/// True if the hinges at each vertex are much alike.
+bool is_alike(const Object& object) {
+  constexpr double none = 1e300;
+  std::vector<double> least(object.positions.size(), none), most(object.positions.size(), 0);
+  for (const ConstraintGroup& group : object.constraints) {
+    if (!is_hinge(group.type)) continue;
+    for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
+      const double b = rigidity_of(hinge_at(object, group, i), double(group.compliances[i]), is_flat_hinge(group.type));
+      for (std::size_t slot = 0; slot < 4; ++slot) {
+        const std::size_t v = at(group.particles[4 * i + slot]);
+        least[v] = std::min(least[v], b);
+        most[v] = std::max(most[v], b);
+      }
+    }
+  }
+  for (std::size_t v = 0; v < least.size(); ++v)
+    if (least[v] < none && !(most[v] <= largest_ratio * least[v])) return false;
+  return true;
+}
+
 /// B / (rho e^4) of a sheet, e its mean edge [1/s^2]; 0 if it has no hinges with compliances, or no mass.
 double sheet_stiffness(const Object& object) {
   double edges = 0, rigidity = 0, hinges = 0, area = 0, mass = 0, weighed = 0;
@@ -329,15 +405,22 @@ double sheet_stiffness(const Object& object) {
       hinges += 1;
     }
   }
-  for (const float m : object.masses) {
-    if (!std::isfinite(m)) continue;
-    mass += double(m);
+  double vertices = 0;
+  std::vector<char> has_triangle(object.positions.size(), 0);
+  for (const auto& triangle : object.triangles) {
+    const auto& [a, b, c] = triangle;
+    area += length(cross(rest_of(object, b) - rest_of(object, a), rest_of(object, c) - rest_of(object, a))) / 2;
+    for (const int v : triangle) has_triangle[at(v)] = 1;
+  }
+  for (std::size_t v = 0; v < has_triangle.size(); ++v) {
+    if (has_triangle[v] == 0) continue;
+    vertices += 1;
+    if (!std::isfinite(object.masses[v])) continue;
+    mass += double(object.masses[v]);
     weighed += 1;
   }
-  for (const auto& [a, b, c] : object.triangles)
-    area += length(cross(rest_of(object, b) - rest_of(object, a), rest_of(object, c) - rest_of(object, a))) / 2;
   if (!(hinges > 0 && weighed > 0 && area > 0)) return 0;
-  const double density = mass / weighed * static_cast<double>(object.masses.size()) / area, edge = edges / hinges;
+  const double density = mass / weighed * vertices / area, edge = edges / hinges;
   return rigidity / hinges / (density * edge * edge * edge * edge);
 }
 
@@ -388,11 +471,11 @@ std::vector<Curvature> curvatures(const SheetMesh& mesh, const std::vector<doubl
   std::vector<Curvature> all;
   all.reserve(vertices);
   for (std::size_t v = 0; v < vertices; ++v) {
-    if (rings[v].empty() || !(rigidity[v] > 0)) continue;
+    const int vertex = static_cast<int>(v);
+    if (rings[v].empty() || !(rigidity[v] > 0) || !(mesh.area_at(vertex) > 0)) continue;
     const auto regular = [&](int n) { return may_be_regular[at(n)] != 0; };
     const bool has_own =
         is_inner[v] != 0 && regular(static_cast<int>(v)) && std::all_of(rings[v].begin(), rings[v].end(), regular);
-    const int vertex = static_cast<int>(v);
     all.push_back(curvature_at(mesh, vertex, has_own ? rings[v] : wide_stencil(mesh, rings, vertex)));
     all.back().weight = rigidity[v] * mesh.area_at(vertex) * factor_of_clamp(mesh, vertex, is_fixed);
   }
@@ -403,11 +486,12 @@ std::vector<Curvature> curvatures(const SheetMesh& mesh, const std::vector<doubl
 
 bool bends_as_sheet(const Object& object, double h) {
   const double stiffness = sheet_stiffness(object);
-  if (!(h * h * stiffness > most_of_hinges && h * h * stiffness < 1e12)) return false;
+  if (!(h * h * stiffness > most_of_hinges && h * h * stiffness < most_of_floats)) return false;
   const auto can_be_sheet = [&](const ConstraintGroup& group) {
-    return !is_hinge(group.type) || (is_of_material(group) && is_flat(object, group));
+    return !is_hinge(group.type) || group.particles.empty() || (is_of_material(group) && is_flat(object, group));
   };
-  return object.bodies.empty() && std::all_of(object.constraints.begin(), object.constraints.end(), can_be_sheet);
+  return object.bodies.empty() && std::all_of(object.constraints.begin(), object.constraints.end(), can_be_sheet) &&
+         has_hinges_everywhere(object) && is_at_rest(object) && is_alike(object);
 }
 
 double excess_of_hinges(const Object& object, double h) {
@@ -426,13 +510,13 @@ SheetBending build_sheet(const Object& object, const SheetFacts& facts, const st
   std::vector<char> is_fixed(object.positions.size(), 0);
   for (std::size_t v = 0; v < is_fixed.size(); ++v) is_fixed[v] = positions[at(place[v])].w == 0 ? 1 : 0;
   SheetBending out;
-  out.stiffness = static_cast<float>(facts.stiffness);
   out.damping_time = facts.damping_time;
   SheetDraft draft = draft_of(mesh, place, is_fixed, positions.size());
   find_pieces(draft, out);
   append_levels(std::move(draft),
-                in_storage(assemble(curvatures(mesh, facts.rigidity, is_fixed), is_fixed.size()), place, positions),
-                out.levels);
+                in_storage(assemble(curvatures(mesh, facts.rigidity, is_fixed), is_fixed.size()), place, positions);
+  out.stiffness = static_cast<float>(std::max(facts.stiffness, stiffness_of_finest(matrices)));
+  append_levels(std::move(draft), std::move(matrices), out.levels);
   return out;
 }
 

@@ -56,7 +56,7 @@ std::vector<Candidate> candidates_of(const SheetDraft& draft, const std::vector<
   const Vec3d across = cross(helper, n), u = across * (1 / length(across)), v = cross(n, u);
   std::vector<Candidate> out;
   for (const int j : reached) {
-    if (is_kept[at(j)] == 0) continue;
+    if (is_kept[at(j)] == 0) continue;  // of both lips of a crack, which have one place, either may be kept
     const Vec3d d = draft.rest[at(j)] - draft.rest[at(row)];
     out.push_back({j, dot(d, u), dot(d, v), length_squared(d)});
   }
@@ -107,7 +107,9 @@ std::vector<Interpolation> interpolate_all(const SheetDraft& draft, const std::v
   std::vector<int> seen(draft.rest.size(), -1);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (draft.around[i].empty()) continue;
-    out[i] = interpolate(candidates_of(draft, is_kept, static_cast<int>(i), seen));
+    const int row = static_cast<int>(i);
+    out[i] =
+        is_kept[i] != 0 ? Interpolation{{row, row, row}, {1, 0, 0}} : interpolate(candidates_of(draft, is_kept, row, seen));
     for (double& weight : out[i].weight)
       if (std::fabs(weight) < 1e-9) weight = 0;
   }

@@ -21,13 +21,15 @@ bool solves_in_one_pass(const Substep& s, int object) {
 
 }  // namespace
 
+bool changes_velocities(const Substep& s) { return s.gases != nullptr || has_forces(s.model, s.work.control); }
+
 SweepArguments arguments(const Substep& s, int object, bool first_pass) {
   const int first = s.model.first[object];
   SweepArguments a;
   a.positions = s.state.positions.data() + first;
   a.displacements = s.work.displacements.data() + first;
   a.remainders = s.state.remainders.data() + first;
-  a.velocities = s.state.velocities.data() + first;
+  a.velocities = (changes_velocities(s) ? s.work.velocities_before : s.state.velocities).data() + first;
   a.gravity = gravity_for(s, s.work.gravity[object].settled);
   a.keeps_energy = s.context.keeps_energy;
   const bool is_stored = !s.work.multiplier_pointers[object].empty() && (s.is_last() || s.work.stores_in_last[object] == 0);

@@ -76,6 +76,9 @@ inline Record predicted_position(const Substep& s, std::int32_t particle) {
   return {x.x + d.x, x.y + d.y, x.z + d.z, 0};
 }
 
+/// True if forces change velocities before the prediction (stages/apply_forces.cpp).
+bool changes_velocities(const Substep& s);
+
 /// The arrays of an object's particles and multipliers, for projection.
 SweepArguments arguments(const Substep& s, int object, bool first_pass);
 

@@ -115,6 +115,7 @@ struct Workspace {
   std::unique_ptr<SurfaceContact> pairs;  ///< contact between surfaces; null if no dynamic surface can touch another
   ShapeContacts shape_contacts;           ///< finds contacts of edges and triangles with primitive colliders
   bool look_for_tangles = true;  ///< true: the next frame searches all initial intersections (first frame, restored State)
+  Records velocities_before;     ///< of the substep's start, before forces change them; only where there are forces [m/s]
   Records expected_velocities;   ///< velocities after the impacts of the next quarter (impacts.h) [m/s]
   std::vector<float> last_h;     ///< length of each object's last substep [s]; 0: none yet
   ResidualScratch residual;      ///< the residual for Settings::tolerance

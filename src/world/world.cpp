@@ -73,6 +73,9 @@ CompileOptions compile_options(const WorldData& world, Sweep sweep) {
   const int substeps = named_substeps(world) > 0 ? named_substeps(world)
                                                  : substeps_of_others;  // own_substeps() of objects with PBD stiffness
   options.passes = substeps * world.settings.iterations * sweep_method(sweep).passes;
+  options.iterations = world.settings.iterations;
+  options.names_substeps = named_substeps(world) > 0;
+  options.keeps_energy = world.settings.integrator == Settings::Integrator::energy;
   options.chain_softness = world.settings.sweep_options.chain_softness;
   options.tethers = world.settings.sweep_options.tethers;
   options.tether_slack = world.settings.sweep_options.tether_slack;

@@ -102,7 +102,7 @@ TEST(EnergyIntegrator, KeepsMomenta) {
   for (const Vec3f& x : block.positions) block.velocities.push_back(Vec3f{1, 2, 0} + cross(Vec3f{0, 1, 3}, x));
   Scene scene;
   scene.gravity = {};
-  scene.settings.integrator = getenv("PBD") ? Integrator::pbd : Integrator::energy;
+  scene.settings.integrator = Integrator::energy;
   scene.add(block);
   World world(scene);
   const auto momenta = [&] {

@@ -110,7 +110,7 @@ void solve_directly(const SheetLevel& level, const std::vector<double>& factor, 
     double sum[3] = {static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.z)};
     for (std::size_t c = 0; c < 3; ++c) {
       for (std::size_t k = 0; k < i; ++k) sum[c] -= factor[i * n + k] * x[c][k];
-      x[c][i] = sum[c] * factor[i * n + i];
+      x[c][i] = own.inverse[i] == 0 ? 0 : sum[c] * factor[i * n + i];  // nothing moves what is fixed
     }
   }
   for (std::size_t c = 0; c < 3; ++c)

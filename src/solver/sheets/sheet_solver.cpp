@@ -36,9 +36,13 @@ Together substeps_of_bending(const Substep& s, const SheetBending& sheet) {
   const bool may_touch = s.has_pairs() || s.bodies != nullptr || !s.own->colliders.empty();
   const int all = s.follows_state() ? s.planned / quarters : s.planned, number = s.number % all;
   const int most = may_touch ? std::min(all, s.planned / least_bendings) : all;
-  const float once = s.h * s.h * sheet.stiffness, limit = may_touch ? most_edges4_touched : most_edges4;
+  const float limit = may_touch ? most_edges4_touched : most_edges4;
+  const auto edges4 = [&](int substeps) {
+    const float seconds = static_cast<float>(substeps) * s.h;
+    return seconds * (seconds + sheet.damping_time) * sheet.stiffness;
+  };
   int period = 1;
-  while (period < most && static_cast<float>((period + 1) * (period + 1)) * once <= limit) ++period;
+  while (period < most && edges4(period + 1) <= limit) ++period;
   const int begun = number - number % period;
   return {std::min(period, all - begun), number - begun};
 }

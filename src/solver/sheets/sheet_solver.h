@@ -21,7 +21,7 @@ struct Substep;
 
 /// The values of one level in a substep.
 struct SheetLevelScratch {
-  std::vector<float> mass;     ///< of each row, 0 if it is fixed [kg]
+  std::vector<float> mass;     ///< of each row, on the finest level 0 if it is fixed [kg]
   std::vector<float> heavy;    ///< of coarse levels: what water and new pins add to it [kg]
   std::vector<float> entries;  ///< of coarse levels: M_ij + h^2 K_ij [kg]
   std::vector<float> beyond;   ///< sum over other blocks of |M_ij + h^2 K_ij| [kg]

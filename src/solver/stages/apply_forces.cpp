@@ -1,10 +1,26 @@
+#include <algorithm>
+
 #include "solver/forces.h"
 #include "solver/gases/gas_solver.h"
 #include "solver/stages/stages.h"
 
 namespace pliant {
 
+namespace {
+
+/// Keeps velocities as they are before forces change them: dampers, and matter that keeps its motion, read those.
+void keep_velocities(Substep& s) {
+  s.work.velocities_before.resize(s.state.velocities.size());
+  for_objects(s, [&](int object) {
+    const auto first = s.state.velocities.begin() + s.model.first[object];
+    std::copy_n(first, s.model.objects[object].particles, s.work.velocities_before.begin() + s.model.first[object]);
+  });
+}
+
+}  // namespace
+
 void apply_forces(Substep& s) {
+  if (changes_velocities(s)) keep_velocities(s);
   if (s.gases != nullptr) s.gases->bear_up(s);
   if (!has_forces(s.model, s.work.control)) return;
   apply_forces(
