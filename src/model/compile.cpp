@@ -97,8 +97,6 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   out.substep_rule = substep_rule(object, options.sweep, static_cast<double>(options.gravity));
 
   const std::vector<ChangingGroup> changing = find_changing_groups(object);  // likewise
-  const bool is_sheet =
-      options.sweep != Sweep::natural && bends_as_sheet(object, longest_substep(out.substep_rule, options));
   std::optional<SheetFacts> sheet;
   if (is_sheet(object, out.substep_rule, options)) sheet = facts_of_sheet(object);
   std::vector<ConstraintList> lists = given_away != nullptr ? gather_constraints(std::move(*given_away), options.passes)

@@ -513,8 +513,7 @@ SheetBending build_sheet(const Object& object, const SheetFacts& facts, const st
   out.damping_time = facts.damping_time;
   SheetDraft draft = draft_of(mesh, place, is_fixed, positions.size());
   find_pieces(draft, out);
-  append_levels(std::move(draft),
-                in_storage(assemble(curvatures(mesh, facts.rigidity, is_fixed), is_fixed.size()), place, positions);
+  SparseRows matrices = in_storage(assemble(curvatures(mesh, facts.rigidity, is_fixed), is_fixed.size()), place, positions);
   out.stiffness = static_cast<float>(std::max(facts.stiffness, stiffness_of_finest(matrices)));
   append_levels(std::move(draft), std::move(matrices), out.levels);
   return out;

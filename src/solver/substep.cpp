@@ -1,5 +1,7 @@
 #include "solver/substep.h"
 
+#include "solver/forces.h"
+
 #include "solver/sweeps/sweep.h"
 
 namespace pliant {
