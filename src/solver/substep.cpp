@@ -1,7 +1,6 @@
 #include "solver/substep.h"
 
 #include "solver/forces.h"
-
 #include "solver/sweeps/sweep.h"
 
 namespace pliant {
