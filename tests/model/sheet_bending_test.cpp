@@ -202,6 +202,28 @@ TEST(SheetBending, IsForFlatSheetsWithShortEdgesAndTheHingesOfAMaterial) {
     if (group.type == "dihedral_bending") group.plasticity = Plasticity{};
   EXPECT_FALSE(bends_as_sheet(plastic, h));
 
+  Object finned = fine;  // a third triangle at an inner edge
+  finned.positions.push_back({0.004f, 0.003f, 0.004f});
+  finned.masses.push_back(1e-6f);
+  finned.triangles.push_back({finned.triangles[40][0], finned.triangles[40][1], 81});
+  EXPECT_FALSE(bends_as_sheet(finned, h)) << "an edge of three triangles";
+
+  Object seam = fine;
+  for (ConstraintGroup& group : seam.constraints) {
+    group.particles.resize(group.particles.size() - 4);
+    group.compliances.pop_back();
+  }
+  EXPECT_FALSE(bends_as_sheet(seam, h)) << "an edge that bends freely";
+
+  Object crease = fine;
+  crease.constraints.front().compliances[60] *= 10;
+  EXPECT_FALSE(bends_as_sheet(crease, h)) << "a hinge softer than those beside it";
+
+  Object welded = fine;
+  ConstraintGroup edge{"distance", {0, 1}, {0.003f}, Stiffness::rigid(), {}};
+  welded.constraints.push_back(edge);
+  EXPECT_FALSE(bends_as_sheet(welded, h)) << "initial positions that are not the rest shape";
+
   Object as_given = fine;
   for (ConstraintGroup& group : as_given.constraints)
     if (group.type == "dihedral_bending") group.compliances.clear();

@@ -73,6 +73,20 @@ TEST(Damping, OfASliderGivesItsTerminalSpeedAtFewSubsteps) {
   }
 }
 
+/// Of a force field, too, which changes velocities before the prediction.
+TEST(Damping, OfASliderGivesItsTerminalSpeedUnderAnyForce) {
+  for (const int substeps : few_some_many) {
+    Mechanism m;
+    m.substeps = substeps;
+    m.scene.gravity = {};
+    m.scene.forces.push_back([](const Vec3f&, const Vec3f&, float mass, float) { return Vec3f{0, -10 * mass, 0}; });
+    const int b = m.box({0, 0, 0}, 2);
+    add_joint(m.object, SliderJoint{.b = b, .axis = {0, 1, 0}, .damping = 60});
+    m.run(0.5);
+    EXPECT_NEAR(m.velocity(b).y, -2 * 10. / 60, 2e-3 * 10 / 30) << substeps;
+  }
+}
+
 /// The spring's own damping and that of implicit Euler, (1 + (omega h)^2 + b h / m)^(-1/2) of the amplitude in a
 /// substep.
 TEST(Damping, OfASpringIsItsTimeBesideThatOfImplicitEuler) {
