@@ -21,11 +21,9 @@ int cycles_for(float edges4) {
   for (const float limit : limits) cycles += edges4 > limit * limit * limit * limit ? 1 : 0;
   return cycles;
 }
-/// One bending is for as many substeps as keep (l / e)^4 below this, so that it bends over few edges: many substeps are for stretch and
-/// contact. Where something may be touched, it is for fewer, and there are so many bendings a frame at least: with 4 there, too, fine
-/// cotton slid off a ball.
-constexpr float most_edges4 = 4, most_edges4_touched = 0.25f;
-constexpr int least_bendings = 20;
+/// One bending is for as many substeps as keep (l / e)^4 below this, so that it bends over few edges: sheets that hang have many substeps for
+/// their stretch. Where something may be touched, each substep has a bending: fine cotton slid off a ball else.
+constexpr float most_edges4 = 4;
 
 /// The substeps that one bending is for, and the number of the present one among them.
 struct Together {
@@ -35,14 +33,13 @@ struct Together {
 Together substeps_of_bending(const Substep& s, const SheetBending& sheet) {
   const bool may_touch = s.has_pairs() || s.bodies != nullptr || !s.own->colliders.empty();
   const int all = s.follows_state() ? s.planned / quarters : s.planned, number = s.number % all;
-  const int most = may_touch ? std::min(all, s.planned / least_bendings) : all;
-  const float limit = may_touch ? most_edges4_touched : most_edges4;
+  const int most = may_touch ? 1 : all;
   const auto edges4 = [&](int substeps) {
     const float seconds = static_cast<float>(substeps) * s.h;
     return seconds * (seconds + sheet.damping_time) * sheet.stiffness;
   };
   int period = 1;
-  while (period < most && edges4(period + 1) <= limit) ++period;
+  while (period < most && edges4(period + 1) <= most_edges4) ++period;
   const int begun = number - number % period;
   return {std::min(period, all - begun), number - begun};
 }
