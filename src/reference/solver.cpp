@@ -11,12 +11,19 @@
 namespace pliant::reference {
 
 /// A constraint as the reference solver sees it, whatever its type.
+/// One pass over the constraints.
+struct Pass {
+  double h = 0;                          ///< length of the substep [s]
+  int projections = 1;                   ///< of each constraint in a frame
+  bool is_first = true, is_only = true;  ///< of the substep
+};
+
 class AnyConstraint {
  public:
   virtual ~AnyConstraint() = default;
   virtual void start_substep() = 0;
   /// Projects the constraint once. `start` has the positions before the substep; `projections` is their number per step.
-  virtual void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, double h, int projections) = 0;
+  virtual void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, const Pass& pass) = 0;
   virtual double value(const std::vector<Particle>& particles) const = 0;
   virtual double multiplier() const = 0;
 };
@@ -87,27 +94,50 @@ class Constraint final : public AnyConstraint {
     return T::template evaluate<double>(x, rest_, gradient);
   }
 
-  void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, double h, int projections) override {
+  void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, const Pass& pass) override {
     Places<T> x, gradient;
     gather(particles, x);
     const double c = T::template evaluate<double>(x, rest_, gradient);
-    double weight = 0, motion = 0;
+    double weight = 0, along = 0;
+    Places<T> motion;
     for (std::size_t i = 0; i < size_of<T>; ++i) {
+      motion[i] = x[i] - start[indices_[i]];
       weight += particles[indices_[i]].inverse_mass * length_squared(gradient[i]);
-      motion += dot(gradient[i], x[i] - start[indices_[i]]);
+      along += dot(gradient[i], motion[i]);
     }
     if (weight == 0) return;
-    const double change = hardness_.pbd >= 0 ? pbd_change(c, weight, projections) : xpbd_change(c, weight, motion, h);
+    const double change =
+        hardness_.pbd >= 0 ? pbd_change(c, weight, pass.projections) : xpbd_change(c, weight, along, pass);
     multiplier_ += change;
+    move(particles, gradient, change);
+    if (pass.is_first && hardness_.pbd < 0 && hardness_.damping > 0) damp_across(particles, x, motion, pass.h);
+  }
+
+ private:
+  void gather(const std::vector<Particle>& particles, Places<T>& x) const {
+    for (std::size_t i = 0; i < size_of<T>; ++i) x[i] = particles[indices_[i]].position;
+  }
+
+  void move(std::vector<Particle>& particles, const Places<T>& gradient, double change) const {
     for (std::size_t i = 0; i < size_of<T>; ++i) {
       Particle& particle = particles[indices_[i]];
       particle.position += gradient[i] * (particle.inverse_mass * change);
     }
   }
 
- private:
-  void gather(const std::vector<Particle>& particles, Places<T>& x) const {
-    for (std::size_t i = 0; i < size_of<T>; ++i) x[i] = particles[indices_[i]].position;
+  // Types that measure the length of a strain are also damped across it (docs/internals/integrator.md).
+  void damp_across(std::vector<Particle>& particles, const Places<T>& x, const Places<T>& motion, double h) const {
+    if constexpr (requires { T::is_length_of_strain; }) {
+      if constexpr (T::is_length_of_strain) {
+        Places<T> gradient;
+        const double moved = T::template strain_across<double>(x, motion, rest_, gradient);
+        double weight = 0;
+        for (std::size_t i = 0; i < size_of<T>; ++i)
+          weight += particles[indices_[i]].inverse_mass * length_squared(gradient[i]);
+        const double alpha = hardness_.compliance / (h * h), gamma = hardness_.compliance * hardness_.damping / h;
+        if (gamma * weight + alpha > 0) move(particles, gradient, -gamma * moved / (gamma * weight + alpha));
+      }
+    }
   }
 
   // PBD: k' = 1 - (1 - k)^(1/n). n projections of an isolated linear constraint remove the share k of its error.
@@ -117,11 +147,16 @@ class Constraint final : public AnyConstraint {
     return -each * c / weight;
   }
 
-  // XPBD: Macklin, Mueller and Chentanez 2016, eq. 18 and 26.
-  double xpbd_change(double c, double weight, double motion, double h) const {
-    const double alpha = hardness_.compliance / (h * h);
-    const double gamma = hardness_.compliance * hardness_.damping / h;
-    return (-c - alpha * multiplier_ - gamma * motion) / ((1 + gamma) * weight + alpha);
+  // XPBD: Macklin, Mueller and Chentanez 2016, eq. 18 and 26. One pass over a solid leaves it too soft by half of its own
+  // denominator, so its compliance is lowered (docs/internals/solids.md).
+  double xpbd_change(double c, double weight, double motion, const Pass& pass) const {
+    constexpr double lead = 0.62;
+    const double alpha = hardness_.compliance / (pass.h * pass.h);
+    const double gamma = hardness_.compliance * hardness_.damping / pass.h;
+    const double rigid = (1 + gamma) * weight;
+    const double denominator =
+        is_of_solid<T> && pass.is_only ? std::max(rigid + alpha - lead * rigid, rigid) : rigid + alpha;
+    return (-c - alpha * multiplier_ - gamma * motion) / denominator;
   }
 
   std::array<std::size_t, size_of<T>> indices_{};
@@ -217,7 +252,8 @@ void Solver::substep(double h) {
   }
   for (auto& constraint : constraints_) constraint->start_substep();
   for (int i = 0; i < iterations; ++i)
-    for (auto& constraint : constraints_) constraint->project(particles, start, h, substeps * iterations);
+    for (auto& constraint : constraints_)
+      constraint->project(particles, start, {h, substeps * iterations, i == 0, iterations == 1});
   const double kept = std::exp(-damping * h);  // libm, as in pbd_change
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (particles[i].inverse_mass > 0) particles[i].velocity = (particles[i].position - start[i]) * (kept / h);

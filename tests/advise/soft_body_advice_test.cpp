@@ -42,22 +42,19 @@ bool stays_whole(const Scene& scene, const Settings& settings) {
   return world.measure().tetrahedra().inverted == 0;
 }
 
-TEST(Advise, NamesWhatKeepsASoftBodyWhole) {
+/// A foam whose one side is pulled away by 4 m and back in 0.2 s burst by default, before soft bodies were solved to 3 % of linear elements.
+TEST(Advise, HasNothingToMendWhereASoftBodyStaysWhole) {
   const Scene scene = pulled_foam(4);
+  EXPECT_TRUE(stays_whole(scene, chosen_settings(scene)));
   const Advice advice = advise(scene, unhurried);
-  ASSERT_NE(advice.words.find("not finite"), std::string::npos) << "or this shows nothing: " << advice.words;
+  EXPECT_EQ(advice.words, "");
   const int by_default = chosen_settings(scene).substeps;
-  ASSERT_FALSE(advice.others.empty());
   for (const Trial& trial : advice.others) {
     EXPECT_GE(trial.settings.substeps, by_default) << "the body would be softer";
     EXPECT_EQ(trial.settings.sweep, Sweep::tiled) << "it has no lengths";
     EXPECT_FALSE(trial.settings.sweep_options.tethers);
     EXPECT_EQ(is_good(trial), stays_whole(scene, trial.settings)) << trial.settings.substeps;
   }
-  ASSERT_GE(advice.best, 0);
-  EXPECT_TRUE(stays_whole(scene, advice.others[advice.best].settings));
-  EXPECT_NE(advice.what_to_do.find(" keep all values finite and no tetrahedron inside out"), std::string::npos)
-      << advice.what_to_do;
 }
 
 /// A sheet that is too long with one substep, and a box that its pins turn inside out with any settings.

@@ -126,16 +126,17 @@ class SheetEnergy : public testing::TestWithParam<std::array<int, 2>> {
 TEST_P(SheetEnergy, IsThatOfTheSurfaceWhereItIsKnown) {
   constexpr int n = 17;
   const Built built(object(n));
-  const double size = (n - 1) * spacing, area = size * size;
+  const double size = (n - 1) * spacing,
+               area = size * size;  // corners have few vertices around them: up to 0.25 % is missing
   const auto of = [&](auto height) {
     return energy(built.finest(), heights(built.object, height)) / (rigidity * area / 2);
   };
-  EXPECT_NEAR(of([](double x, double) { return x * x / 2; }), 1, 2e-3) << "rolled about z: kxx = 1";
-  EXPECT_NEAR(of([](double, double z) { return z * z / 2; }), 1, 2e-3) << "rolled about x: kzz = 1";
-  EXPECT_NEAR(of([](double x, double z) { return (x + z) * (x + z) / 4; }), 1, 2e-3) << "rolled about a diagonal";
-  EXPECT_NEAR(of([](double x, double z) { return (x - z) * (x - z) / 4; }), 1, 2e-3) << "rolled about the other one";
-  EXPECT_NEAR(of([](double x, double z) { return x * z; }), 2, 2e-3) << "twisted: kxy = 1";
-  EXPECT_NEAR(of([](double x, double z) { return (x * x + z * z) / 2; }), 2, 2e-3) << "a dome: kxx = kzz = 1";
+  EXPECT_NEAR(of([](double x, double) { return x * x / 2; }), 1, 4e-3) << "rolled about z: kxx = 1";
+  EXPECT_NEAR(of([](double, double z) { return z * z / 2; }), 1, 4e-3) << "rolled about x: kzz = 1";
+  EXPECT_NEAR(of([](double x, double z) { return (x + z) * (x + z) / 4; }), 1, 4e-3) << "rolled about a diagonal";
+  EXPECT_NEAR(of([](double x, double z) { return (x - z) * (x - z) / 4; }), 1, 4e-3) << "rolled about the other one";
+  EXPECT_NEAR(of([](double x, double z) { return x * z; }), 2, 8e-3) << "twisted: kxy = 1";
+  EXPECT_NEAR(of([](double x, double z) { return (x * x + z * z) / 2; }), 2, 8e-3) << "a dome: kxx = kzz = 1";
 }
 
 TEST_P(SheetEnergy, ResistsNeitherTranslationNorRotation) {
