@@ -50,7 +50,7 @@ struct ChainRows {
 struct WideMotion {
   Vec3<Wide> motion{}, coast{};
 
-  PLIANT_HD WideMotion() {}
+  WideMotion() = default;
   PLIANT_HD WideMotion(const SweepArguments& a, const std::int32_t* index, const Registers& displacements, const Wide& w)
       : motion(from_registers(displacements - load_indexed(a.remainders, index)).position) {
     const Vec3<Wide> v = from_registers(load_indexed(a.velocities, index)).position;
