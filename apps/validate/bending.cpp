@@ -1,5 +1,5 @@
-// Bending of fine sheets by default settings: cantilevers of the fabrics against the beam's formula q L^4 / (8 B), on meshes that are
-// coarse and fine, regular and not.
+// Bending of fine sheets by default settings: cantilevers of the fabrics against the beam's formula q L^4 / (8 B), on
+// meshes that are coarse and fine, regular and not.
 #include <algorithm>
 #include <array>
 #include <cmath>

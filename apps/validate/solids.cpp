@@ -1,6 +1,6 @@
-// Elastic solids with the default settings bear their weight as their modulus says. A bar hangs by one end, and another is clamped at one
-// end; the right displacement is that of many times the substeps, which is that of linear finite elements of the same mesh to 1 %
-// (tests/soft_bodies/converged_test.cpp).
+// Elastic solids with the default settings bear their weight as their modulus says. A bar hangs by one end, and another
+// is clamped at one end; the right displacement is that of many times the substeps, which is that of linear finite
+// elements of the same mesh to 1 % (tests/soft_bodies/converged_test.cpp).
 #include "apps/validate/rows.h"
 #include "pliant/soft_body.h"
 

@@ -129,7 +129,8 @@ void far_rows(Result& result) {
 
 // ------------------------------------------------------------------------------------------------ a seam
 
-/// Two upright panels that are sewn together at both sides round two balls, 8 % too narrow to go round them unstretched.
+/// Two upright panels that are sewn together at both sides round two balls, 8 % too narrow to go round them
+/// unstretched.
 void seam_rows(Result& result) {
   constexpr float ball = 0.12f;
   constexpr int columns = 13, rows = 17;

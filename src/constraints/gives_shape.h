@@ -11,7 +11,8 @@ namespace pliant {
 bool gives_shape(const std::string& name);
 inline bool gives_shape(int type) { return gives_shape(constraint_type(type).name); }
 
-/// True if constraints of the type make up an elastic solid: those that give shape, and those that keep volumes of tetrahedra.
+/// True if constraints of the type make up an elastic solid: those that give shape, and those that keep volumes of
+/// tetrahedra.
 bool belongs_to_solid(int type);
 
 }  // namespace pliant

@@ -70,8 +70,9 @@ struct TetrahedronStrain {
     return true;
   }
 
-  /// Of the strain that a motion of the corners adds, what is across the present strain: sqrt(2) |E'|, with its gradients at the corners.
-  /// The types of a solid measure |E| alone, so the damping of C would leave a strain that only changes its direction as it is.
+  /// Of the strain that a motion of the corners adds, what is across the present strain: sqrt(2) |E'|, with its
+  /// gradients at the corners. The types of a solid measure |E| alone, so the damping of C would leave a strain that
+  /// only changes its direction as it is.
   template <class R>
   PLIANT_HD static R strain_across(const Vec3<R> (&x)[4], const Vec3<R> (&motion)[4], const Params<R>& p,
                                    Vec3<R> (&gradient)[4]) {

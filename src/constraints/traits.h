@@ -22,8 +22,8 @@ inline constexpr bool is_arithmetic = requires {
   T::is_arithmetic;
 };
 
-/// True if constraints of the type make up an elastic solid, which gives way too far by a known share where one pass solves it
-/// (solver/project.h).
+/// True if constraints of the type make up an elastic solid, which gives way too far by a known share where one pass
+/// solves it (solver/project.h).
 template <class T>
 inline constexpr bool is_of_solid = requires {
   T::is_of_solid;

@@ -31,10 +31,11 @@ void refuse_initial_intersections(const Scene& scene);
 /// their number.
 std::vector<std::string> warnings_of_starts_in_solids(const Scene& scene);
 
-/// For each soft body that the substeps of `settings` leave over a tenth softer than its modulus says: a warning with how much, and what
-/// mends it. `pliant check` says the same.
+/// For each soft body that the substeps of `settings` leave over a tenth softer than its modulus says: a warning with
+/// how much, and what mends it. `pliant check` says the same.
 std::vector<std::string> warnings_of_soft_bodies(const Scene& scene, const Settings& settings);
-/// For each woven cloth whose triangles yield much more than their stiffness says with these settings: a warning with by how much.
+/// For each woven cloth whose triangles yield much more than their stiffness says with these settings: a warning with
+/// by how much.
 std::vector<std::string> warnings_of_woven(const Scene& scene, const Settings& settings);
 
 }  // namespace pliant

@@ -1,4 +1,5 @@
-// Soft bodies whose numbers are probably in another unit, and those that their substeps leave softer than their modulus says.
+// Soft bodies whose numbers are probably in another unit, and those that their substeps leave softer than their modulus
+// says.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -20,9 +21,9 @@ struct TooSoft {
   std::string problem, advice;  ///< "are 20, so few that ..."
 };
 
-/// How many times as much a body yields as with enough substeps, which are `longer` times as many. Fitted to bars in tension and bent, of a
-/// Poisson's ratio of 0.3 and 0.49, with up to seven times too few (docs/internals/solids.md). With more iterations than one the compliance
-/// is not lowered (solver/project.h).
+/// How many times as much a body yields as with enough substeps, which are `longer` times as many. Fitted to bars in
+/// tension and bent, of a Poisson's ratio of 0.3 and 0.49, with up to seven times too few (docs/internals/solids.md).
+/// With more iterations than one the compliance is not lowered (solver/project.h).
 double yield_over_right_one(double longer, int iterations) {
   constexpr double slope = 0.085, harmless = 3.2, slope_of_more = 0.1;
   if (iterations > 1) return 1 + slope_of_more * longer * longer / iterations;

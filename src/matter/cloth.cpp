@@ -219,7 +219,8 @@ Yarns yarns_of(const ClothDraft& piece, std::size_t triangle) {
 /// The sine of the angle within which an edge lies along a yarn.
 constexpr double along_yarn = 1e-3;
 
-/// The edge of a triangle that lies along a direction, shares of its first two edges: the number of its first corner; -1: none.
+/// The edge of a triangle that lies along a direction, shares of its first two edges: the number of its first corner;
+/// -1: none.
 int edge_along(const ClothDraft& piece, std::size_t triangle, const std::array<float, 2>& shares) {
   const Triangle& t = piece.triangles[triangle];
   const double a1 = static_cast<double>(shares[0]), a2 = static_cast<double>(shares[1]);
@@ -239,8 +240,9 @@ int edge_along(const ClothDraft& piece, std::size_t triangle, const std::array<f
   return best;
 }
 
-/// The stretch of woven cloth. Of a triangle with an edge along a yarn, the yarn's stretch is that of the edge: a distance, which chains solve
-/// whatever the mesh. A modulus Y of the areas A beside an edge of length L has the compliance L^2 / (Y A).
+/// The stretch of woven cloth. Of a triangle with an edge along a yarn, the yarn's stretch is that of the edge: a
+/// distance, which chains solve whatever the mesh. A modulus Y of the areas A beside an edge of length L has the
+/// compliance L^2 / (Y A).
 struct YarnGroups {
   ConstraintGroup edges, triangles;
 };

@@ -71,8 +71,8 @@ double longest_substep(SubstepRule rule, const CompileOptions& options) {
   return options.frame_time / (substeps * std::sqrt(double(options.iterations)));
 }
 
-/// True if an object bends as a sheet. Matter that is to keep its motion has hinges, which keep it; so have large sheets that come apart, for
-/// which each tear would build the levels anew.
+/// True if an object bends as a sheet. Matter that is to keep its motion has hinges, which keep it; so have large
+/// sheets that come apart, for which each tear would build the levels anew.
 bool is_sheet(const Object& object, SubstepRule rule, const CompileOptions& options) {
   constexpr std::size_t most_torn = 10000;
   const bool comes_apart = object.tearing || !object.cuts.empty();

@@ -200,9 +200,10 @@ struct Piece {
   int end;
 };
 
-/// Adds the pieces of a list, which end at `ends`. Lists come one after another; but those of a solid take turns, in proportion to their
-/// pieces, at the place `of_solid`. With all volumes after all shear, surface particles are moved too far by what comes first
-/// (docs/internals/solids.md). Pieces that an edit added come last, so that the others keep their order.
+/// Adds the pieces of a list, which end at `ends`. Lists come one after another; but those of a solid take turns, in
+/// proportion to their pieces, at the place `of_solid`. With all volumes after all shear, surface particles are moved
+/// too far by what comes first (docs/internals/solids.md). Pieces that an edit added come last, so that the others keep
+/// their order.
 void add_pieces(const ListSchedule& from, std::size_t list, std::size_t of_solid, const std::vector<int>& ends,
                 std::vector<Piece>& out) {
   constexpr double last_of_all = 1 - 1e-12;

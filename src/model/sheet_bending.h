@@ -1,4 +1,5 @@
-// Bending of flat sheets whose edges are short: one quadratic energy of the whole sheet instead of one constraint a hinge.
+// Bending of flat sheets whose edges are short: one quadratic energy of the whole sheet instead of one constraint a
+// hinge.
 //
 // A sweep over hinges does not converge where edges are shorter than the bending length of a substep,
 // l = (h^2 B / rho)^(1/4): it sags too much by a factor 1 + 2.3 (l / edge)^4. There a substep solves
@@ -7,13 +8,14 @@
 //
 //   energy = sum over vertices of B A / 2 (kxx^2 + 2 kxy^2 + kzz^2)
 //
-// A is a vertex's area, k the curvature of the quadratic that fits the offsets of the vertices around it best, in the rest
-// plane, weighted by 1 / distance^2. The curvature of a sheet that hardly stretches is a multiple of its normal, so each
-// component of k has three coordinates, and K applies to each coordinate alike. docs/internals/bending.md compares this energy with others.
+// A is a vertex's area, k the curvature of the quadratic that fits the offsets of the vertices around it best, in the
+// rest plane, weighted by 1 / distance^2. The curvature of a sheet that hardly stretches is a multiple of its normal,
+// so each component of k has three coordinates, and K applies to each coordinate alike. docs/internals/bending.md
+// compares this energy with others.
 //
-// The solve is a multigrid cycle. Each level keeps a quarter to a third of the vertices of the finer one and interpolates linearly
-// between them. Coarse stiffness and mass are Galerkin products, so a cycle is never softer than M + h^2 K, and moves and turns
-// what no force bends as it should: with lumped coarse masses a sheet fell at 0.8 g.
+// The solve is a multigrid cycle. Each level keeps a quarter to a third of the vertices of the finer one and
+// interpolates linearly between them. Coarse stiffness and mass are Galerkin products, so a cycle is never softer than
+// M + h^2 K, and moves and turns what no force bends as it should: with lumped coarse masses a sheet fell at 0.8 g.
 #pragma once
 
 #include <array>
@@ -32,8 +34,8 @@ inline constexpr int sheet_block = 1024;
 /// Rows at which coarsening ends, and the largest number that is solved directly.
 inline constexpr int coarsest_sheet_rows = 32;
 
-/// The stiffness between the vertices of one level, in compressed rows. A row has first the columns below it in its block,
-/// then those above it in its block, then those of other blocks.
+/// The stiffness between the vertices of one level, in compressed rows. A row has first the columns below it in its
+/// block, then those above it in its block, then those of other blocks.
 struct SheetLevel {
   int rows = 0;
   std::vector<std::int32_t> begin, above, outside;  ///< of each row: its first entry, and the first of each other part
@@ -65,14 +67,14 @@ struct SheetBending {
 /// The least substeps a frame of a sheet whose substeps follow the State (solver/substep_law.h).
 inline constexpr int least_substeps_of_sheets = 12;
 
-/// True if the hinges of an object are those of a flat sheet that is too fine for them in substeps of `h` seconds: its hinges
-/// have the compliances of a material and a flat rest shape without plasticity. All inner edges have one hinge, of much the same stiffness as those
-/// beside it: seams that bend freely, creases and edges of three triangles keep hinges. `h` of several iterations is that of a substep
-/// over the square root of their number.
+/// True if the hinges of an object are those of a flat sheet that is too fine for them in substeps of `h` seconds: its
+/// hinges have the compliances of a material and a flat rest shape without plasticity. All inner edges have one hinge,
+/// of much the same stiffness as those beside it: seams that bend freely, creases and edges of three triangles keep
+/// hinges. `h` of several iterations is that of a substep over the square root of their number.
 bool bends_as_sheet(const Object& object, double h);
 
-/// By what share a sheet of hinges bends too far in substeps of `h` seconds; 0 if it bends as a sheet, or has no hinges with
-/// compliances. It is 2.3 h^2 B / (rho e^4), measured with one sweep a substep (docs/internals/bending.md).
+/// By what share a sheet of hinges bends too far in substeps of `h` seconds; 0 if it bends as a sheet, or has no hinges
+/// with compliances. It is 2.3 h^2 B / (rho e^4), measured with one sweep a substep (docs/internals/bending.md).
 double excess_of_hinges(const Object& object, double h);
 
 /// What the hinges of a sheet say of its material.
@@ -83,8 +85,8 @@ struct SheetFacts {
 };
 SheetFacts facts_of_sheet(const Object& object);
 
-/// Builds the energy and levels. `place`: storage index of each particle of the object; `positions`: in storage order, inverse
-/// mass in w. Reads no constraints of the object.
+/// Builds the energy and levels. `place`: storage index of each particle of the object; `positions`: in storage order,
+/// inverse mass in w. Reads no constraints of the object.
 SheetBending build_sheet(const Object& object, const SheetFacts& facts, const std::vector<int>& place,
                          const std::vector<Record>& positions);
 

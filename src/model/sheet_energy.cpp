@@ -50,7 +50,8 @@ bool is_flat(const Object& object, const ConstraintGroup& group) {
   return true;
 }
 
-/// True if every edge of two triangles has one hinge, and none has three or more triangles. A seam or crease without hinges bends freely.
+/// True if every edge of two triangles has one hinge, and none has three or more triangles. A seam or crease without
+/// hinges bends freely.
 bool has_hinges_everywhere(const Object& object) {
   std::vector<std::array<int, 2>> hinges;
   for (const ConstraintGroup& group : object.constraints) {
@@ -174,8 +175,9 @@ void sort_unique(std::vector<int>& all) {
   all.erase(std::unique(all.begin(), all.end()), all.end());
 }
 
-/// The vertices around an irregular one whose offsets give its curvature: its neighbours, and the tips across the border of its star. By
-/// neighbours alone a sheet of alternating diagonals is 30 % too soft, and an irregular one 5 to 10 %.
+/// The vertices around an irregular one whose offsets give its curvature: its neighbours, and the tips across the
+/// border of its star. By neighbours alone a sheet of alternating diagonals is 30 % too soft, and an irregular one 5 to
+/// 10 %.
 std::vector<int> wide_stencil(const SheetMesh& mesh, const std::vector<std::vector<int>>& rings, int vertex) {
   constexpr std::size_t least = 6;
   std::vector<int> out = rings[at(vertex)];
@@ -212,7 +214,8 @@ void solve_five(std::array<std::array<double, 5>, 5> a, std::array<std::array<do
   }
 }
 
-/// Curvature at a vertex as a sum over vertices: coefficients of kxx, kxy and kzz [1/m^2]. The vertex itself is the last.
+/// Curvature at a vertex as a sum over vertices: coefficients of kxx, kxy and kzz [1/m^2]. The vertex itself is the
+/// last.
 struct Curvature {
   std::vector<int> of;
   std::vector<std::array<double, 3>> by;
@@ -263,8 +266,9 @@ Curvature curvature_at(const SheetMesh& mesh, int vertex, const std::vector<int>
   return out;
 }
 
-/// At a pinned vertex beside triangles that cannot move, the sheet bends on the other side alone: the mean square of the curvature is the
-/// square of its mean over that side's share. Without this factor a clamp yields by a quarter of an edge.
+/// At a pinned vertex beside triangles that cannot move, the sheet bends on the other side alone: the mean square of
+/// the curvature is the square of its mean over that side's share. Without this factor a clamp yields by a quarter of
+/// an edge.
 double factor_of_clamp(const SheetMesh& mesh, int vertex, const std::vector<char>& is_fixed) {
   if (is_fixed[at(vertex)] == 0) return 1;
   double all = 0, fixed = 0;

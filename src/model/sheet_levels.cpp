@@ -1,4 +1,5 @@
-// The levels of a sheet's bending energy (model/sheet_bending.h): coarse vertices, interpolation between them, Galerkin products.
+// The levels of a sheet's bending energy (model/sheet_bending.h): coarse vertices, interpolation between them, Galerkin
+// products.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -80,8 +81,8 @@ Interpolation between(const Candidate& a, const Candidate& b) {
   return {{a.row, b.row, a.row}, {1 - share, share, 0}};
 }
 
-/// Linear interpolation by the triangle of vertices that is tightest: it has the least sum of |weight| distance^2, as the triangle of a
-/// Delaunay triangulation has.
+/// Linear interpolation by the triangle of vertices that is tightest: it has the least sum of |weight| distance^2, as
+/// the triangle of a Delaunay triangulation has.
 Interpolation interpolate(const std::vector<Candidate>& all) {
   if (all.empty()) return {};
   if (all.size() == 1 || all[0].squared == 0) return {{all[0].row, all[0].row, all[0].row}, {1, 0, 0}};
@@ -145,7 +146,8 @@ class RowSum {
   std::vector<int> columns_;
 };
 
-/// The Galerkin products I^T K I and I^T M I. `number`: the row of the next level of each kept row. Rows that are fixed do not move with coarse ones.
+/// The Galerkin products I^T K I and I^T M I. `number`: the row of the next level of each kept row. Rows that are fixed
+/// do not move with coarse ones.
 SparseRows product(const SparseRows& k, const std::vector<Interpolation>& by, const std::vector<char>& is_fixed,
                    const std::vector<int>& number, int rows) {
   std::vector<std::vector<std::pair<int, double>>> shares(at(rows));  // of each coarse row: fine rows and weights
@@ -170,7 +172,8 @@ SparseRows product(const SparseRows& k, const std::vector<Interpolation>& by, co
   return out;
 }
 
-/// Joins coarse rows between which a row is interpolated; what is left alone, as a corner may be, to all rows that it acts on.
+/// Joins coarse rows between which a row is interpolated; what is left alone, as a corner may be, to all rows that it
+/// acts on.
 std::vector<std::vector<int>> joined(const std::vector<Interpolation>& by, const std::vector<int>& number,
                                      const SparseRows& matrix) {
   const int rows = static_cast<int>(matrix.row.size());

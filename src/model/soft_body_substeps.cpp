@@ -16,8 +16,8 @@ namespace pliant {
 
 namespace {
 
-/// Edges that a shear wave passes in a substep. One sweep carries a force about an edge far, so a body that is solved with longer substeps
-/// yields more than its modulus says: with twice as long ones by 15 % (docs/internals/solids.md).
+/// Edges that a shear wave passes in a substep. One sweep carries a force about an edge far, so a body that is solved
+/// with longer substeps yields more than its modulus says: with twice as long ones by 15 % (docs/internals/solids.md).
 constexpr double edges_per_substep = 0.25;
 constexpr int fewest_soft_substeps = 20, most_soft_substeps = 1000;
 /// What a tetrahedron of a cube of side a, cut into six, has: sum of squared gradients of its four barycentric coordinates, times a^2; and
@@ -124,7 +124,8 @@ double rate_squared(const MeasuredSolid& solid) {
   return rates[place];
 }
 
-/// How many times more substeps a solid needs that hardly changes its volume. `ratio`: lambda over mu; 9 at a Poisson's ratio of 0.45.
+/// How many times more substeps a solid needs that hardly changes its volume. `ratio`: lambda over mu; 9 at a Poisson's
+/// ratio of 0.45.
 double more_for_volume(double ratio) {
   constexpr double free_ratio = 9, most = 1.4;
   return ratio > free_ratio ? most - (most - 1) * free_ratio / ratio : 1;

@@ -1,6 +1,7 @@
-// One Gauss-Seidel pass a substep makes a constraint more compliant by about half of its inverse mass w, in units of alpha / h^2: of two
-// constraints that share particles, one is projected after the other, and moves it. So a sheet yields by 1 + s with
-// s = h^2 w / (2 alpha), whatever its rows; for shear of a square grid s = G h^2 / (rho e^2). Figures: docs/internals/woven.md.
+// One Gauss-Seidel pass a substep makes a constraint more compliant by about half of its inverse mass w, in units of
+// alpha / h^2: of two constraints that share particles, one is projected after the other, and moves it. So a sheet
+// yields by 1 + s with s = h^2 w / (2 alpha), whatever its rows; for shear of a square grid s = G h^2 / (rho e^2).
+// Figures: docs/internals/woven.md.
 #include "model/woven_substeps.h"
 
 #include <algorithm>
@@ -26,7 +27,8 @@ struct WovenGroup {
   double allowed() const { return strain > 0 ? std::max(largest_number, tolerated_strain / strain) : largest_number; }
 };
 
-/// w of a triangle's stretch or shear at rest: gradients are the two directions, square to each other, times these coefficients.
+/// w of a triangle's stretch or shear at rest: gradients are the two directions, square to each other, times these
+/// coefficients.
 double inverse_mass(const Object& object, const ConstraintGroup& group, std::size_t number, std::size_t fields) {
   const float* rest = &group.rest[fields * number];
   double sum = 0;

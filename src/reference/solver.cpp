@@ -147,8 +147,8 @@ class Constraint final : public AnyConstraint {
     return -each * c / weight;
   }
 
-  // XPBD: Macklin, Mueller and Chentanez 2016, eq. 18 and 26. One pass over a solid leaves it too soft by half of its own
-  // denominator, so its compliance is lowered (docs/internals/solids.md).
+  // XPBD: Macklin, Mueller and Chentanez 2016, eq. 18 and 26. One pass over a solid leaves it too soft by half of its
+  // own denominator, so its compliance is lowered (docs/internals/solids.md).
   double xpbd_change(double c, double weight, double motion, const Pass& pass) const {
     constexpr double lead = 0.62;
     const double alpha = hardness_.compliance / (pass.h * pass.h);

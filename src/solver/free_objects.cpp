@@ -98,7 +98,8 @@ float distance(const CompiledObject& object, const PointBounds& box, const Movin
 }
 
 /// Calls near(solid, group, room) for the solids of rigid bodies of other groups than that of a tile's free object.
-/// `group`: that of the solid, -1 if something fixed acts on it. `room`: its distance from the surfaces of the particles [m].
+/// `group`: that of the solid, -1 if something fixed acts on it. `room`: its distance from the surfaces of the
+/// particles [m].
 template <class Near>
 void for_solids_of_others(const Substep& s, int task, const FreeBodies& free, const Near& near) {
   if (s.bodies == nullptr) return;

@@ -46,9 +46,10 @@ PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass
   }
 }
 
-/// The denominator of a solid's constraint in a sweep of one pass: its compliance is lowered by the share `lead` of `rigid`, the denominator
-/// without compliance, and not below zero. Such a sweep treats neighbours that come later as if they were at rest, so a static load
-/// moves each constraint as if its compliance were greater by about half of `rigid` (docs/internals/solids.md).
+/// The denominator of a solid's constraint in a sweep of one pass: its compliance is lowered by the share `lead` of
+/// `rigid`, the denominator without compliance, and not below zero. Such a sweep treats neighbours that come later as
+/// if they were at rest, so a static load moves each constraint as if its compliance were greater by about half of
+/// `rigid` (docs/internals/solids.md).
 template <class R>
 PLIANT_HD R led(const R& denominator, const R& rigid, const R& lead) {
   return max(denominator - lead * rigid, rigid);
@@ -65,8 +66,8 @@ struct ConstraintResponse {
   R share = R(1.f);       ///< in general sweeps: share of dlambda that is added to the multiplier
 };
 
-/// Adds to the corrections what damping takes from a strain that only changes its direction. Once in a substep, as it keeps
-/// no multiplier.
+/// Adds to the corrections what damping takes from a strain that only changes its direction. Once in a substep, as it
+/// keeps no multiplier.
 template <class T, bool general, class R>
 PLIANT_HD void damp_across(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
                            const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],

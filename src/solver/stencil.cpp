@@ -94,7 +94,8 @@ float along(const Pool& pool, const Work& work, int row, const Vec3f (&motion)[m
 }
 float motion_along(const Pool& pool, const Work& work, int row) { return along(pool, work, row, work.motion); }
 
-/// How a constraint of this compliance over h^2 takes the mean of forces: equally in all rows, so that the matrix is symmetric.
+/// How a constraint of this compliance over h^2 takes the mean of forces: equally in all rows, so that the matrix is
+/// symmetric.
 energy_law::Shares<float> mean_of(const Pool& pool, const Work& work, const SweepArguments& a, float compliance) {
   if (!a.keeps_energy || pool.law == Law::pbd) return {0, 0};
   const bool is_bounded = constraint_type(pool.type).evaluate_bounded != nullptr;

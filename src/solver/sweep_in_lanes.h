@@ -105,8 +105,8 @@ PLIANT_HD Vec3<Wide> load_coast(const SweepArguments& a, const SlotIndices<size,
           (v.z + select(falls, Wide(a.gravity.z), zero)) * h};
 }
 
-/// Projects the constraints of one register: `rows` are the batch's parameters, `multiplier` its multipliers. `is_damped`: the pool has
-/// dampings.
+/// Projects the constraints of one register: `rows` are the batch's parameters, `multiplier` its multipliers.
+/// `is_damped`: the pool has dampings.
 template <class T, Law law, bool keeps_multipliers, bool keeps_energy, std::int32_t fixed, int row_count>
 PLIANT_HD void project_register(bool is_damped, const RowPointers<row_count>& rows,
                                 const SlotIndices<slot_count<T>, fixed>& slots, float* multiplier, const ValidLanes& valid,

@@ -332,7 +332,8 @@ TEST(InspectScene, NamesConstraintsOnFlatElements) {
   }
 }
 
-/// Where no edge lies along a yarn, its stretch is that of triangles, which yield by 1 + 1.1 Y h^2 / (2 rho e^2) on squares of edges e.
+/// Where no edge lies along a yarn, its stretch is that of triangles, which yield by 1 + 1.1 Y h^2 / (2 rho e^2) on
+/// squares of edges e.
 TEST(InspectScene, DoubtsWovenClothThatYieldsTooMuch) {
   const auto doubt = [](const Vec3f& warp, int substeps, float stiffness) {
     Scene scene;

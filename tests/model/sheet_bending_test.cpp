@@ -1,5 +1,5 @@
-// Tests the bending energy of fine sheets: what it says of shapes with known energies, on grids and irregular meshes, and that its levels
-// interpolate linearly and are never softer than the sheet.
+// Tests the bending energy of fine sheets: what it says of shapes with known energies, on grids and irregular meshes,
+// and that its levels interpolate linearly and are never softer than the sheet.
 #include "model/sheet_bending.h"
 
 #include <gtest/gtest.h>

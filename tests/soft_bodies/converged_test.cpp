@@ -73,7 +73,8 @@ OverElements over_elements(const Bar& bar) {
   return {sags[0] / sags[1], narrowings[0] / narrowings[1]};
 }
 
-// 1.09 to 1.14 times as long, and up to a quarter too narrow, without compensation and with all volumes solved after all shear.
+// 1.09 to 1.14 times as long, and up to a quarter too narrow, without compensation and with all volumes solved after
+// all shear.
 TEST(ConvergedSolids, ABarInTensionIsAsLongAsLinearElements) {
   for (const int cells : {2, 4})
     for (const float poisson_ratio : {0.3f, 0.39f, 0.45f, 0.49f}) {

@@ -1,4 +1,5 @@
-// The oracle of elastic solids at small strain: linear finite elements of the same tetrahedra and masses, in double precision.
+// The oracle of elastic solids at small strain: linear finite elements of the same tetrahedra and masses, in double
+// precision.
 #pragma once
 
 #include <array>
@@ -17,8 +18,9 @@
 
 namespace pliant::testing_support {
 
-/// The stiffness matrix of an object's tetrahedra, as a sum of k g g^T over its rows: six of each tetrahedron for the shear modulus, and
-/// one for each volume, which tetrahedra around an edge have in common where they are nearly incompressible, as in the engine.
+/// The stiffness matrix of an object's tetrahedra, as a sum of k g g^T over its rows: six of each tetrahedron for the
+/// shear modulus, and one for each volume, which tetrahedra around an edge have in common where they are nearly
+/// incompressible, as in the engine.
 class LinearElements {
  public:
   explicit LinearElements(const Object& object) : object_(object) {
@@ -53,7 +55,8 @@ class LinearElements {
     return s;
   }
 
-  /// Conjugate gradients, preconditioned by the trace of each particle's block. `free`: 0 for particles that stay, else 1.
+  /// Conjugate gradients, preconditioned by the trace of each particle's block. `free`: 0 for particles that stay, else
+  /// 1.
   Vectors solve(const Vectors& load, const std::vector<double>& free) const {
     const std::size_t n = load.size();
     std::vector<double> scale(n, 1e-300);

@@ -145,7 +145,8 @@ TEST(WovenCloth, HasDistancesAlongItsYarns) {
   EXPECT_EQ(count({1, 0, 1}, "triangle_shear"), 24u);
 }
 
-/// Pins the particles that lie at `low` along an axis, and returns the mean of z of those at `high` in a scene that came to rest [m].
+/// Pins the particles that lie at `low` along an axis, and returns the mean of z of those at `high` in a scene that
+/// came to rest [m].
 double rests_at(Scene& scene, float Vec3f::*axis, float low, float high, int substeps, int frames = 300) {
   std::vector<int> held, ends;
   const Object& object = scene.objects[0];
@@ -181,7 +182,8 @@ TEST(WovenCloth, HangsByItsModulus) {
   EXPECT_NEAR(hangs_longer(woven(60, 25, 8, {1, 0, 0}), 31, 20), of_weft, 0.02 * of_weft);
 }
 
-/// Whatever the rows and the substeps. Triangles alone hang 1.6 and 3.7 times too far with 41 and 81 rows and 20 substeps.
+/// Whatever the rows and the substeps. Triangles alone hang 1.6 and 3.7 times too far with 41 and 81 rows and 20
+/// substeps.
 TEST(WovenCloth, HangsAlikeOnAnyMesh) {
   const double of_warp = 0.12 * gravity / (2 * 60);
   for (const int rows : {21, 41, 81})

@@ -67,8 +67,8 @@ int rounds_of_collisions() {
   return wanted != nullptr ? std::max(std::atoi(wanted), 1) : 1;
 }
 
-/// Velocities are rounded in each substep, which changes the sum of m |v| by some 1e-5 in a second. Angular momentum about
-/// the centre of mass is kept to 1 % in all but one of 1 200.
+/// Velocities are rounded in each substep, which changes the sum of m |v| by some 1e-5 in a second. Angular momentum
+/// about the centre of mass is kept to 1 % in all but one of 1 200.
 TEST(FilterMomentum, IsKeptByRandomPairs) {
   int met = 0, filtered = 0;
   const int pairs = 12 * rounds_of_collisions();
@@ -95,16 +95,16 @@ TEST(FilterMomentum, IsKeptInAFrameInWhichNothingIsCut) {
   EXPECT_LT(collision.outcome.angular, 2e-2) << collision.what;
 }
 
-/// At 8 m/s in common. The displacement of a frame does not round gaps away, else the frame stands still: particles then
-/// stay behind by 3 mm, and what stretched gave the cloth two fifths more energy.
+/// At 8 m/s in common. The displacement of a frame does not round gaps away, else the frame stands still: particles
+/// then stay behind by 3 mm, and what stretched gave the cloth two fifths more energy.
 TEST(FilterMomentum, AFrameRoundsNoGapsAway) {
   const Collision collision = collide(422);
   EXPECT_GT(collision.outcome.filtered, 0);
   EXPECT_LT(collision.outcome.energy_after, collision.outcome.energy_before) << collision.what;
 }
 
-/// At 14 m/s in common. A ball that comes near free cloth without touching it moves in one frame with it: else it leaves
-/// the frame of the cloth no room.
+/// At 14 m/s in common. A ball that comes near free cloth without touching it moves in one frame with it: else it
+/// leaves the frame of the cloth no room.
 TEST(FilterMomentum, WhatComesNearMovesInOneFrame) {
   const Collision collision = collide(179);
   EXPECT_GT(collision.outcome.filtered, 0);

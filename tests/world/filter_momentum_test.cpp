@@ -55,8 +55,8 @@ TEST(FilterMomentum, WherePinnedClothAndCollidersAreFarAway) {
                          moving(free_sheet(16, 0.8f, 0.2f, {0.05f, 0.35f, 0}, 1.f), {0, -5, 0}), 20, {}, others));
 }
 
-/// 1 : 100 in mass. Steps that are truncated make the centre of mass lag by a millimetre, which times the momentum of the
-/// heavy sheet is 9 % of what the light one takes: about the origin that much is lost, about the centre 0.1 %.
+/// 1 : 100 in mass. Steps that are truncated make the centre of mass lag by a millimetre, which times the momentum of
+/// the heavy sheet is 9 % of what the light one takes: about the origin that much is lost, about the centre 0.1 %.
 TEST(FilterMomentum, HeavySheetOnLightSheet) {
   const Outcome outcome = sheets(5, {}, 20);
   expect_kept(outcome);

@@ -54,8 +54,8 @@ Jam jam(float damping) {
   return out;
 }
 
-/// With contacts last, 1 edge in 100 is too long by 3.9 %. The worst frame of a jam scatters by a third (1.4 to 2.1 %) where the damping is
-/// another by a thousandth, so the middle one of five counts.
+/// With contacts last, 1 edge in 100 is too long by 3.9 %. The worst frame of a jam scatters by a third (1.4 to 2.1 %)
+/// where the damping is another by a thousandth, so the middle one of five counts.
 TEST(PressedSurfaces, HardlyStretch) {
   std::vector<double> worst;
   for (const float damping : {0.99f, 0.999f, 1.f, 1.001f, 1.01f}) {

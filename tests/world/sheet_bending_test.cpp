@@ -1,5 +1,6 @@
-// Tests that fine sheets bend as their material says, whatever the mesh, the substeps and the frame time: cantilevers against the beam's
-// formula, the same sheet by halves of them against itself; and that bending moves nothing by itself.
+// Tests that fine sheets bend as their material says, whatever the mesh, the substeps and the frame time: cantilevers
+// against the beam's formula, the same sheet by halves of them against itself; and that bending moves nothing by
+// itself.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -8,8 +8,9 @@ namespace pliant {
 
 namespace {
 
-/// A displacement rounded to multiples of what the largest coordinates of an extent are rounded to, so that positions keep
-/// their differences where it is added to them: else particles that go with a frame at a small gap pass one another.
+/// A displacement rounded to multiples of what the largest coordinates of an extent are rounded to, so that positions
+/// keep their differences where it is added to them: else particles that go with a frame at a small gap pass one
+/// another.
 Vec3f rounded(const Vec3f& displacement, float extent) {
   float power = 1.f / (1 << 20);
   while (power < 1e30f && power < extent + 2 * length(displacement)) power *= 2;

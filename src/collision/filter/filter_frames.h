@@ -33,15 +33,16 @@ class FilterFrames {
   /// True if any body is free.
   bool any() const { return !root_.empty(); }
 
-  /// Steps of a body that are cut: the sum of displacements by their weights [kg m], that of these [kg], and the largest
-  /// coordinate where they start [m].
+  /// Steps of a body that are cut: the sum of displacements by their weights [kg m], that of these [kg], and the
+  /// largest coordinate where they start [m].
   struct Cut {
     Vec3d moved{};
     double weight = 0;
     float extent = 0;
   };
   /// Lets frames move with what is cut, by bodies. The frame of a group of which nothing is cut moves on as it did, and
-  /// one that would move farther than there is room stays. Displacements are such that positions are not rounded by them.
+  /// one that would move farther than there is room stays. Displacements are such that positions are not rounded by
+  /// them.
   void move(const std::vector<Cut>& cuts);
   /// Unites the bodies of these pairs, in any order: all are free if all were, and none if one was not. Returns false
   /// if there are none.

@@ -155,7 +155,8 @@ struct Loops {
     }
     return sum;
   }
-  /// What a row of a joint has of the past (energy_law.h), with the share of the substep's motion; both zero without Integrator::energy.
+  /// What a row of a joint has of the past (energy_law.h), with the share of the substep's motion; both zero without
+  /// Integrator::energy.
   struct Past {
     F share, value;
   };

@@ -35,7 +35,8 @@ Matrix matrix_of(const SheetBending& sheet, const SheetScratch& scratch, std::si
   return {sheet.levels[l], scratch.levels[l].entries.data(), 1};
 }
 
-/// The sum of a_ij x_j over entries [first, last), less the scale: of two sums, since an addition waits for the one before.
+/// The sum of a_ij x_j over entries [first, last), less the scale: of two sums, since an addition waits for the one
+/// before.
 Four sum_of(const Matrix& a, const Record* x, std::int32_t first, std::int32_t last) {
   Four even{}, odd{};
   const float* k = a.entries;
@@ -209,7 +210,8 @@ void iterate(const SheetBending& sheet, int cycles, BlockLoop loop, SheetScratch
   }
 }
 
-/// Lumps what each row has onto the coarser level: the sum of the absolute values of a row of the Galerkin product, which is stiffer.
+/// Lumps what each row has onto the coarser level: the sum of the absolute values of a row of the Galerkin product,
+/// which is stiffer.
 void lump(const SheetLevel& level, const std::vector<float>& from, std::vector<float>& to) {
   for (std::size_t i = 0; i + 1 < level.child_begin.size(); ++i) {
     float sum = 0;

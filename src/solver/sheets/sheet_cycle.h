@@ -1,8 +1,9 @@
 // One multigrid cycle of a sheet's bending (solver/sheets/sheet_solver.h).
 //
-// A level is smoothed by Gauss-Seidel over the rows of a block, upwards before the coarser level and downwards after it; between blocks as by
-// Jacobi, with the sum of the absolute values outside a block added to the diagonal, so the cycle is symmetric and never softer than the
-// matrix (Baker, Falgout, Kolev and Yang 2011, section 3). Blocks depend on the object alone, so threads change no bit.
+// A level is smoothed by Gauss-Seidel over the rows of a block, upwards before the coarser level and downwards after
+// it; between blocks as by Jacobi, with the sum of the absolute values outside a block added to the diagonal, so the
+// cycle is symmetric and never softer than the matrix (Baker, Falgout, Kolev and Yang 2011, section 3). Blocks depend
+// on the object alone, so threads change no bit.
 #pragma once
 
 #include "parallel/executor.h"

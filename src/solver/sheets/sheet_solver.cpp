@@ -13,16 +13,17 @@ namespace pliant {
 
 namespace {
 
-/// The cycles for a step that bends over so many edges, (l / e)^4. With fewer an irregular sheet keeps errors that stretching feeds on,
-/// until it bursts; measured with 10 to 40 substeps and up to 96 edges in a cantilever.
+/// The cycles for a step that bends over so many edges, (l / e)^4. With fewer an irregular sheet keeps errors that
+/// stretching feeds on, until it bursts; measured with 10 to 40 substeps and up to 96 edges in a cantilever.
 int cycles_for(float edges4) {
   constexpr float limits[] = {2, 3.5f, 5, 8, 16};
   int cycles = 1;
   for (const float limit : limits) cycles += edges4 > limit * limit * limit * limit ? 1 : 0;
   return cycles;
 }
-/// One bending is for as many substeps as keep (l / e)^4 below this, so that it bends over few edges: sheets that hang have many substeps for
-/// their stretch. Where something may be touched, each substep has a bending: fine cotton slid off a ball else.
+/// One bending is for as many substeps as keep (l / e)^4 below this, so that it bends over few edges: sheets that hang
+/// have many substeps for their stretch. Where something may be touched, each substep has a bending: fine cotton slid
+/// off a ball else.
 constexpr float most_edges4 = 4;
 
 /// The substeps that one bending is for, and the number of the present one among them.
@@ -94,7 +95,8 @@ void leave_out_gravity(const SheetBending& sheet, const Vec3f& gravity, SheetScr
   });
 }
 
-/// Adds gravity to the corrections of loose pieces, and takes the rigid motion from them, which no force of bending has caused.
+/// Adds gravity to the corrections of loose pieces, and takes the rigid motion from them, which no force of bending has
+/// caused.
 void move_loose_pieces(const SheetBending& sheet, const Record* positions, const Vec3f& gravity, SheetScratch& scratch) {
   const std::vector<float>& mass = scratch.levels.front().mass;
   const auto place = [&](std::size_t i) {

@@ -4,10 +4,11 @@
 //   r = M a + h^2 f(x + u)         f = -K (x + u), linear, so no fold makes it stiffer than K
 //   d = u + P^-1 r                 P: a multigrid cycle on M + h^2 K
 //
-// Gravity is part of r where particles are pinned: at rest without stretch and contact d = 0 means f = -M g, whatever P is. So the
-// sag depends on neither cycles nor substeps. P is nowhere softer than M + h^2 K, hence the step never adds energy to bending.
-// Damping of bending adds beta h to the h^2 of K in P and in u. A piece without pins keeps its momentum: P conserves it only where its
-// solve is exact. Contacts are not in P: they take up in the iterations what the bending presses into them.
+// Gravity is part of r where particles are pinned: at rest without stretch and contact d = 0 means f = -M g, whatever P
+// is. So the sag depends on neither cycles nor substeps. P is nowhere softer than M + h^2 K, hence the step never adds
+// energy to bending. Damping of bending adds beta h to the h^2 of K in P and in u. A piece without pins keeps its
+// momentum: P conserves it only where its solve is exact. Contacts are not in P: they take up in the iterations what
+// the bending presses into them.
 #pragma once
 
 #include <vector>

@@ -17,7 +17,8 @@
 
 namespace pliant {
 
-/// The limit of stiffness up to which links have the mean of forces (energy_law.h). A path is solved exactly, crossing paths are not.
+/// The limit of stiffness up to which links have the mean of forces (energy_law.h). A path is solved exactly, crossing
+/// paths are not.
 inline constexpr float most_of_chain = 10;
 
 /// Results of link k that link k + 1 needs.
