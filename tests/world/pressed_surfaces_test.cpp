@@ -66,7 +66,8 @@ TEST(PressedSurfaces, HardlyStretch) {
     EXPECT_LT(found.deepest, 0.5 * 0.004) << "half of both thicknesses";
   }
   std::sort(worst.begin(), worst.end());
-  EXPECT_LT(worst[2], 0.02);
+  EXPECT_LT(worst[2], 0.017);
+  EXPECT_LT(worst[4], 0.022);
 }
 
 }  // namespace
