@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/at.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -24,7 +25,8 @@ constexpr std::size_t most_faces = 2000;
 /// Cores nearer than this, times a metre and their size, count as overlapping.
 constexpr double contact = 1e-10;
 
-/// Directions to try where nothing is known: of a cube's faces and corners.
+/// Directions to try where nothing is known: of a cube's faces, which come first, and corners.
+constexpr std::size_t first_corner_direction = 6;
 constexpr std::array<std::array<double, 3>, 14> directions{{{1, 0, 0},
                                                             {-1, 0, 0},
                                                             {0, 1, 0},
@@ -60,34 +62,39 @@ class Difference {
   const Posed& pose_;
 };
 
-/// The nearest point to the origin of a simplex, as shares of its corners.
+/// The nearest point to the origin of a simplex, as shares of its corners. Corners stay in their places; which of them
+/// belong to the simplex changes.
 struct Simplex {
-  std::array<Vertex, 4> corners{};
+  std::array<Vertex, 4> places{};
+  std::array<int, 4> corners{};  ///< places of its corners
   std::array<double, 4> shares{};
   int count = 0;
 
-  Vec3d nearest() const {
-    Vec3d sum{};
-    for (int i = 0; i < count; ++i) sum += corners[i].w * shares[i];
-    return sum;
+  const Vertex& corner(int i) const { return places[at(corners[at(i)])]; }
+  Vec3d nearest() const { return sum_of(&Vertex::w); }
+  Vec3d on_a() const { return sum_of(&Vertex::on_a); }
+  Vec3d on_b() const { return sum_of(&Vertex::on_b); }
+
+  /// Adds a corner in a place that is free, of which there is one up to three corners.
+  void add(const Vertex& vertex) {
+    int place = 0;
+    while (std::find(corners.begin(), corners.begin() + count, place) != corners.begin() + count) ++place;
+    places[at(place)] = vertex;
+    corners[at(count++)] = place;
   }
-  Vec3d on_a() const {
+
+ private:
+  Vec3d sum_of(Vec3d Vertex::*of) const {
     Vec3d sum{};
-    for (int i = 0; i < count; ++i) sum += corners[i].on_a * shares[i];
-    return sum;
-  }
-  Vec3d on_b() const {
-    Vec3d sum{};
-    for (int i = 0; i < count; ++i) sum += corners[i].on_b * shares[i];
+    for (int i = 0; i < count; ++i) sum += corner(i).*of * shares[at(i)];
     return sum;
   }
 };
 
 /// The nearest point to the origin of some corners of a simplex.
 struct Nearest {
-  Vec3d point{};
-  double squared = 0;  ///< its squared distance
-  std::array<int, 4> corners{};
+  double squared = 0;            ///< its squared distance
+  std::array<int, 4> corners{};  ///< numbers in the simplex
   std::array<double, 4> shares{};
   int count = 0;
 };
@@ -95,30 +102,24 @@ struct Nearest {
 /// Of two points the nearer one, the first of equally near ones.
 const Nearest& nearer(const Nearest& a, const Nearest& b) { return b.squared < a.squared ? b : a; }
 
-Nearest at_corner(const Simplex& s, int i) {
-  const Vec3d& point = s.corners[static_cast<std::size_t>(i)].w;
-  return {point, length_squared(point), {i}, {1}, 1};
-}
+Nearest at_corner(const Simplex& s, int i) { return {length_squared(s.corner(i).w), {i}, {1}, 1}; }
 
 Nearest nearest_of_segment(const Simplex& s, int i, int j) {
-  const Vec3d a = s.corners[static_cast<std::size_t>(i)].w, along = s.corners[static_cast<std::size_t>(j)].w - a;
+  const Vec3d a = s.corner(i).w, b = s.corner(j).w, along = b - a;
   const double squared = length_squared(along), t = squared > 0 ? -dot(a, along) / squared : 0;
   if (t <= 0) return at_corner(s, i);
   if (t >= 1) return at_corner(s, j);
-  const Vec3d point = a * (1 - t) + s.corners[static_cast<std::size_t>(j)].w * t;
-  return {point, length_squared(point), {i, j}, {1 - t, t}, 2};
+  return {length_squared(a * (1 - t) + b * t), {i, j}, {1 - t, t}, 2};
 }
 
 Nearest nearest_of_triangle(const Simplex& s, int i, int j, int k) {
-  const Vec3d a = s.corners[static_cast<std::size_t>(i)].w, b = s.corners[static_cast<std::size_t>(j)].w,
-              c = s.corners[static_cast<std::size_t>(k)].w, normal = cross(b - a, c - a);
+  const Vec3d a = s.corner(i).w, b = s.corner(j).w, c = s.corner(k).w, normal = cross(b - a, c - a);
   const double squared = length_squared(normal);
   const double u = dot(cross(b, c), normal), v = dot(cross(c, a), normal), w = dot(cross(a, b), normal);
   if (squared > 0 && u > 0 && v > 0 && w > 0) {
     const double sum = u + v + w;
     const std::array<double, 4> shares{u / sum, v / sum, w / sum};
-    const Vec3d point = a * shares[0] + b * shares[1] + c * shares[2];
-    return {point, length_squared(point), {i, j, k}, shares, 3};
+    return {length_squared(a * shares[0] + b * shares[1] + c * shares[2]), {i, j, k}, shares, 3};
   }
   return nearer(nearer(nearest_of_segment(s, i, j), nearest_of_segment(s, j, k)), nearest_of_segment(s, k, i));
 }
@@ -127,12 +128,12 @@ double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) { 
 
 /// Of a tetrahedron that contains the origin all four corners stay. Else the nearest point is on a side that the origin sees.
 Nearest nearest_of_tetrahedron(const Simplex& s) {
-  const Vec3d a = s.corners[0].w, b = s.corners[1].w, c = s.corners[2].w, d = s.corners[3].w, o{};
+  const Vec3d a = s.corner(0).w, b = s.corner(1).w, c = s.corner(2).w, d = s.corner(3).w, o{};
   const double whole = volume(a, b, c, d);
   const std::array<double, 4> parts{volume(o, b, c, d), volume(a, o, c, d), volume(a, b, o, d), volume(a, b, c, o)};
   if (whole != 0 && std::all_of(parts.begin(), parts.end(), [&](double v) { return v * whole > 0; })) {
     const std::array<double, 4> shares{parts[0] / whole, parts[1] / whole, parts[2] / whole, parts[3] / whole};
-    return {{}, 0, {0, 1, 2, 3}, shares, 4};
+    return {0, {0, 1, 2, 3}, shares, 4};
   }
   constexpr std::array<std::array<int, 3>, 4> sides{{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
   Nearest best;
@@ -142,28 +143,25 @@ Nearest nearest_of_tetrahedron(const Simplex& s) {
   return best;
 }
 
-/// The part of a simplex that has its nearest point to the origin, with the shares of its corners.
-Simplex nearest_of(const Simplex& s) {
+/// Keeps the corners that have the nearest point to the origin, with their shares.
+void keep_nearest(Simplex& s) {
   const Nearest best = s.count == 4   ? nearest_of_tetrahedron(s)
                        : s.count == 3 ? nearest_of_triangle(s, 0, 1, 2)
                        : s.count == 2 ? nearest_of_segment(s, 0, 1)
                                       : at_corner(s, 0);
-  Simplex out;
-  out.count = best.count;
-  out.shares = best.shares;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(best.count); ++i)
-    out.corners[i] = s.corners[static_cast<std::size_t>(best.corners[i])];
-  return out;
+  const std::array<int, 4> before = s.corners;
+  for (int i = 0; i < best.count; ++i) s.corners[at(i)] = before[at(best.corners[at(i)])];
+  s.shares = best.shares;
+  s.count = best.count;
 }
 
 /// The nearest point of the difference to the origin, or any if `beyond` becomes a distance above `reach` that separates both.
 Simplex nearest_simplex(const Difference& difference, const Vec3d& first, double reach, double& beyond) {
   Simplex s;
-  s.corners[0] = difference.support(first);
-  s.count = 1;
+  s.add(difference.support(first));
   s.shares[0] = 1;
+  Vec3d v = s.nearest();
   for (int step = 0; step < most_steps; ++step) {
-    const Vec3d v = s.nearest();
     const double squared = length_squared(v);
     if (squared == 0 || s.count == 4) return s;
     const Vertex next = difference.support(-v);
@@ -174,12 +172,15 @@ Simplex nearest_simplex(const Difference& difference, const Vec3d& first, double
     }
     if (squared - along <= std::max(accuracy * squared, close * std::sqrt(squared))) return s;
     for (int i = 0; i < s.count; ++i)
-      if (s.corners[i].w.x == next.w.x && s.corners[i].w.y == next.w.y && s.corners[i].w.z == next.w.z) return s;
-    Simplex grown = s;
-    grown.corners[static_cast<std::size_t>(grown.count++)] = next;
-    grown = nearest_of(grown);
-    if (grown.count < 4 && length_squared(grown.nearest()) >= squared) return s;  // rounding: no more progress
-    s = grown;
+      if (s.corner(i).w.x == next.w.x && s.corner(i).w.y == next.w.y && s.corner(i).w.z == next.w.z) return s;
+    const auto [corners, shares, count] = std::tuple{s.corners, s.shares, s.count};
+    s.add(next);
+    keep_nearest(s);
+    v = s.nearest();
+    if (s.count < 4 && length_squared(v) >= squared) {  // rounding: no more progress
+      s.corners = corners, s.shares = shares, s.count = count;
+      return s;
+    }
   }
   return s;
 }
@@ -197,7 +198,9 @@ struct PolytopeFace {
 class Polytope {
  public:
   Polytope(const Difference& difference, const Simplex& simplex) : difference_(difference), simplex_(simplex) {
-    for (int i = 0; i < simplex.count; ++i) vertices_.push_back(simplex.corners[i]);
+    vertices_.reserve(32);
+    faces_.reserve(64);
+    for (int i = 0; i < simplex.count; ++i) vertices_.push_back(simplex.corner(i));
     complete();
   }
 
@@ -206,22 +209,26 @@ class Polytope {
     int nearest = is_solid_ ? nearest_face() : -1;
     if (nearest < 0) return flat();
     for (int step = 0; step < most_steps && faces_.size() < most_faces; ++step) {
-      const PolytopeFace face = faces_[static_cast<std::size_t>(nearest)];
+      const PolytopeFace face = faces_[at(nearest)];
       const Vertex next = difference_.support(face.normal);
       if (dot(next.w, face.normal) - face.distance <= growth * size_ || !grow(next)) break;
       const int next_nearest = nearest_face();
       if (next_nearest < 0) return way_out(face);
       nearest = next_nearest;
     }
-    return way_out(faces_[static_cast<std::size_t>(nearest)]);
+    return way_out(faces_[at(nearest)]);
   }
 
  private:
-  const Vec3d& at(int i) const { return vertices_[static_cast<std::size_t>(i)].w; }
+  const Vec3d& place(int i) const { return vertices_[at(i)].w; }
+  Vertex support_along(std::size_t direction) const {
+    const auto& [x, y, z] = directions[direction];
+    return difference_.support({x, y, z});
+  }
 
   /// Adds supports until there are four corners that span a volume.
   void complete() {
-    for (const auto& [x, y, z] : directions) size_ = std::max(size_, largest(difference_.support({x, y, z}).w));
+    for (std::size_t i = 0; i < first_corner_direction; ++i) size_ = std::max(size_, largest(support_along(i).w));
     if (vertices_.size() == 4 && spans(vertices_[0], vertices_[1], vertices_[2], vertices_[3])) return start();
     std::vector<Vertex> candidates = vertices_;
     for (const auto& [x, y, z] : directions) candidates.push_back(difference_.support({x, y, z}));
@@ -247,57 +254,55 @@ class Polytope {
 
   void start() {
     is_solid_ = true;
-    if (volume(at(0), at(1), at(2), at(3)) > 0) std::swap(vertices_[1], vertices_[2]);
+    if (volume(place(0), place(1), place(2), place(3)) > 0) std::swap(vertices_[1], vertices_[2]);
     for (const auto& corners : {std::array{0, 1, 2}, std::array{0, 3, 1}, std::array{1, 3, 2}, std::array{2, 3, 0}})
       add(corners);
   }
 
   void add(const std::array<int, 3>& corners) {
-    const Vec3d a = at(corners[0]);
-    const Vec3d normal = unit_or(cross(at(corners[1]) - a, at(corners[2]) - a), Vec3d{});
+    const Vec3d a = place(corners[0]);
+    const Vec3d normal = unit_or(cross(place(corners[1]) - a, place(corners[2]) - a), Vec3d{});
     faces_.push_back({corners, normal, dot(normal, a), length_squared(normal) > 0});
   }
 
   int nearest_face() const {
     int best = -1;
     for (std::size_t i = 0; i < faces_.size(); ++i)
-      if (faces_[i].alive && (best < 0 || faces_[i].distance < faces_[static_cast<std::size_t>(best)].distance))
-        best = static_cast<int>(i);
+      if (faces_[i].alive && (best < 0 || faces_[i].distance < faces_[at(best)].distance)) best = static_cast<int>(i);
     return best;
   }
 
   /// Replaces the faces that a point sees. False if it sees none.
   bool grow(const Vertex& next) {
-    std::vector<std::pair<int, int>> border;
-    std::vector<std::size_t> seen;
+    border_.clear();
+    seen_.clear();
     for (std::size_t i = 0; i < faces_.size(); ++i)
-      if (faces_[i].alive && dot(faces_[i].normal, next.w) - faces_[i].distance > 1e-12 * size_) seen.push_back(i);
-    for (const std::size_t i : seen)
+      if (faces_[i].alive && dot(faces_[i].normal, next.w) - faces_[i].distance > 1e-12 * size_) seen_.push_back(i);
+    for (const std::size_t i : seen_)
       for (std::size_t e = 0; e < 3; ++e) {
         const std::pair<int, int> edge{faces_[i].corners[e], faces_[i].corners[(e + 1) % 3]};
-        const auto back = std::find(border.begin(), border.end(), std::pair{edge.second, edge.first});
-        if (back != border.end())
-          border.erase(back);
+        const auto back = std::find(border_.begin(), border_.end(), std::pair{edge.second, edge.first});
+        if (back != border_.end())
+          border_.erase(back);
         else
-          border.push_back(edge);
+          border_.push_back(edge);
       }
-    if (border.empty()) return false;
+    if (border_.empty()) return false;
     const auto made = static_cast<int>(vertices_.size());
     vertices_.push_back(next);
-    for (const std::size_t i : seen) faces_[i].alive = false;
-    for (const auto& [from, to] : border) add({from, to, made});
+    for (const std::size_t i : seen_) faces_[i].alive = false;
+    for (const auto& [from, to] : border_) add({from, to, made});
     return true;
   }
 
   ConvexDistance way_out(const PolytopeFace& face) const {
     const Vec3d p = face.normal * face.distance;
-    const Vec3d a = at(face.corners[0]), b = at(face.corners[1]), c = at(face.corners[2]);
+    const Vec3d a = place(face.corners[0]), b = place(face.corners[1]), c = place(face.corners[2]);
     const double whole = dot(cross(b - a, c - a), face.normal);
     const double u = dot(cross(b - p, c - p), face.normal) / whole, v = dot(cross(c - p, a - p), face.normal) / whole;
     const auto mix = [&](Vec3d Vertex::*of) {
-      return vertices_[static_cast<std::size_t>(face.corners[0])].*of * u +
-             vertices_[static_cast<std::size_t>(face.corners[1])].*of * v +
-             vertices_[static_cast<std::size_t>(face.corners[2])].*of * (1 - u - v);
+      return vertices_[at(face.corners[0])].*of * u + vertices_[at(face.corners[1])].*of * v +
+             vertices_[at(face.corners[2])].*of * (1 - u - v);
     };
     return {-face.distance, face.normal, mix(&Vertex::on_a), mix(&Vertex::on_b)};
   }
@@ -332,6 +337,8 @@ class Polytope {
   Simplex simplex_;  ///< the nearest points of the cores, where these only touch
   std::vector<Vertex> vertices_;
   std::vector<PolytopeFace> faces_;
+  std::vector<std::pair<int, int>> border_;  ///< of the faces that the last point saw
+  std::vector<std::size_t> seen_;            ///< those faces
   double size_ = 0;
   bool is_solid_ = false;
 };
@@ -347,7 +354,7 @@ ConvexDistance convex_distance(const ConvexShape& a, const ConvexShape& b, const
       nearest_simplex(difference, is_apart ? pose_of_b.position : Vec3d{1, 0, 0}, reach + radii, beyond);
   if (beyond > 0) return {beyond - radii, {}, {}, {}};
   const Vec3d v = simplex.nearest();
-  const double distance = length(v), size = 1 + largest(simplex.corners[0].w);
+  const double distance = length(v), size = 1 + largest(simplex.corner(0).w);
   ConvexDistance out;
   if (simplex.count < 4 && distance > contact * size)
     out = {distance, v * (-1 / distance), simplex.on_a(), simplex.on_b()};

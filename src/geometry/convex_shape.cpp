@@ -20,15 +20,15 @@ Vec3d on_circle(double radius, const Vec3d& direction) {
 }
 
 Vec3d farthest_corner(const Polyhedron& p, const Vec3d& direction) {
-  std::size_t best = 0;
-  double most = dot(direction, convert<double>(p.corners[0]));
-  for (std::size_t i = 1; i < p.corners.size(); ++i) {
-    const double reach = dot(direction, convert<double>(p.corners[i]));
-    if (reach <= most) continue;
-    most = reach;
-    best = i;
+  const Vec3f* best = p.corners.data();
+  double most = dot(direction, convert<double>(*best));
+  for (const Vec3f& corner : p.corners) {
+    const double reach = dot(direction, convert<double>(corner));
+    const bool is_farther = reach > most;  // no branch: which corner is the farthest cannot be predicted
+    most = is_farther ? reach : most;
+    best = is_farther ? &corner : best;
   }
-  return convert<double>(p.corners[best]);
+  return convert<double>(*best);
 }
 
 /// A regular polygon in place of a disc at the height y; it faces up or down.
