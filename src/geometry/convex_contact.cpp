@@ -85,8 +85,11 @@ Feature feature_towards(const ConvexShape& shape, const Posed& pose, const Vec3d
 }
 
 Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, double margin, double turning) {
-  if (are_polyhedra(a, b))
-    return touch(*a.polyhedron, moved(*b.polyhedron, convert<float>(pose_of_b)), static_cast<float>(margin));
+  if (are_polyhedra(a, b)) {
+    thread_local Polyhedron placed;  // to allocate nothing
+    move(*b.polyhedron, convert<float>(pose_of_b), placed);
+    return touch(*a.polyhedron, placed, static_cast<float>(margin));
+  }
   const ConvexDistance nearest = convex_distance(a, b, pose_of_b, margin);
   if (nearest.separation > margin) return {};
   const Vec3d normal = nearest.normal;

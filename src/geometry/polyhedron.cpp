@@ -40,11 +40,16 @@ Polyhedron polyhedron_of_box(const Vec3f& h) {
   return polyhedron_of(box);
 }
 
-Polyhedron moved(const Polyhedron& polyhedron, const Posef& pose) {
-  Polyhedron out = polyhedron;
+void move(const Polyhedron& polyhedron, const Posef& pose, Polyhedron& out) {
+  out = polyhedron;
   for (Vec3f& corner : out.corners) corner = to_world(pose, corner);
   for (Vec3f& normal : out.normals) normal = rotate(pose.rotation, normal);
   out.centre = to_world(pose, out.centre);
+}
+
+Polyhedron moved(const Polyhedron& polyhedron, const Posef& pose) {
+  Polyhedron out;
+  move(polyhedron, pose, out);
   return out;
 }
 

@@ -30,7 +30,9 @@ struct Polyhedron {
 Polyhedron polyhedron_of(const ConvexHull& hull);
 /// A box about the origin; half extents are positive.
 Polyhedron polyhedron_of_box(const Vec3f& half_extents);
-/// The same solid in the frame in which its own frame has this pose.
+/// Sets `out` to the same solid in the frame in which its own frame has this pose. What `out` has room for is not
+/// allocated.
+void move(const Polyhedron& polyhedron, const Posef& pose, Polyhedron& out);
 Polyhedron moved(const Polyhedron& polyhedron, const Posef& pose);
 
 }  // namespace pliant

@@ -79,7 +79,8 @@ std::optional<EdgeAxis> axis_of(const Polyhedron& a, int i, const Polyhedron& b,
 
 EdgeAxis best_edges(const Polyhedron& a, const Polyhedron& b) {
   EdgeAxis best;
-  std::vector<Arc> arcs;
+  thread_local std::vector<Arc> arcs;  // to allocate nothing
+  arcs.clear();
   arcs.reserve(b.edges.size());
   for (const PolyhedronEdge& edge : b.edges) arcs.push_back(arc_of(b, edge, -1));
   for (int i = 0; i < static_cast<int>(a.edges.size()); ++i) {

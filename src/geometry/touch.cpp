@@ -22,20 +22,17 @@ struct ClipPoint {
 };
 using ClipPolygon = std::vector<ClipPoint>;
 
-ClipPolygon corners_of(const Feature& feature) {
-  ClipPolygon out;
-  out.reserve(static_cast<std::size_t>(feature.count) + 4);
+void set_corners(const Feature& feature, ClipPolygon& out) {
+  out.clear();
   for (int i = 0; i < feature.count; ++i)
     out.push_back({feature.points[static_cast<std::size_t>(i)], static_cast<Side>((i + feature.count - 1) % feature.count),
                    static_cast<Side>(i)});
-  return out;
 }
 
 /// Keeps what lies behind a plane, n.x <= offset. A polygon gets a side of the number `side` there. A segment is a polygon of
 /// two equal edges, so that each cut gives its point twice; the second has no number of its own and is left out.
-ClipPolygon clipped(const ClipPolygon& corners, const Vec3d& n, double offset, Side side, bool is_segment) {
-  ClipPolygon out;
-  out.reserve(corners.size() + 1);
+void clip(const ClipPolygon& corners, const Vec3d& n, double offset, Side side, bool is_segment, ClipPolygon& out) {
+  out.clear();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const ClipPoint &from = corners[i], &to = corners[(i + 1) % corners.size()];
     const double start = dot(n, from.place) - offset, end = dot(n, to.place) - offset;
@@ -44,21 +41,23 @@ ClipPolygon clipped(const ClipPolygon& corners, const Vec3d& n, double offset, S
     const Vec3d place = from.place + (to.place - from.place) * (start / (start - end));
     out.push_back(start < 0 ? ClipPoint{place, from.after, side} : ClipPoint{place, side, from.after});
   }
-  return out;
 }
 
 }  // namespace
 
 std::vector<TouchPoint> points_over(const Feature& polygon, const Feature& other, const Vec3d& normal, bool swapped,
                                     double margin) {
-  ClipPolygon corners = corners_of(other);
+  thread_local ClipPolygon corners, next;  // to allocate nothing
+  set_corners(other, corners);
   for (int i = 0; i < polygon.count && !corners.empty(); ++i) {
     const Vec3d &a = polygon.points[static_cast<std::size_t>(i)],
                 &b = polygon.points[static_cast<std::size_t>((i + 1) % polygon.count)];
     const Vec3d outward = cross(b - a, polygon.normal);
-    corners = clipped(corners, outward, dot(outward, a), first_side_of_polygon + static_cast<Side>(i), other.count == 2);
+    clip(corners, outward, dot(outward, a), first_side_of_polygon + static_cast<Side>(i), other.count == 2, next);
+    corners.swap(next);
   }
   std::vector<TouchPoint> points;
+  points.reserve(corners.size() + 1);                // and one for the nearest place
   const double slope = dot(polygon.normal, normal);  // near 1, or near -1 if swapped
   for (const ClipPoint& corner : corners) {
     const double along = dot(polygon.normal, polygon.points[0] - corner.place) / slope;
@@ -91,10 +90,10 @@ Touch four_of(const std::vector<TouchPoint>& points, const Vec3d& normal) {
   const Vec3d sideways = cross(normal, points[second].on_a - origin);
   const std::size_t third = best([&](const TouchPoint& p) { return dot(sideways, p.on_a - origin); });
   const std::size_t fourth = best([&](const TouchPoint& p) { return -dot(sideways, p.on_a - origin); });
-  std::vector<std::size_t> chosen{first, second, third, fourth};
+  std::array<std::size_t, 4> chosen{first, second, third, fourth};
   std::sort(chosen.begin(), chosen.end());
-  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-  for (const std::size_t i : chosen) out.points[static_cast<std::size_t>(out.count++)] = points[i];
+  const auto end = std::unique(chosen.begin(), chosen.end());
+  for (auto i = chosen.begin(); i != end; ++i) out.points[static_cast<std::size_t>(out.count++)] = points[*i];
   return out;
 }
 
