@@ -113,12 +113,13 @@ struct BodyContacts::Task {
     ContactsBefore contacts(before);
     for (int i = first; i < last; ++i) {
       const std::size_t pieces = found.pieces.size(), made = found.made.size();
-      const std::size_t touches = found.first.size();
+      const std::size_t touches = found.first.size(), starts = found.starts.size();
       found.any_stopped = false;
       find(i, contacts, found);
       if (found.made.size() > made)
         found.marks.push_back({i, pieces, found.pieces.size(), made, found.made.size(), found.any_stopped,
-                               found.first.size() > touches ? found.first.back().time : 1});
+                               found.first.size() > touches ? found.first.back().time : 1,
+                               found.starts.size() > starts ? static_cast<int>(starts) : -1});
     }
   }
 
@@ -144,6 +145,7 @@ struct BodyContacts::Task {
       if (!(paths->first_turn(piece.a, piece.b, mark.pair) < mark.time)) continue;
       if (!mark.is_stopped && !stops(found.made[mark.made], piece, mark.pair)) continue;
       copy_until(mark.pieces, mark.made);
+      next.start = mark.start >= 0 ? &found.starts[at(mark.start)] : nullptr;
       find(mark.pair, contacts, next);
       to = mark;
     }
@@ -313,7 +315,7 @@ struct BodyContacts::Task {
   void meet(const Meeting& m, Found& found) const {
     const Reach within{m.reach, m.turning, rocking_of(m.a, m.b, dt, faster)};
     const Posed placed = apart(m.relative, m.one.body, m.other.body, m.size);
-    const Touch now = touch_of(m.one, m.other, placed, within);
+    const Touch now = found.start != nullptr ? *found.start : touch_of(m.one, m.other, placed, within);
     if (m.one.is_half_space) {
       if (m.is_fast) note_first(first_on_plane(now, m.on), m, found);
       return add(m, now, {}, 0, found);
@@ -324,6 +326,7 @@ struct BodyContacts::Task {
     }
     if (!m.is_fast) return add(m, now, {}, 0, found);
     const PairTouch touching = touch_on_path(m.one, m.other, placed, within, now, m.on);
+    if (paths == nullptr) found.starts.push_back(now);
     found.any_stopped = touching.is_stopped;
     note_first(touching.first, m, found);
     add(m, touching.touch, touching.moved, 0, found);

@@ -12,6 +12,7 @@
 
 #include "collision/bodies/body_pairs.h"
 #include "collision/bodies/body_paths.h"
+#include "geometry/touch.h"
 #include "parallel/executor.h"
 #include "pliant/state.h"
 
@@ -71,6 +72,7 @@ class BodyContacts {
     std::size_t pieces = 0, pieces_end = 0, made = 0, made_end = 0;
     bool is_stopped = false;  ///< PairTouch::is_stopped; true of all with meshes
     double time = 1;          ///< of the first touch on the path
+    int start = -1;           ///< number of its touch at the start of the frame (Found::starts); -1: not kept
   };
   /// What a task has found, in the order of pairs.
   struct Found {
@@ -78,8 +80,10 @@ class BodyContacts {
     std::vector<BodyContact> made;
     std::vector<Mark> marks;
     std::vector<FirstTouch> first;
-    std::size_t count = 0;     ///< of contacts
-    bool any_stopped = false;  ///< of the last pair (Mark::is_stopped)
+    std::vector<Touch> starts;     ///< touches at the start of the frame, of pairs that may be searched again
+    const Touch* start = nullptr;  ///< that of the pair searched again; null: it is not kept
+    std::size_t count = 0;         ///< of contacts
+    bool any_stopped = false;      ///< of the last pair (Mark::is_stopped)
     BodyOverlap deepest{};
 
     void clear() {
@@ -87,6 +91,8 @@ class BodyContacts {
       made.clear();
       marks.clear();
       first.clear();
+      starts.clear();
+      start = nullptr;
       count = 0;
       deepest = {};
     }
