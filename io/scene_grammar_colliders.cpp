@@ -22,7 +22,7 @@ const Record& mesh_frame_record() {
       "The vertices of a mesh at one time.",
       {needed("time", number("s", 0, 1e9), "Time of the frame; increases along the list."),
        either("file", string(), "A mesh file with the same number and order of vertices, placed like `mesh`."),
-       either("positions", list(place(), 1), "Vertex positions before the placement of `mesh`.")},
+       either("positions", places(), "Vertex positions before the placement of `mesh`.")},
       {"file", "positions"}};
   return result;
 }

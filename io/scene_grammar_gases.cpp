@@ -53,7 +53,7 @@ const Record& gas_record() {
       "A gas of particles, surrounded by air that bears it up. Gases with the same spacing, speed of sound, groups and "
       "mask mix.",
       {either("fill", record(fill_record()), "The box that it fills at the start."),
-       either("positions", list(place(), 1), "Positions of the particles at the start, about a spacing apart."),
+       either("positions", places(), "Positions of the particles at the start, about a spacing apart."),
        field("preset", choice({"air", "smoke", "helium"}), "none",
              "Density and diffusivity of a gas, surrounded by air; smoke is air at 400 K."),
        field("spacing", positive("m", largest_place), GasOptions{}.fluid.spacing, "Distance of particles at rest."),

@@ -107,7 +107,7 @@ const Record& particles_record() {
   static const Record result{
       "particles",
       "Particles with constraints of any type.",
-      {needed("positions", list(place(), 1), "Positions at the start, which are also the rest shape."),
+      {needed("positions", places(), "Positions at the start, which are also the rest shape."),
        needed("masses", any_of({positive("kg"), list(any_of({positive("kg"), choice({"fixed"})}), 1)}),
               "One mass for all particles, or one per particle; \"fixed\" for a particle that never moves."),
        field("velocities", list(vector("m/s", largest_velocity)), "at rest", "One velocity per particle."),
@@ -185,7 +185,7 @@ const Record& liquid_record() {
       "A liquid of particles. Liquids with the same spacing, speed of sound, groups and mask mix; others touch as spheres "
       "do.",
       {field("fill", record(fill_record()), "none", "The box or mesh that it fills at the start."),
-       field("positions", list(place(), 1), "none",
+       field("positions", places(), "none",
              "Instead of `fill`: positions of the particles at the start, about a spacing apart."),
        field("spacing", positive("m", largest_place), Fluid{}.spacing, "Distance of particles at rest."),
        field("kind", choice(liquid_names()), "none", "A real liquid, whose density and viscosity are the defaults."),
@@ -218,7 +218,7 @@ const Record& grains_record() {
       "grains",
       "Sand or gravel: spheres with friction, which do not turn. Those whose objects meet by groups and masks touch.",
       {field("fill", record(fill_record()), "none", "The box or mesh that it fills at the start, a diameter apart."),
-       field("positions", list(place(), 1), "none",
+       field("positions", places(), "none",
              "Instead of `fill`: centres of the grains at the start, a diameter or more apart."),
        field("radius", positive("m", largest_place), Grains{}.radius, "Radius of each grain."),
        field("kind", choice(grain_names()), "none",

@@ -221,6 +221,8 @@ const Record& mesh_record() {
       {either(
            "file", string(),
            "Path of an .obj, .ply or .stl file, relative to the folder of the scene. URLs, devices and pipes are refused."),
+       either("array", string(),
+              "Name of a mesh in memory that the program gives with the scene (SceneReadOptions::arrays)."),
        either("grid", record(grid_record()), "A rectangle."),
        either("sphere", record(sphere_mesh_record()), "A closed sphere."),
        either("tube", record(tube_record()), "An open tube."), either("box", record(box_mesh_record()), "A closed box."),
@@ -233,8 +235,17 @@ const Record& mesh_record() {
              "Scale factor, one for all axes or one per axis."),
        field("rotate", record(rotation_record()), "none", "Rotation about the origin."),
        field("translate", place(), Vec3f{}, "Translation.")},
-      {"file", "grid", "sphere", "tube", "box", "heightfield", "rabbit"}};
+      {"file", "array", "grid", "sphere", "tube", "box", "heightfield", "rabbit"}};
   return result;
+}
+
+Type places() {
+  static const Record points{
+      "points",
+      "Points in memory.",
+      {needed("array", string(), "Name of points that the program gives with the scene (SceneReadOptions::arrays).")},
+      {}};
+  return any_of({list(place(), 1), record(points)});
 }
 
 std::vector<std::string> fabric_names() { return names_of(fabrics()); }

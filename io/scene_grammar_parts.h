@@ -13,6 +13,8 @@ const Record& plasticity_record();
 const Record& strain_limit_record();
 const Record& rest_keyframe_record();
 const Record& mesh_record();
+/// A list of places, or the name of points in memory.
+Type places();
 const Record& fabric_record();
 std::vector<std::string> fabric_names();
 

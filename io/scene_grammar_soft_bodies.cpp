@@ -66,6 +66,7 @@ const Record& tetrahedra_record() {
               "or .vtu, "
               "Medit .mesh or .meshb, or "
               ".t (docs/guide/soft_bodies.md)."),
+       either("array", string(), "Name of tetrahedra in memory that the program gives with the scene."),
        either("box", record(tetrahedral_box_record()), "A box."),
        field("fit", positive("m", largest_place), "none",
              "Scales and moves the mesh so that its longest side has this length, its centre lies above the origin and its "
@@ -74,7 +75,7 @@ const Record& tetrahedra_record() {
              "Scale factor, one for all axes or one per axis."),
        field("rotate", record(rotation_record()), "none", "Rotation about the origin."),
        field("translate", place(), Vec3f{}, "Translation.")},
-      {"file", "box"}};
+      {"file", "array", "box"}};
   return result;
 }
 

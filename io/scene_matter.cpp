@@ -119,8 +119,7 @@ std::vector<Vec3f> places_in(const Filling& by, const JsonValue& fill) {
 }  // namespace
 
 std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at) {
-  std::vector<Vec3f> positions;
-  for (const JsonValue& position : elements(at, "positions")) positions.push_back(vector_of(position));
+  std::vector<Vec3f> positions = positions_at(by.document, at, by.folder);
   const JsonValue* fill = at.find("fill");
   if (fill == nullptr && positions.empty() && at.find("emitters") == nullptr)
     by.document.fail(at, "has no particles", "give 'fill', 'positions' or 'emitters'");
@@ -268,10 +267,11 @@ ConstraintGroup constraints_of(const JsonDocument& document, const JsonValue& at
   return group;
 }
 
-BuiltObject particles_of(const JsonDocument& document, const JsonValue& at, const std::string& name) {
+BuiltObject particles_of(const JsonDocument& document, const JsonValue& at, const std::string& name,
+                         const MeshFolder& folder) {
   Object object;
   object.name = name;
-  for (const JsonValue& item : elements(at, "positions")) object.positions.push_back(vector_of(item));
+  object.positions = positions_at(document, at, folder);
   const std::size_t count = object.positions.size();
   object.masses = masses_of(document, *at.find("masses"), count);
   if (const JsonValue* velocities = at.find("velocities")) {
@@ -313,7 +313,7 @@ BuiltObject build_matter(const JsonDocument& document, const JsonValue& what, co
     if (!error.where().element.empty()) place.element += ", " + error.where().element;
     throw Error(place, error.problem(), error.advice());
   }
-  return particles_of(document, what, name);
+  return particles_of(document, what, name, folder);
 }
 
 }  // namespace pliant::scene_file

@@ -10,6 +10,7 @@
 
 #include "pliant/io.h"
 #include "scene_grammar.h"
+#include "scene_hints.h"
 #include "scene_values.h"
 
 namespace pliant::scene_file {
@@ -172,6 +173,39 @@ void check_places(const JsonDocument& document, const JsonValue& at, const std::
   }
 }
 
+/// What the scene calls by the name `at`, of the arrays in memory.
+template <class Map>
+const typename Map::mapped_type& array_named(const JsonDocument& document, const JsonValue& at, const Map* arrays) {
+  if (arrays != nullptr)
+    if (const auto found = arrays->find(at.text); found != arrays->end()) return found->second;
+  std::vector<std::string> names;
+  if (arrays != nullptr)
+    for (const auto& [name, array] : *arrays) names.push_back(name);
+  const std::string nearest = nearest_name(at.text, names);
+  document.fail(at, "there is no array " + printable(at.text) + " of this kind",
+                nearest.empty() ? "give it with the scene (SceneReadOptions::arrays), or name a 'file'"
+                                : "the nearest name is '" + printable(nearest) + "'");
+}
+
+/// Throws an Error if a triangle or tetrahedron has a vertex that is not there.
+template <class Element>
+void check_indices(const JsonDocument& document, const JsonValue& at, const std::vector<Element>& elements,
+                   std::size_t vertices, const char* kind) {
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    for (const int vertex : elements[i])
+      if (vertex < 0 || static_cast<std::size_t>(vertex) >= vertices)
+        document.fail(at,
+                      std::string(kind) + " " + std::to_string(i) + " of array " + printable(at.text) + " has vertex " +
+                          std::to_string(vertex) + ", but there are " + std::to_string(vertices),
+                      "give indices from 0");
+}
+
+TriangleMesh mesh_named(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder) {
+  TriangleMesh mesh = array_named(document, at, folder.arrays == nullptr ? nullptr : &folder.arrays->meshes);
+  check_indices(document, at, mesh.triangles, mesh.positions.size(), "triangle");
+  return mesh;
+}
+
 MeshFile read(const std::string& path, Repair repair) {
   const bool mends = repair == Repair::yes;
   return read_mesh_file(path, {mends, mends, mends});
@@ -186,11 +220,12 @@ void fill(const JsonDocument& document, const JsonValue& at, const MeshFolder& f
     for (const std::string& one : file.repairs) result.repairs.push_back(called + ": " + one);
   };
   if (const auto instead = folder.instead.find(name); instead != folder.instead.end()) {
-    for (const char* source : {"file", "grid", "sphere", "tube", "box", "heightfield", "rabbit"})
+    for (const char* source : {"file", "array", "grid", "sphere", "tube", "box", "heightfield", "rabbit"})
       if (const JsonValue* unused = at.find(source)) unused->ignore();
     return from_file(instead->second, instead->second);
   }
   if (const JsonValue* file = at.find("file")) from_file(allowed_path(document, *file, folder), file->text);
+  if (const JsonValue* array = at.find("array")) result.mesh = mesh_named(document, *array, folder);
   if (const JsonValue* grid = at.find("grid")) result.mesh = grid_of(*grid, result);
   if (const JsonValue* sphere = at.find("sphere")) result.mesh = sphere_of(*sphere);
   if (const JsonValue* tube = at.find("tube")) result.mesh = tube_of(*tube);
@@ -233,11 +268,31 @@ SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const Mes
   return result;
 }
 
+TetrahedralMesh tetrahedra_named(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder) {
+  TetrahedralMesh mesh = array_named(document, at, folder.arrays == nullptr ? nullptr : &folder.arrays->tetrahedra);
+  check_indices(document, at, mesh.tetrahedra, mesh.positions.size(), "tetrahedron");
+  return mesh;
+}
+
+std::vector<Vec3f> positions_at(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder) {
+  const JsonValue* positions = at.find("positions");
+  if (positions == nullptr) return {};
+  std::vector<Vec3f> places;
+  if (positions->kind == JsonValue::Kind::object) {
+    places = array_named(document, *positions->find("array"), folder.arrays == nullptr ? nullptr : &folder.arrays->points);
+    check_places(document, *positions, places);
+    return places;
+  }
+  places.reserve(positions->items.size());
+  for (const JsonValue& place : positions->items) places.push_back(vector_of(place));
+  return places;
+}
+
 std::vector<Vec3f> make_frame(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder,
                               const SceneMesh& mesh) {
   TriangleMesh frame;
   if (const JsonValue* file = at.find("file")) frame = read(allowed_path(document, *file, folder), Repair::no).mesh;
-  for (const JsonValue& place : elements(at, "positions")) frame.positions.push_back(vector_of(place));
+  if (at.find("positions") != nullptr) frame.positions = positions_at(document, at, folder);
   if (frame.positions.size() != mesh.mesh.positions.size())
     document.fail(at,
                   "this frame has " + std::to_string(frame.positions.size()) + " vertices, the mesh " +

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pliant/io.h"
 #include "pliant/mesh.h"
 #include "scene_json.h"
 
@@ -15,6 +16,7 @@ struct MeshFolder {
   std::string path;                              ///< folder of the scene file
   bool allow_outside = false;                    ///< true: files elsewhere are allowed too
   std::map<std::string, std::string> instead{};  ///< replacement mesh files, by name of object or collider
+  const SceneArrays* arrays = nullptr;           ///< null: there are none
 };
 
 /// Returns the path of the file that a scene names. Throws an Error if it is no regular file, or is not allowed.
@@ -57,6 +59,13 @@ enum class Repair { yes, no };
 /// Error if a path is not allowed, is no readable mesh file, or if a vertex is beyond `largest_place`.
 SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const std::string& name,
                     Repair repair = Repair::yes);
+
+/// The tetrahedra in memory that the string `at` names. Throws an Error if there are none, or if an index is out of range.
+TetrahedralMesh tetrahedra_named(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder);
+
+/// The member "positions" of a checked record: a list, or the points in memory that {"array": NAME} names; empty if it is
+/// absent. Throws an Error if there are no such points, or one is beyond `largest_place`.
+std::vector<Vec3f> positions_at(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder);
 
 /// Moves positions by the placement in a checked record with `fit`, `scale`, `rotate` and `translate`. Throws an Error if one is then
 /// beyond `largest_place`.

@@ -48,17 +48,22 @@ std::string text_of(const std::string& path) {
 
 SceneFile read_scene_file(const std::string& path, const SceneReadOptions& options) {
   const std::string folder = fs::path(path).parent_path().string();
-  return scene_from(text_of(path), path, {folder, options.allow_outside, options.meshes});
+  return scene_from(text_of(path), path, {folder, options.allow_outside, options.meshes, &options.arrays});
 }
 
 SceneFile read_scene_file(const std::string& path, bool allow_outside) {
-  return read_scene_file(path, SceneReadOptions{allow_outside, {}});
+  return read_scene_file(path, SceneReadOptions{allow_outside, {}, {}});
 }
 
 Scene read_scene(const std::string& path, bool allow_outside) { return read_scene_file(path, allow_outside).scene; }
 
 Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder, bool allow_outside) {
-  return scene_from(text, name, {folder, allow_outside, {}}).scene;
+  return parse_scene_file(text, name, folder, {allow_outside, {}, {}}).scene;
+}
+
+SceneFile parse_scene_file(const std::string& text, const std::string& name, const std::string& folder,
+                           const SceneReadOptions& options) {
+  return scene_from(text, name, {folder, options.allow_outside, options.meshes, &options.arrays});
 }
 
 }  // namespace pliant

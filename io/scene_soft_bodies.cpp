@@ -77,6 +77,7 @@ TetrahedralMesh tetrahedra_of(const JsonDocument& document, const JsonValue& at,
     mesh = std::move(read.mesh);
     notes.add(file->text, read.repairs);
   }
+  if (const JsonValue* array = at.find("array")) mesh = tetrahedra_named(document, *array, folder);
   place(document, at, mesh.positions);
   return mesh;
 }

@@ -66,14 +66,25 @@ struct SceneFile {
 /// unless `allow_outside`, they may not leave it, even by links. Throws an Error with file, line, column and JSON path.
 SceneFile read_scene_file(const std::string& path, bool allow_outside = true);
 
+/// Meshes and points in memory, by name. A scene refers to one by {"array": "NAME"} as the source of a "mesh" or of
+/// "tetrahedra", or in place of a list of "positions". They are taken as they are: no vertex is merged or left out, so
+/// that numbers of particles are those of the caller.
+struct SceneArrays {
+  std::map<std::string, TriangleMesh> meshes;
+  std::map<std::string, TetrahedralMesh> tetrahedra;
+  std::map<std::string, std::vector<Vec3f>> points;  ///< positions [m]
+};
+
 /// Options of read_scene_file.
 struct SceneReadOptions {
   bool allow_outside = true;
   /// Mesh files that replace those of the scene, by name of object or mesh collider; relative to the working directory.
-  std::map<std::string, std::string> meshes;
+  std::map<std::string, std::string> meshes{};
+  SceneArrays arrays{};
 };
 
-/// Reads a scene with options. Also throws an Error if `meshes` names no object or mesh collider that has a mesh.
+/// Reads a scene with options. Also throws an Error if `meshes` names no object or mesh collider that has a mesh, if the
+/// scene refers to an array that is not there, or if an array has an index out of range or a value that is not finite.
 SceneFile read_scene_file(const std::string& path, const SceneReadOptions& options);
 
 /// Reads a scene as read_scene_file does, and returns the scene alone.
@@ -81,6 +92,10 @@ Scene read_scene(const std::string& path, bool allow_outside = true);
 
 /// Reads a scene from JSON text. `name` stands for the file in errors; mesh paths are relative to `folder`.
 Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder, bool allow_outside = true);
+
+/// Reads a scene from JSON text with options, such as arrays in memory.
+SceneFile parse_scene_file(const std::string& text, const std::string& name, const std::string& folder,
+                           const SceneReadOptions& options = {});
 
 /// Returns the JSON Schema (2020-12) of the scene format as text.
 std::string scene_schema();
