@@ -281,6 +281,28 @@ double factor_of_clamp(const SheetMesh& mesh, int vertex, const std::vector<char
   return fixed < all ? all / (all - fixed) : 1;
 }
 
+/// The size of the coefficients of a curvature: large ones tell that its vertices hardly determine it.
+double size_of(const Curvature& curvature) {
+  double sum = 0;
+  for (const std::array<double, 3>& by : curvature.by) sum += by[0] * by[0] + 2 * by[1] * by[1] + by[2] * by[2];
+  return sum;
+}
+
+/// The curvature at a pinned vertex. Vertices beyond its neighbours that are pinned too tell nothing of the side that
+/// bends: with them a clamp of several rows yields by half an edge. They stay where the others do not suffice.
+Curvature curvature_of_pinned(const SheetMesh& mesh, int vertex, const std::vector<int>& ring,
+                              const std::vector<char>& is_fixed, std::vector<int> stencil) {
+  constexpr double most = 4;
+  Curvature all = curvature_at(mesh, vertex, stencil);
+  const auto is_clamped_tip = [&](int v) {
+    return is_fixed[at(v)] != 0 && std::find(ring.begin(), ring.end(), v) == ring.end();
+  };
+  stencil.erase(std::remove_if(stencil.begin(), stencil.end(), is_clamped_tip), stencil.end());
+  if (stencil.size() == all.by.size() - 1 || stencil.size() < 5) return all;
+  Curvature free = curvature_at(mesh, vertex, stencil);
+  return size_of(free) < most * size_of(all) ? free : all;
+}
+
 /// K = sum over vertices of weight C^T diag(1, 2, 1) C, by the object's indices.
 SparseRows assemble(const std::vector<Curvature>& all, std::size_t rows) {
   std::vector<std::vector<std::array<int, 2>>> stencils_with(rows);
@@ -480,7 +502,9 @@ std::vector<Curvature> curvatures(const SheetMesh& mesh, const std::vector<doubl
     const auto regular = [&](int n) { return may_be_regular[at(n)] != 0; };
     const bool has_own =
         is_inner[v] != 0 && regular(static_cast<int>(v)) && std::all_of(rings[v].begin(), rings[v].end(), regular);
-    all.push_back(curvature_at(mesh, vertex, has_own ? rings[v] : wide_stencil(mesh, rings, vertex)));
+    const std::vector<int> stencil = has_own ? rings[v] : wide_stencil(mesh, rings, vertex);
+    all.push_back(is_fixed[v] == 0 ? curvature_at(mesh, vertex, stencil)
+                                   : curvature_of_pinned(mesh, vertex, rings[v], is_fixed, stencil));
     all.back().weight = rigidity[v] * mesh.area_at(vertex) * factor_of_clamp(mesh, vertex, is_fixed);
   }
   return all;

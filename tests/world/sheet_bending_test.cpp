@@ -23,17 +23,18 @@ struct Strip {
   double moved = 0;
   bool alternates = false;
   float heavier = 1;  ///< of the material's mass and stiffness
+  int behind = 1;     ///< rows pinned behind that of the clamp
 };
 
 TriangleMesh mesh_of(const Strip& strip, double edge) {
   std::mt19937 random(1);
   const auto uniform = [&] { return strip.moved * (static_cast<double>(random() % 65536) / 32768 - 1); };
-  const int rows = strip.edges + 2;
+  const int rows = strip.edges + 1 + strip.behind;
   TriangleMesh mesh;
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < strip_columns; ++j) {
-      const bool is_inner = i > 1 && j > 0 && i + 1 < rows && j + 1 < strip_columns;
-      const double x = i - 1 + (is_inner ? uniform() : 0), z = j + (is_inner ? uniform() : 0);
+      const bool is_inner = i > strip.behind && j > 0 && i + 1 < rows && j + 1 < strip_columns;
+      const double x = i - strip.behind + (is_inner ? uniform() : 0), z = j + (is_inner ? uniform() : 0);
       mesh.positions.push_back({static_cast<float>(x * edge), 0, static_cast<float>(z * edge)});
     }
   for (int i = 0; i + 1 < rows; ++i)
@@ -46,7 +47,7 @@ TriangleMesh mesh_of(const Strip& strip, double edge) {
   return mesh;
 }
 
-/// The sag of a cantilever at rest, clamped by two rows, over q L^4 / (8 B). Its length is chosen for a sag of L / 20.
+/// The sag of a cantilever at rest, clamped by two rows or more, over q L^4 / (8 B). Its length is chosen for a sag of L / 20.
 double sag_ratio(const Strip& strip, int substeps, double frame_time = 1.0 / 60) {
   Fabric material = fabric(strip.material);
   for (float* value : {&material.area_density, &material.bending_stiffness, &material.stretch_stiffness})
@@ -57,7 +58,7 @@ double sag_ratio(const Strip& strip, int substeps, double frame_time = 1.0 / 60)
   options.material = material;
   Object cloth = make_cloth(mesh_of(strip, length / strip.edges), options);
   cloth.damping = 10;
-  for (int i = 0; i < 2 * strip_columns; ++i) cloth.pins.push_back({i, {}});
+  for (int i = 0; i < (1 + strip.behind) * strip_columns; ++i) cloth.pins.push_back({i, {}});
   Scene scene;
   scene.frame_time = static_cast<float>(frame_time);
   scene.settings.substeps = substeps;
@@ -81,6 +82,12 @@ TEST(SheetBendingInAWorld, SagsAlikeOnIrregularMeshes) {
     EXPECT_NEAR(sag_ratio({"cotton", edges, 0, true}, 0), 1, 0.05) << edges << " edges, alternating diagonals";
     EXPECT_NEAR(sag_ratio({"cotton", edges, 0.25, true}, 0), 1, 0.05) << edges << " edges, both";
   }
+}
+
+TEST(SheetBendingInAWorld, SagsAlikeInAClampOfManyRows) {
+  for (const double moved : {0.0, 0.25})
+    for (const bool alternates : {false, true})
+      EXPECT_NEAR(sag_ratio({"cotton", 12, moved, alternates, 1, 4}, 0), 1, 0.05) << moved << ", " << alternates;
 }
 
 TEST(SheetBendingInAWorld, SagsAlikeWhateverTheSubstepsAndTheFrameTime) {
