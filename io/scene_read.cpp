@@ -16,8 +16,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SceneFile scene_from(std::string text, const std::string& name, const scene_file::MeshFolder& folder) {
-  const scene_file::JsonDocument document = scene_file::parse_json(std::move(text), name);
+SceneFile scene_from(std::string text, const std::string& name, const std::string& home, const SceneReadOptions& options) {
+  scene_file::JsonDocument document = scene_file::parse_json(std::move(text), name);
+  for (const auto& [pointer, value] : options.values) scene_file::set_value(document, pointer, value);
+  const scene_file::MeshFolder folder{home, options.allow_outside, options.meshes, &options.arrays};
   scene_file::check(document, scene_file::scene_record());
   SceneFile file = scene_file::build(document, folder);
   scene_file::check_all_used(document);
@@ -48,22 +50,22 @@ std::string text_of(const std::string& path) {
 
 SceneFile read_scene_file(const std::string& path, const SceneReadOptions& options) {
   const std::string folder = fs::path(path).parent_path().string();
-  return scene_from(text_of(path), path, {folder, options.allow_outside, options.meshes, &options.arrays});
+  return scene_from(text_of(path), path, folder, options);
 }
 
 SceneFile read_scene_file(const std::string& path, bool allow_outside) {
-  return read_scene_file(path, SceneReadOptions{allow_outside, {}, {}});
+  return read_scene_file(path, SceneReadOptions{allow_outside, {}, {}, {}});
 }
 
 Scene read_scene(const std::string& path, bool allow_outside) { return read_scene_file(path, allow_outside).scene; }
 
 Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder, bool allow_outside) {
-  return parse_scene_file(text, name, folder, {allow_outside, {}, {}}).scene;
+  return parse_scene_file(text, name, folder, {allow_outside, {}, {}, {}}).scene;
 }
 
 SceneFile parse_scene_file(const std::string& text, const std::string& name, const std::string& folder,
                            const SceneReadOptions& options) {
-  return scene_from(text, name, {folder, options.allow_outside, options.meshes, &options.arrays});
+  return scene_from(text, name, folder, options);
 }
 
 }  // namespace pliant

@@ -14,6 +14,7 @@ struct Overrides {
   std::string isa;                  ///< instruction set level; empty: the best that the machine has
   bool sequential = false;          ///< use scalar code
   std::vector<std::string> meshes;  ///< "name=path": mesh files of objects and colliders
+  std::vector<std::string> values;  ///< "pointer=value": members of the scene to set, by JSON pointer
   std::string cache;                ///< folder of cached distance grids; empty: no cache
 };
 

@@ -38,8 +38,7 @@ void set_plain(Scene& scene) {
     scene.settings.isa = "sequential";
 }
 
-SceneReadOptions options_of(const std::vector<std::string>& meshes) {
-  SceneReadOptions options;
+void add_meshes(const std::vector<std::string>& meshes, SceneReadOptions& options) {
   for (const std::string& one : meshes) {
     const std::size_t sign = one.find('=');
     if (sign == 0 || sign == std::string::npos || sign + 1 == one.size())
@@ -47,14 +46,25 @@ SceneReadOptions options_of(const std::vector<std::string>& meshes) {
     const bool is_new = options.meshes.emplace(one.substr(0, sign), one.substr(sign + 1)).second;
     if (!is_new) throw Error({}, "'" + one.substr(0, sign) + "' is given two meshes", "give it one");
   }
-  return options;
 }
 
 }  // namespace
 
+void add_values(const std::vector<std::string>& values, SceneReadOptions& options) {
+  for (const std::string& one : values) {
+    const std::size_t sign = one.find('=');
+    if (sign == 0 || sign == std::string::npos)
+      throw Error({}, "'" + one + "' sets nothing", "write POINTER=VALUE, such as --set /settings/substeps=20");
+    options.values.emplace_back(one.substr(0, sign), one.substr(sign + 1));
+  }
+}
+
 SceneFile read_file_with(const std::string& path, const Overrides& overrides, bool quiet) {
   const GiveBackMemory during;
-  SceneFile file = read_scene_file(path, options_of(overrides.meshes));
+  SceneReadOptions options;
+  add_meshes(overrides.meshes, options);
+  add_values(overrides.values, options);
+  SceneFile file = read_scene_file(path, options);
   if (!quiet) print_repairs(file.repairs);
   if (!quiet) print_left_out(file.left_out);
   Scene& scene = file.scene;

@@ -13,6 +13,9 @@
 
 namespace pliant::command {
 
+/// Adds "pointer=value" texts to the options. Throws an Error if one has no '='.
+void add_values(const std::vector<std::string>& values, SceneReadOptions& options);
+
 /// Reads a scene file and applies the changes to its scene. Prints the repairs of its meshes unless `quiet`.
 SceneFile read_file_with(const std::string& path, const Overrides& overrides, bool quiet);
 /// Does the same, and returns the scene alone.

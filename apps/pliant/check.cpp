@@ -185,8 +185,10 @@ void add_solids(const Object& object, int body, std::vector<Vec3f>& points) {
   }
 }
 
-Checked check_scene(const std::string& path, double seconds) {
-  const SceneFile file = read_scene_file(path);
+Checked check_scene(const std::string& path, double seconds, const std::vector<std::string>& values) {
+  SceneReadOptions reading;
+  command::add_values(values, reading);
+  const SceneFile file = read_scene_file(path, reading);
   const Scene& scene = file.scene;
   std::size_t particles = 0;
   std::vector<Vec3f> points;
@@ -224,8 +226,9 @@ Checked check_scene(const std::string& path, double seconds) {
 int check(const CheckOptions& options) {
   // What is doubtful in a mesh is often usual for cloth, so such findings are called notes.
   const bool is_scene = has_suffix(options.path, ".json");
-  const bool grave = print_findings(is_scene ? check_scene(options.path, options.seconds) : check_mesh(options.path),
-                                    is_scene ? "doubtful" : "note");
+  const bool grave =
+      print_findings(is_scene ? check_scene(options.path, options.seconds, options.values) : check_mesh(options.path),
+                     is_scene ? "doubtful" : "note");
   if (!grave) return 0;
   Location where;
   where.file = options.path;

@@ -45,8 +45,9 @@ struct RenderOptions {
 int render(const RenderOptions& options);
 
 struct CheckOptions {
-  std::string path;    ///< a scene (.json) or a mesh file
-  double seconds = 3;  ///< approximate time for trial runs [s]; 0: none
+  std::string path;                 ///< a scene (.json) or a mesh file
+  double seconds = 3;               ///< approximate time for trial runs [s]; 0: none
+  std::vector<std::string> values;  ///< Overrides::values
 };
 
 /// Prints errors and warnings of a scene or mesh. Returns 1 if there are errors.

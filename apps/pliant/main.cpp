@@ -14,11 +14,18 @@ namespace {
 
 using namespace pliant::command;
 
+void add_set(CLI::App& app, std::vector<std::string>& values) {
+  app.add_option("--set", values, "set a member of the scene by its JSON pointer: /settings/substeps=20; repeatable")
+      ->type_name("POINTER=VALUE")
+      ->allow_extra_args(false);
+}
+
 /// Adds the options that run and render share.
 void add_settings(CLI::App& app, Overrides& overrides) {
   app.add_option("--mesh", overrides.meshes, "replace the mesh of the object or collider NAME; repeatable")
       ->type_name("NAME=FILE")
       ->allow_extra_args(false);
+  add_set(app, overrides.values);
   app.add_option("--cache", overrides.cache, "folder for distance grids, which later runs reuse")->type_name("FOLDER");
   app.add_option("--threads", overrides.threads, "number of threads; 0: all hardware threads")
       ->type_name("N")
@@ -105,6 +112,7 @@ void add_check(CLI::App& app, CheckOptions& options, Chosen& chosen) {
       ->type_name("S")
       ->check(range(0.0, 86400.0))
       ->capture_default_str();
+  add_set(*check_app, options.values);
   check_app->callback([&] { chosen = [&] { return check(options); }; });
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pliant/gauges.h"
@@ -81,6 +82,9 @@ struct SceneReadOptions {
   /// Mesh files that replace those of the scene, by name of object or mesh collider; relative to the working directory.
   std::map<std::string, std::string> meshes{};
   SceneArrays arrays{};
+  /// Members to set before the scene is checked: JSON pointers (RFC 6901) such as "/settings/substeps", "/objects/0/name"
+  /// or "/colliders/-", which appends; and values, as JSON, or as text that is no JSON and stands for itself.
+  std::vector<std::pair<std::string, std::string>> values{};
 };
 
 /// Reads a scene with options. Also throws an Error if `meshes` names no object or mesh collider that has a mesh, if the

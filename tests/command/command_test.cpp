@@ -36,6 +36,14 @@ TEST_F(Command, NamesTheFileOfASceneThatNoWorldIsMadeOf) {
   EXPECT_NE(pliant("check shut_up.json").out.find("wrong: object 'sheet', particle 0 and 15 more"), std::string::npos);
 }
 
+TEST_F(Command, SetsMembersOfAScene) {
+  expect_refused("run small.json --set /settings/substep=3", 1, "/settings/substep: 'substep' is unknown in settings");
+  expect_refused("run small.json --set /frames", 1, "'/frames' sets nothing; write POINTER=VALUE");
+  expect_refused("check small.json --set frames=2", 1, "'frames' is no JSON pointer");
+  EXPECT_NE(pliant("run small.json --set /frames=2").out.find("2 frames"), std::string::npos);
+  EXPECT_NE(pliant("check small.json --seconds 0 --set /frames=2").out.find("2 frames"), std::string::npos);
+}
+
 TEST_F(Command, UsageErrorsGiveTwo) {
   expect_refused("", 2, "no subcommand");
   expect_refused("fly", 2, "fly");
