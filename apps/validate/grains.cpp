@@ -1,6 +1,6 @@
 // Grains: a silo whose walls bear a part of the weight (Janssen 1895), and the flow through holes (Beverloo 1961).
 // Both need a packing without order: grains that fall from a lattice of small jitter stand in columns, which neither
-// push on walls nor flow.
+// push on walls nor flow on.
 #include <algorithm>
 #include <cmath>
 #include <string>
