@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "apps/validate/rows.h"
+#include "apps/validate/tank.h"
 #include "pliant/gauges.h"
 #include "pliant/liquid.h"
 
 namespace pliant::validate {
 namespace {
 
-constexpr float gravity_in_float = 9.81f;
 constexpr const char* source = "J. C. Martin and W. J. Moyce, Phil. Trans. R. Soc. A 244 (1952), 312-324, n^2 = 2";
 
 /// Points of a measured curve.
@@ -28,33 +28,6 @@ const Curve measured_height{{.56, .94},  {.93, .83},  {1.28, .72}, {1.66, .61},
 
 /// The points of this curve at which the column is at least a high.
 constexpr std::size_t thick_points = 5;
-
-/// A tank of planes without friction from the origin to `size`, open above.
-void add_tank(Scene& scene, const Vec3f& size) {
-  const auto add = [&](const char* name, const Vec3f& at, const Vec3f& axis, float degrees) {
-    Collider plane;
-    plane.name = name;
-    plane.position = at;
-    plane.rotation = rotation(axis, degrees);
-    plane.static_friction = plane.kinetic_friction = 0;
-    scene.add(plane);
-  };
-  add("floor", {}, {0, 0, 1}, 0);
-  add("left", {}, {0, 0, 1}, -90);
-  add("right", {size.x, 0, 0}, {0, 0, 1}, 90);
-  add("back", {}, {1, 0, 0}, 90);
-  add("front", {0, 0, size.z}, {1, 0, 0}, -90);
-}
-
-Scene tank_scene(const Vec3f& filled, float spacing, float tank_length) {
-  Scene scene;
-  scene.gravity = {0, -gravity_in_float, 0};
-  scene.frame_time = frame_time;
-  scene.settings.threads = 1;
-  scene.add(make_liquid(fill_box({}, filled, spacing), {.name = "water", .fluid = {.spacing = spacing}}));
-  add_tank(scene, {tank_length, filled.y, filled.z});
-  return scene;
-}
 
 /// The value of a curve of samples `step` apart from 0, between them linear.
 double value_at(const std::vector<double>& samples, double step, double at) {
@@ -243,6 +216,7 @@ void liquid_rows(Result& result, bool) {
   column_rows(result);
   momentum_rows_of_liquid(result);
   overlapping_liquid_rows(result);
+  liquid_under_gravity_rows(result);
   viscous_liquid_rows(result);
 }
 

@@ -45,6 +45,8 @@ void solid_rows(Result& result, bool slow);
 void liquid_rows(Result& result, bool slow);
 void viscous_liquid_rows(Result& result);
 void overlapping_liquid_rows(Result& result);
+void liquid_under_gravity_rows(Result& result);
+void grain_rows(Result& result, bool slow);
 void impact_of_body_rows(Result& result);
 void trusted_contact_rows(Result& result);
 /// Adds rows of the group `collision` for sets of queries. Throws an Error if the folder has none.

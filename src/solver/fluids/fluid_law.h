@@ -6,7 +6,7 @@
 namespace pliant {
 
 /// What a pass over the particles of one liquid needs to know. W(r) = q^3 with q = reach - r, for density and gradient alike, so that
-/// the gradient is that of the constraint (docs/internals/fluids.md).
+/// the gradient is that of the constraint (docs/internals/liquids.md).
 struct FluidLaw {
   float reach = 0;           ///< of the kernel: twice the spacing [m]
   float own = 0;             ///< a particle's own share of the rest density [-]
