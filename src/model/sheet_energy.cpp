@@ -3,113 +3,15 @@
 #include <cmath>
 #include <span>
 
-#include "constraints/registry.h"
 #include "core/at.h"
 #include "math/vector.h"
 #include "model/sheet_bending.h"
-#include "topology/edges.h"
 
 namespace pliant {
 
 namespace {
 
-/// Hinges err by 2.3 of this: where s = h^2 B / (rho e^4) is less, they are within 5 %, and cost less.
-constexpr double most_of_hinges = 0.02;
-/// Beyond this, l / e = 18, floats of M + h^2 K have no room for M: measured up to 16.
-constexpr double most_of_floats = 1e5;
-/// Hinges at a vertex that differ by more in their stiffness are a crease, or a seam of another material.
-constexpr double largest_ratio = 4;
-/// A rest shape is flat if no hinge is folded by more [rad].
-constexpr double largest_fold = 1e-3;
-
 Vec3d rest_of(const Object& object, int particle) { return convert<double>(object.positions[at(particle)]); }
-
-/// The flexural rigidity B that the compliance of a hinge stands for (matter/cloth.cpp) [N m].
-double rigidity_of(const std::array<Vec3d, 4>& x, double compliance, bool isometric) {
-  if (isometric) return 3 / compliance;
-  const Vec3d e = x[1] - x[0];
-  const double areas = (length(cross(e, x[2] - x[0])) + length(cross(e, x[3] - x[0]))) / 2;
-  return areas / (length_squared(e) * compliance);
-}
-
-std::array<Vec3d, 4> hinge_at(const Object& object, const ConstraintGroup& group, std::size_t hinge) {
-  std::array<Vec3d, 4> x;
-  for (std::size_t slot = 0; slot < 4; ++slot) x[slot] = rest_of(object, group.particles[4 * hinge + slot]);
-  return x;
-}
-
-/// True if all hinges of a group are flat at rest.
-bool is_flat(const Object& object, const ConstraintGroup& group) {
-  const bool angles = !group.rest.empty() && !is_flat_hinge(group.type);
-  const auto is_folded = [](float angle) { return std::fabs(double(angle)) > largest_fold; };
-  if (angles && std::any_of(group.rest.begin(), group.rest.end(), is_folded)) return false;
-  for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
-    const std::array<Vec3d, 4> x = hinge_at(object, group, i);
-    if (std::fabs(fold_angle({x[0], x[1], x[2], x[3]})) > largest_fold) return false;
-  }
-  return true;
-}
-
-/// True if every edge of two triangles has one hinge, and none has three or more triangles. A seam or crease without
-/// hinges bends freely.
-bool has_hinges_everywhere(const Object& object) {
-  std::vector<std::array<int, 2>> hinges;
-  for (const ConstraintGroup& group : object.constraints) {
-    if (!is_hinge(group.type)) continue;
-    for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
-      const auto [a, b] = std::minmax(group.particles[4 * i], group.particles[4 * i + 1]);
-      hinges.push_back({a, b});
-    }
-  }
-  std::sort(hinges.begin(), hinges.end());
-  std::size_t inner = 0;
-  for (const Edge& edge : find_edges(object.triangles, static_cast<int>(object.positions.size()))) {
-    if (edge.triangle_count > 2) return false;
-    if (!edge.is_inner()) continue;
-    const std::array<int, 2> ends{std::min(edge.a, edge.b), std::max(edge.a, edge.b)};
-    const auto [first, last] = std::equal_range(hinges.begin(), hinges.end(), ends);
-    if (last - first != 1) return false;
-    ++inner;
-  }
-  return inner == hinges.size();
-}
-
-/// True if the initial positions are the rest shape, as they are not where pieces were welded.
-bool is_at_rest(const Object& object) {
-  constexpr double tolerated = 0.01;
-  for (const ConstraintGroup& group : object.constraints) {
-    if (!is_length(group.type) || group.rest.empty()) continue;
-    for (std::size_t i = 0; 2 * i + 1 < group.particles.size() && i < group.rest.size(); ++i) {
-      const double rest = double(group.rest[i]);
-      const double now = length(rest_of(object, group.particles[2 * i + 1]) - rest_of(object, group.particles[2 * i]));
-      if (std::fabs(now - rest) > tolerated * std::max(now, rest)) return false;
-    }
-  }
-  return true;
-}
-
-/// True if a group has the compliances of a material, which nothing changes.
-bool is_of_material(const ConstraintGroup& group) {
-  return !group.compliances.empty() && group.stiffness.kind == Stiffness::Kind::compliance && !group.plasticity &&
-         group.keyframes.empty() && !(group.break_force > 0);
-}
-
-/// The rigidity at each particle: the mean of its hinges; 0 without one.
-std::vector<double> rigidities(const Object& object) {
-  std::vector<double> sum(object.positions.size(), 0), count(object.positions.size(), 0);
-  for (const ConstraintGroup& group : object.constraints) {
-    if (!is_hinge(group.type)) continue;
-    for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
-      const double b = rigidity_of(hinge_at(object, group, i), double(group.compliances[i]), is_flat_hinge(group.type));
-      for (std::size_t slot = 0; slot < 4; ++slot) {
-        sum[at(group.particles[4 * i + slot])] += b;
-        count[at(group.particles[4 * i + slot])] += 1;
-      }
-    }
-  }
-  for (std::size_t v = 0; v < sum.size(); ++v) sum[v] = count[v] > 0 ? sum[v] / count[v] : 0;
-  return sum;
-}
 
 /// The triangles of a sheet and what is around each vertex, by the object's indices.
 struct SheetMesh {
@@ -399,70 +301,6 @@ void find_pieces(const SheetDraft& draft, SheetBending& out) {
   }
 }
 
-/// True if the hinges at each vertex are much alike.
-bool is_alike(const Object& object) {
-  constexpr double none = 1e300;
-  std::vector<double> least(object.positions.size(), none), most(object.positions.size(), 0);
-  for (const ConstraintGroup& group : object.constraints) {
-    if (!is_hinge(group.type)) continue;
-    for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
-      const double b = rigidity_of(hinge_at(object, group, i), double(group.compliances[i]), is_flat_hinge(group.type));
-      for (std::size_t slot = 0; slot < 4; ++slot) {
-        const std::size_t v = at(group.particles[4 * i + slot]);
-        least[v] = std::min(least[v], b);
-        most[v] = std::max(most[v], b);
-      }
-    }
-  }
-  for (std::size_t v = 0; v < least.size(); ++v)
-    if (least[v] < none && !(most[v] <= largest_ratio * least[v])) return false;
-  return true;
-}
-
-/// B / (rho e^4) of a sheet, e its mean edge [1/s^2]; 0 if it has no hinges with compliances, or no mass.
-double sheet_stiffness(const Object& object) {
-  double edges = 0, rigidity = 0, hinges = 0, area = 0, mass = 0, weighed = 0;
-  for (const ConstraintGroup& group : object.constraints) {
-    if (!is_hinge(group.type)) continue;
-    for (std::size_t i = 0; i < group.compliances.size() && 4 * i + 3 < group.particles.size(); ++i) {
-      const std::array<Vec3d, 4> x = hinge_at(object, group, i);
-      rigidity += rigidity_of(x, double(group.compliances[i]), is_flat_hinge(group.type));
-      edges += length(x[1] - x[0]);
-      hinges += 1;
-    }
-  }
-  double vertices = 0;
-  std::vector<char> has_triangle(object.positions.size(), 0);
-  for (const auto& triangle : object.triangles) {
-    const auto& [a, b, c] = triangle;
-    area += length(cross(rest_of(object, b) - rest_of(object, a), rest_of(object, c) - rest_of(object, a))) / 2;
-    for (const int v : triangle) has_triangle[at(v)] = 1;
-  }
-  for (std::size_t v = 0; v < has_triangle.size(); ++v) {
-    if (has_triangle[v] == 0) continue;
-    vertices += 1;
-    if (!std::isfinite(object.masses[v])) continue;
-    mass += double(object.masses[v]);
-    weighed += 1;
-  }
-  if (!(hinges > 0 && weighed > 0 && area > 0)) return 0;
-  const double density = mass / weighed * vertices / area, edge = edges / hinges;
-  return rigidity / hinges / (density * edge * edge * edge * edge);
-}
-
-/// Damping over stiffness of the hinges [s].
-float damping_time(const Object& object) {
-  float time = 0;
-  for (const ConstraintGroup& group : object.constraints) {
-    if (!is_hinge(group.type) || group.compliances.empty()) continue;
-    std::vector<float> sorted = group.compliances;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    time = std::max(time, group.stiffness.damping * *middle);
-  }
-  return time;
-}
-
 SheetDraft draft_of(const SheetMesh& mesh, const std::vector<int>& place, const std::vector<char>& is_fixed,
                     std::size_t rows) {
   SheetDraft draft;
@@ -511,26 +349,6 @@ std::vector<Curvature> curvatures(const SheetMesh& mesh, const std::vector<doubl
 }
 
 }  // namespace
-
-bool bends_as_sheet(const Object& object, double h) {
-  const double stiffness = sheet_stiffness(object);
-  if (!(h * h * stiffness > most_of_hinges && h * h * stiffness < most_of_floats)) return false;
-  const auto can_be_sheet = [&](const ConstraintGroup& group) {
-    return !is_hinge(group.type) || group.particles.empty() || (is_of_material(group) && is_flat(object, group));
-  };
-  return object.bodies.empty() && std::all_of(object.constraints.begin(), object.constraints.end(), can_be_sheet) &&
-         has_hinges_everywhere(object) && is_at_rest(object) && is_alike(object);
-}
-
-double excess_of_hinges(const Object& object, double h) {
-  constexpr double measured = 2.3;
-  if (bends_as_sheet(object, h)) return 0;
-  return measured * h * h * sheet_stiffness(object);
-}
-
-SheetFacts facts_of_sheet(const Object& object) {
-  return {rigidities(object), sheet_stiffness(object), damping_time(object)};
-}
 
 SheetBending build_sheet(const Object& object, const SheetFacts& facts, const std::vector<int>& place,
                          const std::vector<Record>& positions) {
