@@ -104,7 +104,8 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   if (sheet) std::erase_if(lists, [](const ConstraintList& list) { return is_hinge(list.type); });
   out.fans = join_volumes(lists, kept);
   const bool in_given_order = options.sweep == Sweep::natural;
-  if (solves_chains(options.sweep)) split_off_chains(lists, held_by_targets(object, static_cast<double>(options.gravity)));
+  const std::vector<int> held = held_by_targets(object, static_cast<double>(options.gravity));
+  if (solves_chains(options.sweep)) split_off_chains(lists, held);
   std::vector<int> tile;
   const int largest_tile = in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
   if (kept != nullptr)
@@ -121,7 +122,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   schedule(lists, tile, in_given_order, has_tethers(options) || options.sweep == Sweep::multigrid, kept, out);
   if (kept != nullptr && has_many_additions(out)) return out;  // the caller schedules it from scratch
   fill_particles(object, positions, out);
-  if (sheet) out.sheet = build_sheet(object, *sheet, out.place, out.positions);
+  if (sheet) out.sheet = build_sheet(object, *sheet, out.place, out.positions, held);
   append_chains(lists, options.chain_softness, out);
   schedule_stencils(lists, in_given_order, out);
   out.joints = compile_joints(object, out);

@@ -57,6 +57,7 @@ struct SheetLevel {
 struct SheetBending {
   std::vector<SheetLevel> levels;
   std::vector<std::int32_t> piece;  ///< of each vertex; -1: it has no triangle
+  std::vector<char> is_held;        ///< of each vertex: 1 where a rigid attachment holds it; empty: none is
   int pieces = 0;
   float damping_time = 0;  ///< damping over stiffness [s]
   float stiffness = 0;     ///< B / (rho e^4), e the mean edge, or of the finest parts if it is more there [1/s^2]
@@ -86,9 +87,10 @@ struct SheetFacts {
 SheetFacts facts_of_sheet(const Object& object);
 
 /// Builds the energy and levels. `place`: storage index of each particle of the object; `positions`: in storage order,
-/// inverse mass in w. Reads no constraints of the object.
+/// inverse mass in w; `held`: held_by_targets (model/attachments.h). Particles that a rigid attachment holds are clamped
+/// as pinned ones are. Reads no constraints of the object.
 SheetBending build_sheet(const Object& object, const SheetFacts& facts, const std::vector<int>& place,
-                         const std::vector<Record>& positions);
+                         std::vector<Record> positions, const std::vector<int>& held);
 
 // ------------------------------------------------------------------------------------------------ parts of the above
 

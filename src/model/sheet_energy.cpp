@@ -351,11 +351,18 @@ std::vector<Curvature> curvatures(const SheetMesh& mesh, const std::vector<doubl
 }  // namespace
 
 SheetBending build_sheet(const Object& object, const SheetFacts& facts, const std::vector<int>& place,
-                         const std::vector<Record>& positions) {
+                         std::vector<Record> positions, const std::vector<int>& held) {
   const SheetMesh mesh(object);
+  std::vector<char> is_held(held.empty() ? 0 : positions.size(), 0);
+  for (std::size_t v = 0; v < held.size(); ++v) {
+    if (held[v] == static_cast<int>(v)) continue;
+    is_held[at(place[v])] = 1;
+    positions[at(place[v])].w = 0;
+  }
   std::vector<char> is_fixed(object.positions.size(), 0);
   for (std::size_t v = 0; v < is_fixed.size(); ++v) is_fixed[v] = positions[at(place[v])].w == 0 ? 1 : 0;
   SheetBending out;
+  out.is_held = std::move(is_held);
   out.damping_time = facts.damping_time;
   SheetDraft draft = draft_of(mesh, place, is_fixed, positions.size());
   find_pieces(draft, out);

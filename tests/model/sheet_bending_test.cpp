@@ -82,7 +82,7 @@ struct Built {
       const Vec3f& p = object.positions[i];
       positions.push_back({p.x, p.y, p.z, is_pinned ? 0 : 1 / object.masses[i]});
     }
-    sheet = build_sheet(object, facts_of_sheet(object), place, positions);
+    sheet = build_sheet(object, facts_of_sheet(object), place, positions, {});
   }
   const SheetLevel& finest() const { return sheet.levels.front(); }
 };

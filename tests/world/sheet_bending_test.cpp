@@ -22,8 +22,9 @@ struct Strip {
   int edges = 12;  ///< in the free length
   double moved = 0;
   bool alternates = false;
-  float heavier = 1;  ///< of the material's mass and stiffness
-  int behind = 1;     ///< rows pinned behind that of the clamp
+  float heavier = 1;         ///< of the material's mass and stiffness
+  int behind = 1;            ///< rows pinned behind that of the clamp
+  bool is_attached = false;  ///< the clamp is made of rigid attachments instead of pins
 };
 
 TriangleMesh mesh_of(const Strip& strip, double edge) {
@@ -58,7 +59,12 @@ double sag_ratio(const Strip& strip, int substeps, double frame_time = 1.0 / 60)
   options.material = material;
   Object cloth = make_cloth(mesh_of(strip, length / strip.edges), options);
   cloth.damping = 10;
-  for (int i = 0; i < (1 + strip.behind) * strip_columns; ++i) cloth.pins.push_back({i, {}});
+  for (int i = 0; i < (1 + strip.behind) * strip_columns; ++i) {
+    if (strip.is_attached)
+      cloth.attachments.push_back({i, cloth.positions[at(i)], {}, Stiffness::compliance(0)});
+    else
+      cloth.pins.push_back({i, {}});
+  }
   Scene scene;
   scene.frame_time = static_cast<float>(frame_time);
   scene.settings.substeps = substeps;
@@ -88,6 +94,10 @@ TEST(SheetBendingInAWorld, SagsAlikeInAClampOfManyRows) {
   for (const double moved : {0.0, 0.25})
     for (const bool alternates : {false, true})
       EXPECT_NEAR(sag_ratio({"cotton", 12, moved, alternates, 1, 4}, 0), 1, 0.05) << moved << ", " << alternates;
+}
+
+TEST(SheetBendingInAWorld, IsClampedByRigidAttachmentsAsByPins) {
+  for (const int edges : {6, 24}) EXPECT_NEAR(sag_ratio({"cotton", edges, 0, false, 1, 1, true}, 0), 1, 0.05) << edges;
 }
 
 TEST(SheetBendingInAWorld, SagsAlikeWhateverTheSubstepsAndTheFrameTime) {

@@ -286,7 +286,7 @@ void set_masses(const SheetBending& sheet, const Record* positions, SheetScratch
     if (l > 0) continue;
     added.assign(rows, 0);
     for (std::size_t i = 0; i < rows; ++i) {
-      const bool is_free = positions[i].w > 0;
+      const bool is_free = positions[i].w > 0 && (sheet.is_held.empty() || sheet.is_held[i] == 0);
       const float now = is_free ? 1 / positions[i].w : weight_of_pins * own.mass[i];
       added[i] = std::max(now - own.mass[i], 0.f);
       own.mass[i] = is_free ? now : 0;
