@@ -17,7 +17,7 @@ using AddRows = void (*)(Result&, bool);
 const AddRows adders[] = {spring_rows,      chain_rows,     momentum_rows, pendulum_rows,   contact_rows,
                           body_rows,        mechanism_rows, motion_rows,   collision_rows,  stiffness_rows,
                           bending_rows,     balloon_rows,   drape_rows,    steadiness_rows, convergence_rows,
-                          heavy_chain_rows, sweep_rows,     liquid_rows,   solid_rows};
+                          heavy_chain_rows, sweep_rows,     liquid_rows,   solid_rows,      woven_rows};
 
 const char* word(Comparison comparison) {
   switch (comparison) {
@@ -70,6 +70,7 @@ const std::vector<Group>& groups() {
       {"sweeps", "the same known answers with every sweep, and the exceptions"},
       {"liquids", "a dam break against an experiment, a column at rest, momentum"},
       {"solids", "bars in tension and bent, with the default settings against many substeps"},
+      {"woven", "stretch and shear of woven cloth by its weight"},
   };
   return all;
 }
