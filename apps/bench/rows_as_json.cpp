@@ -192,6 +192,7 @@ std::string to_json(const std::vector<SceneRow>& rows) {
                     {"ms_per_frame", row.milliseconds},
                     {"substeps", row.substeps},
                     {"crossings", row.crossings},
+                    {"yield", row.yield},
                     {"finite", row.finite},
                     {"cheapest", row.cheapest},
                     {"ratio", row.ratio}});

@@ -144,6 +144,7 @@ SceneRow measure(const NamedScene& named, const std::string& settings, const Sce
     motions.push_back(mean_motion(world, before));
   }
   const std::size_t last = std::min(frames_at_rest, motions.size());
+  if (named.yield) row.yield = named.yield(world);
   if (last > 0)
     row.moved = std::accumulate(motions.end() - static_cast<std::ptrdiff_t>(last), motions.end(), 0.0) / double(last);
   return row;

@@ -7,6 +7,7 @@
 
 #include "pliant/report.h"
 #include "pliant/scene.h"
+#include "pliant/world.h"
 
 namespace pliant::bench {
 
@@ -14,6 +15,8 @@ namespace pliant::bench {
 struct NamedScene {
   std::string name;
   Scene scene;
+  /// What has moved over what should have, at rest [-]; empty: not known.
+  std::function<double(const World&)> yield{};
 };
 
 /// Figures of one scene under one setting, over all frames of a run.
@@ -27,6 +30,7 @@ struct SceneRow {
   double moved = 0;              ///< mean displacement of a particle in each of the last 30 frames [m]
   double milliseconds = 0;       ///< mean per frame
   double substeps = 0;           ///< mean per frame
+  double yield = 0;              ///< NamedScene::yield at the end; 0: not known
   int crossings = -1;            ///< most edges that pass through a triangle in any frame, by exact signs; -1: not counted
   bool finite = true;            ///< false: the run ended at a non-finite value
   /// Of the default's row: the cheapest setting of a sweep and substeps whose row holds the bounds, empty if none does, and

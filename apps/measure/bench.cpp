@@ -12,6 +12,7 @@
 #include "apps/bench/contact.h"
 #include "apps/bench/covered.h"
 #include "apps/bench/draped_meshes.h"
+#include "apps/bench/known_sags.h"
 #include "apps/bench/landing.h"
 #include "apps/bench/liquid.h"
 #include "apps/bench/memory.h"
@@ -218,8 +219,6 @@ std::string bench_tears(const BenchOptions& options) {
 }
 
 std::string bench_default(const BenchOptions& options) {
-  if (options.scenes.empty() && options.meshes.empty())
-    throw Error({}, "'default' measures scene files", "name them: --scenes scenes/*.json, or --meshes FOLDER");
   if (!options.sizes.empty())
     throw Error({}, "'default' takes no --sizes, because its scenes have their own", "leave out --sizes");
   pliant::bench::SceneTableOptions wanted;
@@ -236,22 +235,25 @@ std::string bench_default(const BenchOptions& options) {
   if (!options.meshes.empty())
     for (pliant::bench::NamedScene& draped : pliant::bench::draped_meshes(options.meshes))
       scenes.push_back(std::move(draped));
+  if (options.scenes.empty() && options.meshes.empty()) scenes = pliant::bench::known_sags();
   wanted.frames = options.frames.value_or(0);
   wanted.counts_crossings = !options.meshes.empty();
   print(
       "scene                          settings           substeps  ms/frame  p99, % (frame)  largest, % (frame)  gain, "
-      "J/kg (with bending)  moved, mm  crossings  ratio to the cheapest that holds\n");
+      "J/kg (with bending)  moved, mm  crossings  yield  ratio to the cheapest that holds\n");
   const bool compares = !wanted.against.empty();
   wanted.on_row = [compares](const pliant::bench::SceneRow& row) {
     throw_if_interrupted();
     const std::string cost = row.settings != "default" || !compares ? ""
                              : row.cheapest.empty()                 ? "  no named one holds"
                                                     : fmt::format("  {:.2f} to '{}'", row.ratio, row.cheapest);
-    print(fmt::format("{:<30} {:<18} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:<9} {:10.4f}  {:>9}{}{}\n",
-                      row.scene, row.settings, row.substeps, row.milliseconds, 100 * row.p99,
-                      fmt::format("({})", row.frame_of_p99), 100 * row.largest, fmt::format("({})", row.frame_of_largest),
-                      row.gain, fmt::format("({:.4f})", row.gain_with_bending), 1000 * row.moved,
-                      row.crossings < 0 ? "-" : std::to_string(row.crossings), cost, row.finite ? "" : "  not finite"));
+    print(fmt::format(
+        "{:<30} {:<18} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:<9} {:10.4f}  {:>9}  {:>5}{}{}\n", row.scene,
+        row.settings, row.substeps, row.milliseconds, 100 * row.p99, fmt::format("({})", row.frame_of_p99),
+        100 * row.largest, fmt::format("({})", row.frame_of_largest), row.gain,
+        fmt::format("({:.4f})", row.gain_with_bending), 1000 * row.moved,
+        row.crossings < 0 ? "-" : std::to_string(row.crossings), row.yield == 0 ? "-" : fmt::format("{:.3f}", row.yield),
+        cost, row.finite ? "" : "  not finite"));
   };
   return to_json(pliant::bench::measure_scenes(scenes, wanted));
 }

@@ -35,6 +35,7 @@ void motion_rows(Result& result, bool slow);
 void collision_rows(Result& result, bool slow);
 void stiffness_rows(Result& result, bool slow);
 void bending_rows(Result& result, bool slow);
+void woven_rows(Result& result, bool slow);
 void balloon_rows(Result& result, bool slow);
 void drape_rows(Result& result, bool slow);
 void steadiness_rows(Result& result, bool slow);

@@ -29,6 +29,13 @@ inline constexpr bool is_of_solid = requires {
   T::is_of_solid;
 };
 
+/// True if one pass a substep leaves constraints of the type too soft by a known share, which a projection takes off:
+/// those of solids, and of the triangles of woven cloth.
+template <class T>
+inline constexpr bool is_led = is_of_solid<T> || requires {
+  T::is_of_woven;
+};
+
 /// True if every gradient has length one unless it vanishes, so the driver skips its norm.
 template <class T>
 inline constexpr bool has_unit_gradients = [] {

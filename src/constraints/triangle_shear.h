@@ -21,6 +21,7 @@ struct TriangleShear {
   static constexpr const char* name = "triangle_shear";
   using slots = Points<3>;
   static constexpr int rows = 1;
+  static constexpr bool is_of_woven = true;
 
   template <class R>
   struct Params {

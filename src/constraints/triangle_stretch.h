@@ -20,6 +20,7 @@ struct TriangleStretch {
   static constexpr const char* name = "triangle_stretch";
   using slots = Points<3>;
   static constexpr int rows = 1;
+  static constexpr bool is_of_woven = true;
   static constexpr bool rest_scales = true;
 
   template <class R>

@@ -30,11 +30,10 @@ std::vector<int> substeps_of_all(const Scene& scene, const Settings& settings) {
   return all;
 }
 
-std::string advice_for(const Object& object, double frame_time) {
+std::string advice_for(const Object& object, double frame_time, const WovenYield& yield) {
   const std::string needed =
       std::to_string(std::llround(std::min(std::ceil(needed_substeps_of_woven(object, frame_time)), 1e9)));
-  const std::string mesh =
-      has_oblique_yarns(object) ? ", larger triangles, or edges along the yarns" : ", or larger triangles";
+  const std::string mesh = yield.is_of_yarns ? ", larger triangles, or edges along the yarns" : ", or larger triangles";
   return "give " + needed + " substeps" + mesh;
 }
 
@@ -47,14 +46,15 @@ std::vector<SoftWoven> find_soft_woven(const Scene& scene, const Settings& setti
     const Object& object = scene.objects[o];
     if (!is_woven(object)) continue;
     const int substeps = substeps_of[o];
-    const WovenYield yield =
-        yield_of_woven(object, frame_time, substeps * std::sqrt(static_cast<double>(settings.iterations)));
+    const WovenYield yield = yield_of_woven(object, frame_time, {static_cast<double>(substeps), settings.iterations});
     if (yield.ratio <= tolerated_yield) continue;
     all.push_back({&object,
-                   "is woven so finely that with " + std::to_string(substeps) + " substeps its triangles yield about " +
+                   "is woven so finely that with " + std::to_string(substeps) + " substeps " +
+                       (yield.is_of_yarns ? "yarns that no edge lies along" : "it") +
+                       (yield.is_of_yarns ? " stretch about " : " shears about ") +
                        words(std::round(10 * yield.ratio) / 10) + " times as much as their stiffness says, " +
                        words(std::round(1000 * yield.strain) / 10) + " % of strain too much under its weight",
-                   advice_for(object, frame_time)});
+                   advice_for(object, frame_time, yield)});
   }
   return all;
 }

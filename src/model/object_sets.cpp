@@ -309,8 +309,8 @@ int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_
     return std::clamp(needed, substeps_of_volumes, most_substeps_of_volumes);
   }
   if (has_converted(object)) return substeps_of_others;
-  if (is_woven(object) || (solves_chains(sweep) && is_meant_to_stretch(object, least_acceleration)))
-    return substeps_of_stretching(object);
+  if (is_woven(object)) return std::max(substeps_of_stretching(object), substeps_of_woven(object, frame_time));
+  if (solves_chains(sweep) && is_meant_to_stretch(object, least_acceleration)) return substeps_of_stretching(object);
   if (sweep != Sweep::multigrid) return substeps_of_others;
   const auto moves = [](const auto& one) { return one.motion.keyframes.size() > 1; };  // a pin or an attachment
   const bool is_disturbed = is_blown || object.collides || object.self_collision || swings(object) ||

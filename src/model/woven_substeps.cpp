@@ -1,7 +1,8 @@
 // One Gauss-Seidel pass a substep makes a constraint more compliant by about half of its inverse mass w, in units of
-// alpha / h^2: of two constraints that share particles, one is projected after the other, and moves it. So a sheet
-// yields by 1 + s with s = h^2 w / (2 alpha), whatever its rows; for shear of a square grid s = G h^2 / (rho e^2).
-// Figures: docs/internals/woven.md.
+// alpha / h^2: of two constraints that share particles, one is projected after the other, and moves it. The projection
+// takes that off (`led` in solver/project.h) as far as alpha / h^2 is larger, so a sheet is right while s = h^2 w /
+// (2 alpha) is small, whatever its rows; for shear of a square grid s = G h^2 / (rho e^2). Beyond, it yields in
+// proportion to s. Figures: docs/internals/woven.md.
 #include "model/woven_substeps.h"
 
 #include <algorithm>
@@ -16,15 +17,25 @@ namespace pliant {
 
 namespace {
 
-constexpr double excess_of_number = 1.1;    ///< measured: 1.08 to 1.18
-constexpr double largest_number = 0.09;     ///< s up to which the error is below a tenth
-constexpr double tolerated_strain = 0.002;  ///< that stiff cloth may yield by too much [-]
+constexpr double largest_number = 0.5;       ///< s up to which the error is below 3 %
+constexpr double tolerated_strain = 0.0005;  ///< by weight: what strains less may yield by so much more [-]
+constexpr double yield_of_number = 1.25;     ///< measured for s of 1 to 16: 1.25 s times as much
+constexpr double excess_of_number = 1.1;     ///< the same where several iterations leave no lead: 1 + 1.1 s
+constexpr int most_substeps_of_woven = 160;
+
+double excess_of(double number, bool is_led) {
+  return is_led ? std::max(yield_of_number * number - 1, 0.0) : excess_of_number * number;
+}
 
 struct WovenGroup {
   double rate_squared = 0;  ///< mean of w / (2 alpha) [1/s^2]
   double strain = 0;        ///< by the object's weight [-]
+  bool is_of_yarns = false;
   double number(double h) const { return rate_squared * h * h; }
-  double allowed() const { return strain > 0 ? std::max(largest_number, tolerated_strain / strain) : largest_number; }
+  double allowed() const {
+    const bool is_stiff = strain > 0 && strain < tolerated_strain;
+    return is_stiff ? (1 + tolerated_strain / strain) / yield_of_number : largest_number;
+  }
 };
 
 /// w of a triangle's stretch or shear at rest: gradients are the two directions, square to each other, times these
@@ -62,7 +73,8 @@ WovenGroup measured_group(const Object& object, const ConstraintGroup& group, do
   }
   if (measured == 0) return {};
   const double triangles = std::max<double>(1, static_cast<double>(object.triangles.size()));
-  return {rates / measured, compliances / measured * finite_mass(object) / triangles * least_acceleration * height};
+  return {rates / measured, compliances / measured * finite_mass(object) / triangles * least_acceleration * height,
+          group.type == TriangleStretch::name};
 }
 
 /// Calls visit(WovenGroup) for each group of triangles.
@@ -80,11 +92,6 @@ bool is_woven(const Object& object) {
   return std::any_of(object.constraints.begin(), object.constraints.end(), is_of_triangles);
 }
 
-bool has_oblique_yarns(const Object& object) {
-  return std::any_of(object.constraints.begin(), object.constraints.end(),
-                     [](const ConstraintGroup& group) { return group.type == TriangleStretch::name; });
-}
-
 double needed_substeps_of_woven(const Object& object, double frame_time) {
   double needed = is_woven(object) ? 1 : 0;
   for_woven_groups(object, [&](const WovenGroup& group) {
@@ -93,14 +100,20 @@ double needed_substeps_of_woven(const Object& object, double frame_time) {
   return needed;
 }
 
-WovenYield yield_of_woven(const Object& object, double frame_time, double substeps) {
+int substeps_of_woven(const Object& object, double frame_time) {
+  const double most = most_substeps_of_woven;
+  return static_cast<int>(std::ceil(std::min(needed_substeps_of_woven(object, frame_time), most)));
+}
+
+WovenYield yield_of_woven(const Object& object, double frame_time, const Passes& passes) {
   WovenYield most;
   double farthest = 1;
+  const double h = frame_time / (passes.substeps * std::sqrt(double(passes.iterations)));
   for_woven_groups(object, [&](const WovenGroup& group) {
-    const double s = group.number(frame_time / substeps), excess = excess_of_number * s;
+    const double s = group.number(h), excess = excess_of(s, passes.iterations == 1);
     if (!(s > farthest * group.allowed())) return;
     farthest = s / group.allowed();
-    most = {1 + excess, excess * group.strain};
+    most = {1 + excess, excess * group.strain, group.is_of_yarns};
   });
   return most;
 }

@@ -147,15 +147,14 @@ class Constraint final : public AnyConstraint {
     return -each * c / weight;
   }
 
-  // XPBD: Macklin, Mueller and Chentanez 2016, eq. 18 and 26. One pass over a solid leaves it too soft by half of its
-  // own denominator, so its compliance is lowered (docs/internals/solids.md).
+  // XPBD: Macklin, Mueller and Chentanez 2016, eq. 18 and 26. One pass over a solid or woven cloth leaves it too soft
+  // by half of its own denominator, so its compliance is lowered (docs/internals/solids.md, woven.md).
   double xpbd_change(double c, double weight, double motion, const Pass& pass) const {
     constexpr double lead = 0.62;
     const double alpha = hardness_.compliance / (pass.h * pass.h);
     const double gamma = hardness_.compliance * hardness_.damping / pass.h;
     const double rigid = (1 + gamma) * weight;
-    const double denominator =
-        is_of_solid<T> && pass.is_only ? std::max(rigid + alpha - lead * rigid, rigid) : rigid + alpha;
+    const double denominator = is_led<T> && pass.is_only ? std::max(rigid + alpha - lead * rigid, rigid) : rigid + alpha;
     return (-c - alpha * multiplier_ - gamma * motion) / denominator;
   }
 

@@ -46,10 +46,10 @@ PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass
   }
 }
 
-/// The denominator of a solid's constraint in a sweep of one pass: its compliance is lowered by the share `lead` of
+/// The denominator of a solid's or a woven triangle's constraint in a sweep of one pass: its compliance is lowered by the share `lead` of
 /// `rigid`, the denominator without compliance, and not below zero. Such a sweep treats neighbours that come later as
 /// if they were at rest, so a static load moves each constraint as if its compliance were greater by about half of
-/// `rigid` (docs/internals/solids.md).
+/// `rigid` (docs/internals/solids.md, woven.md).
 template <class R>
 PLIANT_HD R led(const R& denominator, const R& rigid, const R& lead) {
   return max(denominator - lead * rigid, rigid);
@@ -89,7 +89,7 @@ PLIANT_HD void damp_across(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_
 ///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
 ///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18,
 ///   26)
-///          with a = alpha / h^2 and g = alpha beta / h; that of a solid in a sweep of one pass: see `led`
+///          with a = alpha / h^2 and g = alpha beta / h; that of a solid or a woven triangle in a sweep of one pass: see `led`
 ///          With Integrator::energy C is C^ of energy_law.h, and the 1 of (1 + g) is a.
 ///   Types that measure the length of a strain are damped across it likewise:
 ///          dlambda = -g C' / (g sum w |grad C'|^2 + a), C' being strain_across of the motion since the substep's start
@@ -125,7 +125,7 @@ PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_coun
       numerator = numerator - gamma * motion_along<T>(gradient, motion);
       denominator = denominator + gamma * mass;
     }
-    if constexpr (is_of_solid<T>) denominator = led(denominator, denominator - compliance, R(a.lead));
+    if constexpr (is_led<T>) denominator = led(denominator, denominator - compliance, R(a.lead));
     change = numerator / max(within_trust<T>(denominator, numerator, mass), R(smallest_denominator));
   }
   if constexpr (general) change = change * R(a.relaxation);

@@ -332,14 +332,15 @@ TEST(InspectScene, NamesConstraintsOnFlatElements) {
   }
 }
 
-/// Where no edge lies along a yarn, its stretch is that of triangles, which yield by 1 + 1.1 Y h^2 / (2 rho e^2) on
-/// squares of edges e.
+/// Where no edge lies along a yarn, its stretch is that of triangles, which yield by 1.25 s with s = Y h^2 / (2 rho e^2)
+/// on squares of edges e; so does shear with s = G h^2 / (rho e^2).
 TEST(InspectScene, DoubtsWovenClothThatYieldsTooMuch) {
-  const auto doubt = [](const Vec3f& warp, int substeps, float stiffness) {
+  const auto doubt = [](const Vec3f& warp, int substeps, float stiffness, float shear = 0) {
     Scene scene;
     ClothOptions options{.name = "sheet", .stretch_model = ClothOptions::Stretching::woven, .warp = warp};
     options.material.area_density = 0.2f;
     options.material.stretch_stiffness = stiffness;
+    options.material.shear_stiffness = shear;
     scene.add_cloth(grid_mesh(11, 81, 0.125f, 1), options);
     scene.settings.substeps = substeps;
     return finding(scene, "woven so finely");
@@ -347,11 +348,13 @@ TEST(InspectScene, DoubtsWovenClothThatYieldsTooMuch) {
   EXPECT_EQ(doubt({0, 0, 1}, 20, 200), "");
   EXPECT_EQ(doubt({0.1f, 0, 1}, 150, 200), "");
   EXPECT_EQ(doubt({0.1f, 0, 1}, 20, 2), "");
-  const std::string text =
-      doubt({0.1f, 0, 1}, 20, 200);  // 1 + 1.1 x 200 x 6400 / (2 x 0.2 x 1200^2), and 3 x 1.1 at borders
-  EXPECT_NE(text.find("is woven so finely that with 20 substeps its triangles yield about 3."), std::string::npos) << text;
-  EXPECT_NE(doubt({0.1f, 0, 1}, 0, 200), "");
-  EXPECT_NE(text.find("edges along the yarns"), std::string::npos) << text;
+  EXPECT_EQ(doubt({0.1f, 0, 1}, 0, 200), "") << "substeps follow the triangles by default";
+  const std::string yarns = doubt({0.1f, 0, 1}, 20, 200);  // s = 200 x 6400 / (2 x 0.2 x 1200^2), and 3 s at borders
+  EXPECT_NE(yarns.find("with 20 substeps yarns that no edge lies along stretch about "), std::string::npos) << yarns;
+  EXPECT_NE(yarns.find("edges along the yarns"), std::string::npos) << yarns;
+  const std::string shears = doubt({0, 0, 1}, 20, 200, 100);  // s = 100 x 6400 / (0.2 x 1200^2)
+  EXPECT_NE(shears.find("with 20 substeps it shears about 3"), std::string::npos) << shears;
+  EXPECT_EQ(shears.find("edges along the yarns"), std::string::npos) << shears;
 }
 
 TEST(InspectScene, NamesElementsWhoseRestDataAreZero) {

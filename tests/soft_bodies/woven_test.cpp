@@ -12,6 +12,7 @@
 #include "pliant/mesh.h"
 #include "pliant/scene.h"
 #include "pliant/world.h"
+#include "soft_bodies/linear_woven.h"
 #include "support/refusal.h"
 
 namespace pliant {
@@ -147,7 +148,8 @@ TEST(WovenCloth, HasDistancesAlongItsYarns) {
 
 /// Pins the particles that lie at `low` along an axis, and returns the mean of z of those at `high` in a scene that
 /// came to rest [m].
-double rests_at(Scene& scene, float Vec3f::*axis, float low, float high, int substeps, int frames = 300) {
+double rests_at(Scene& scene, float Vec3f::*axis, float low, float high, int substeps, int frames = 300,
+                double pull = gravity) {
   std::vector<int> held, ends;
   const Object& object = scene.objects[0];
   for (std::size_t i = 0; i < object.positions.size(); ++i) {
@@ -156,7 +158,7 @@ double rests_at(Scene& scene, float Vec3f::*axis, float low, float high, int sub
     if (at > high - 1e-4f) ends.push_back(static_cast<int>(i));
   }
   scene.pin(0, held);
-  scene.gravity = {0, 0, static_cast<float>(gravity)};  // in the plane of the sheet
+  scene.gravity = {0, 0, static_cast<float>(pull)};  // in the plane of the sheet
   scene.objects[0].damping = 4;
   scene.settings.threads = 1;
   scene.settings.substeps = substeps;
@@ -192,10 +194,81 @@ TEST(WovenCloth, HangsAlikeOnAnyMesh) {
           << rows << ", " << substeps;
 }
 
+/// A sheet of width W that is held at one side shears by its weight: the other side sinks by rho g W^2 / (2 G). It bends
+/// in its plane, too, by 1.5 rho g W^4 / (Y H^2). With G = 20 and 81 rows 20 substeps are too few, so it has more by
+/// default.
+TEST(WovenCloth, ShearsByItsModulusOnAnyMesh) {
+  const double width = 0.25, shear = 0.12 * gravity * width * width / (2 * 20),
+               bends = 1.5 * 0.12 * gravity * std::pow(width, 4) / 10000;
+  for (const int rows : {21, 41, 81}) {
+    Scene scene;
+    scene.add_cloth(grid_mesh((rows - 1) / 4 + 1, rows, 0.25f, 1), woven(10000, 10000, 20, {0, 0, 1}));
+    EXPECT_NEAR(rests_at(scene, &Vec3f::x, -0.125f, 0.125f, 0, 150), shear + bends, 0.03 * shear) << rows;
+  }
+}
+
+/// By which angle the warp is cut, and by how much inner vertices are moved, as a share of an edge.
+struct Cut {
+  double degrees = 0;
+  float moved = 0;
+};
+
+TriangleMesh moved_grid(int rows, float by) {
+  TriangleMesh mesh = grid_mesh((rows - 1) / 4 + 1, rows, 0.25f, 1);
+  const float edge = 1 / static_cast<float>(rows - 1);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    Vec3f& p = mesh.positions[i];
+    if (std::fabs(p.z) > 0.499f || std::fabs(p.x) > 0.1249f) continue;
+    const auto part = [&](std::size_t prime) { return static_cast<float>(i * prime % 17) / 8 - 1; };
+    p = p + Vec3f{part(5), 0, part(11)} * (by * edge);
+  }
+  return mesh;
+}
+
+/// How far the lower edge of a sheet hangs, over a direct solve of the same distances and triangles at small strain.
+double sag_over_linear(const Cut& cut, int rows) {
+  const double angle = cut.degrees * 3.14159265 / 180;
+  const Vec3f warp{static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
+  Scene scene;
+  scene.add_cloth(moved_grid(rows, cut.moved), woven(60, 25, 8, warp));
+  const Object& cloth = scene.objects[0];
+  std::vector<int> top;
+  for (int i = 0; i < (rows - 1) / 4 + 1; ++i) top.push_back(i);
+  const double tenth = gravity / 10;  // so that strains are small
+  const std::vector<Vec3d> right = testing_support::LinearWoven(cloth).hang({0, 0, tenth}, top);
+  double sum = 0;
+  for (std::size_t i = right.size() - top.size(); i < right.size(); ++i) sum += right[i].z;
+  const double expected = sum / static_cast<double>(top.size());
+  return (rests_at(scene, &Vec3f::z, -0.5f, 0.5f, 0, 240, tenth) - 0.5) / expected;
+}
+
+/// Yarns along no edge, and irregular meshes: their triangles give way as they should.
+TEST(WovenCloth, HangsAsItsElementsDoInAnyDirection) {
+  for (const int rows : {21, 41})
+    for (const Cut& cut : {Cut{15}, Cut{30}, Cut{45}, Cut{0, 0.25f}, Cut{30, 0.25f}})
+      EXPECT_NEAR(sag_over_linear(cut, rows), 1, 0.03) << rows << ", " << cut.degrees << ", " << cut.moved;
+}
+
 /// Cut on the bias, at 45 degrees, 1 / Y = (1 / Y1 + 1 / Y2 + 1 / G) / 4: shear lets it stretch.
 TEST(WovenCloth, StretchesOnTheBiasByItsShear) {
   const double modulus = 4 / (1. / 200 + 1. / 200 + 1. / 15), expected = 0.12 * gravity / (2 * modulus);
   EXPECT_NEAR(hangs_longer(woven(200, 200, 15, {1, 0, 1}), 41, 160, 400), expected, 0.06 * expected);
+}
+
+/// Substeps follow what one pass can solve: twice as many for half the edge or four times the stiffness.
+TEST(WovenCloth, HasSubstepsForItsTriangles) {
+  const auto substeps = [](int rows, float shear, const Vec3f& warp) {
+    Scene scene;
+    scene.add_cloth(grid_mesh((rows - 1) / 4 + 1, rows, 0.25f, 1), woven(7000, 7000, shear, warp));
+    return chosen_substeps(scene)[0];
+  };
+  EXPECT_EQ(substeps(21, 20, {0, 0, 1}), 20);
+  const int at_81 = substeps(81, 50, {0, 0, 1});      // s = 50 x 80^2 / (0.12 x 1200^2) = 1.85 with 20, 0.5 is enough
+  EXPECT_NEAR(at_81, 20 * std::sqrt(1.85 / 0.5), 3);  // more at borders, where masses are smaller
+  EXPECT_NEAR(substeps(161, 50, {0, 0, 1}), 2 * at_81, 3);
+  EXPECT_NEAR(substeps(81, 200, {0, 0, 1}), 2 * at_81, 2);
+  EXPECT_GT(substeps(41, 20, {1, 0, 3}), 50) << "yarns along no edge";
+  EXPECT_EQ(substeps(161, 1000, {0, 0, 1}), 160);
 }
 
 /// Tethers would not let it shear, and multigrid corrects lengths alone.

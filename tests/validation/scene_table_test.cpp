@@ -8,6 +8,7 @@
 
 #include "apps/bench/bending_energy.h"
 #include "apps/bench/draped_meshes.h"
+#include "apps/bench/known_sags.h"
 #include "pliant/error.h"
 #include "support/paths.h"
 
@@ -170,6 +171,15 @@ TEST(SceneTable, LeavesTheBoundsOfTheFileToItsOwnSettings) {
   EXPECT_EQ(rows[1].substeps, 60);
   EXPECT_LT(rows[0].substeps, 59);
   EXPECT_EQ(rows[0].frames, 2);
+}
+
+/// The scenes that `pliant bench default` measures by itself: their default settings are right.
+TEST(KnownSags, AreRightByDefault) {
+  SceneTableOptions options;
+  options.against.clear();
+  const std::vector<SceneRow> rows = measure_scenes(known_sags(), options);
+  ASSERT_EQ(rows.size(), 4U);
+  for (const SceneRow& row : rows) EXPECT_NEAR(row.yield, 1, 0.04) << row.scene;
 }
 
 }  // namespace
