@@ -230,7 +230,7 @@ int rounds_of_bounces() {
 }
 
 /// An impulse that was computed with the spin of the substep's middle and added to that of its end brought up to 449 %.
-/// Four of 1 280 still gain more than 0.1 %, at most 0.4 %, in one frame; none of the first 32 does.
+/// Three of 1 280 still gain more than 0.1 %, at most 0.4 %, in one frame; none of the first 32 does.
 TEST(BouncingBody, OfRandomShapeGainsNoEnergy) {
   const int bodies = kinds_of_bouncers * kinds_of_grounds * rounds_of_bounces();
   int above = 0;

@@ -199,7 +199,8 @@ void BodyMotions::store_velocities(const Substep& s) {
 // that torque, of either sign: a tilted box gained 12 % in 20 s. So impacts act on the spin at the start, which has the
 // same energy as that of the end, and the free turn begins anew.
 
-/// Adds to a body's spin, as contacts see it, what it has more at the substep's start than on average in its free turn.
+/// Shows impacts the motion that a body has at the substep's start, without what contacts did in the last one: a bounce
+/// off what that leaves would bring energy where the passes take it back.
 void BodyMotions::show_spin_at_start(const Substep& s, int body) {
   const FrameArrays all = frame_arrays(s);
   const std::size_t frame = at(frames_[at(body)]);
@@ -209,7 +210,8 @@ void BodyMotions::show_spin_at_start(const Substep& s, int body) {
   const Vec3f spin =
       spin_at_start(xyz(all.inverse_inertias[frame]), xyz(all.round[frame]), xyz(all.angular_velocities[frame]), s.h);
   const Seen then = seen(start_orientations_[at(body)], all.starts[frame], all.round[frame]);
-  motion.spin += to_contacts(then, spin) - motion.kept_spin;
+  motion.velocity = motion.kept_velocity;
+  motion.spin = to_contacts(then, spin);
   restarts_.push_back({body, spin, motion.spin, {}, {}, {}});
 }
 
@@ -217,6 +219,7 @@ void BodyMotions::show_spin_at_start(const Substep& s, int body) {
 bool BodyMotions::turn_anew(const Substep& s, Restart& restart) {
   BodyMotion& motion = motions_[at(restart.body)];
   Vec3f& before = before_spin_[at(restart.body)];
+  motion.velocity = before_velocity_[at(restart.body)] + (motion.velocity - motion.kept_velocity);
   const Vec3f change = motion.spin - restart.shown;
   motion.spin = before;
   if (vanishes(change)) return false;

@@ -72,7 +72,7 @@ class BodyMotions {
   struct Restart {
     int body = 0;
     Vec3f spin;                                 ///< at the substep's start, in the body's axes [rad/s]
-    Vec3f shown;                                ///< the same with what contacts did in the last substep, as contacts see it
+    Vec3f shown;                                ///< the same as contacts see it
     Record orientation, predicted, spin_after;  ///< of the frame, by the new turn
   };
 
