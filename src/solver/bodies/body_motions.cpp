@@ -5,6 +5,7 @@
 
 #include "parallel/ranges.h"
 #include "solver/bodies/body_math.h"
+#include "solver/frame_formulas.h"
 #include "solver/rotation.h"
 #include "solver/substep.h"
 
@@ -13,6 +14,8 @@ namespace pliant {
 namespace {
 
 constexpr int bodies_a_task = 256;
+/// What turns by less in a substep has no gyroscopic torque that impacts would notice: bodies at rest in a pile [rad].
+constexpr float hardly_turned = 1e-4f;
 
 /// Calls body(first, last) for ranges of `count` bodies on all threads.
 template <class Body>
@@ -46,6 +49,27 @@ Record round_of_inertia(const Record& inverse, const Record& solids) {
   const bool turns = inverse.x > 0 && inverse.y > 0 && inverse.z > 0;
   return {turns && agree(inverse.y, inverse.z) ? solids.x : 0, turns && agree(inverse.z, inverse.x) ? solids.y : 0,
           turns && agree(inverse.x, inverse.y) ? solids.z : 0, 0};
+}
+
+using Seen = motion_formulas::Turned<float>;
+
+Record record_of(const Vec3f& v) { return {v.x, v.y, v.z, 0}; }
+bool vanishes(const Vec3f& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+/// How contacts see a body: from where it was at the frame's start.
+Seen seen(const Record& at_frame_start, const Record& now, const Record& round) {
+  return {quaternion(at_frame_start), quaternion(now), xyz(round)};
+}
+
+Vec3f to_contacts(const Seen& body, const Vec3f& spin) { return rotate(body.start, body.from_body(spin)); }
+Vec3f to_body(const Seen& body, const Vec3f& spin) { return body.to_body(rotate(conjugate(body.start), spin)); }
+
+/// The angular velocity at the start of a free turn in h that ends with `w`.
+Vec3f spin_at_start(const Vec3f& inverse, const Vec3f& round, const Vec3f& w, float h) {
+  using namespace motion_formulas;
+  const Spinning<float> fast(inverse, round, w, h);
+  if (fast.anywhere && fast.applies) return rotate(fast.twist, w);
+  return w + gyroscopic_change(gyroscopic_factors(inverse, inertia_of(inverse)), w, -h);
 }
 
 }  // namespace
@@ -115,17 +139,20 @@ void BodyMotions::begin_substep(const Substep& s) {
 void BodyMotions::load_predicted(const Substep& s, const ContactBodies& bodies_and_colliders, bool is_first, float share) {
   for (int i = bodies(); i < static_cast<int>(places_); ++i)
     follow(bodies_and_colliders.poses_of_collider(s, i), s.h, motions_[at(i)]);
+  restarts_.clear();
   const BodyArrays all = arrays(s);
   for_bodies(s, bodies(),
              [&](int first, int last) { s.kernels.motions.load_predicted(all, first, last, s.h, is_first, share); });
 }
 
 void BodyMotions::store_predicted(const Substep& s) {
+  store_turns(s, nullptr);
   const BodyArrays all = arrays(s);
   for_bodies(s, bodies(), [&](int first, int last) { s.kernels.motions.store_predicted(all, first, last, s.h); });
 }
 
 void BodyMotions::store_predicted(const Substep& s, const std::vector<char>& of, const Pushes& before) {
+  store_turns(s, &of);
   const BodyArrays all = arrays(s);
   for_runs(of, [&](int first, int last) { s.kernels.motions.store_predicted(all, first, last, s.h); });
   restore(before, of, 0);
@@ -135,6 +162,7 @@ void BodyMotions::reload_predicted(const Substep& s, const std::vector<char>& of
   const BodyArrays all = arrays(s);
   for_runs(of, [&](int first, int last) { s.kernels.motions.load_predicted(all, first, last, s.h, false, 0); });
   restore(pushes, of, 1);
+  std::erase_if(restarts_, [&](const Restart& restart) { return of[at(restart.body)] != 0; });
 }
 
 /// Puts back what contacts did to the bodies with `value` in `of`.
@@ -164,14 +192,77 @@ void BodyMotions::store_velocities(const Substep& s) {
   for_bodies(s, bodies(), [&](int first, int last) { s.kernels.motions.store_velocities(all, first, last); });
 }
 
-void BodyMotions::change_once(FunctionRef<void()> change) {
+// ------------------------------------------------------------------------------------------------ impacts
+//
+// A frame's prediction turns it with the spin of the substep's middle and ends with that of the end, after gyroscopic
+// torque. An impulse that is computed with the former and added to the latter changes the energy by impulse times h times
+// that torque, of either sign: a tilted box gained 12 % in 20 s. So impacts act on the spin at the start, which has the
+// same energy as that of the end, and the free turn begins anew.
+
+/// Shows impacts the motion that a body has at the substep's start, without what contacts did in the last one: a bounce
+/// off what that leaves would bring energy where the passes take it back.
+void BodyMotions::show_spin_at_start(const Substep& s, int body) {
+  const FrameArrays all = frame_arrays(s);
+  const std::size_t frame = at(frames_[at(body)]);
+  const bool turns = length_squared(xyz(all.angular_velocities[frame])) * (s.h * s.h) > hardly_turned * hardly_turned;
+  if (!turns || !vanishes(xyz(all.corrections[frame]))) return;
+  BodyMotion& motion = motions_[at(body)];
+  const Vec3f spin =
+      spin_at_start(xyz(all.inverse_inertias[frame]), xyz(all.round[frame]), xyz(all.angular_velocities[frame]), s.h);
+  const Seen then = seen(start_orientations_[at(body)], all.starts[frame], all.round[frame]);
+  motion.velocity = motion.kept_velocity;
+  motion.spin = to_contacts(then, spin);
+  restarts_.push_back({body, spin, motion.spin, {}, {}, {}});
+}
+
+/// Predicts the free turn of a body with the spin that impacts have left it. Returns false if there were none.
+bool BodyMotions::turn_anew(const Substep& s, Restart& restart) {
+  BodyMotion& motion = motions_[at(restart.body)];
+  Vec3f& before = before_spin_[at(restart.body)];
+  motion.velocity = before_velocity_[at(restart.body)] + (motion.velocity - motion.kept_velocity);
+  const Vec3f change = motion.spin - restart.shown;
+  motion.spin = before;
+  if (vanishes(change)) return false;
+  const FrameArrays all = frame_arrays(s);
+  const std::size_t frame = at(frames_[at(restart.body)]);
+  const Record& start = start_orientations_[at(restart.body)];
+  const Seen then = seen(start, all.starts[frame], all.round[frame]);
+  const auto turn = motion_formulas::free_turn(then.now, xyz(all.inverse_inertias[frame]), then.round,
+                                               restart.spin + to_body(then, change), s.h);
+  restart.orientation = {turn.orientation.x, turn.orientation.y, turn.orientation.z, turn.orientation.w};
+  restart.predicted = record_of(turn.angle);
+  restart.spin_after = record_of(turn.spin);
+  const Seen now = seen(start, restart.orientation, all.round[frame]);
+  const Vec3f predicted = rotate(now.start, now.from_world(turn.angle * (1 / s.h)));
+  before = motion.spin = predicted + (before - motion.kept_spin);
+  motion.kept_spin = predicted;
+  return true;
+}
+
+/// Puts the new turns of bodies, or of those with 1 in `of`, into their frames.
+void BodyMotions::store_turns(const Substep& s, const std::vector<char>* of) {
+  const FrameArrays all = frame_arrays(s);
+  for (const Restart& restart : restarts_) {
+    if (of != nullptr && (*of)[at(restart.body)] == 0) continue;
+    const std::size_t frame = at(frames_[at(restart.body)]);
+    all.orientations[frame] = restart.orientation;
+    all.predicted[frame] = restart.predicted;
+    all.angular_velocities[frame] = restart.spin_after;
+  }
+  restarts_.clear();
+}
+
+void BodyMotions::bounce(const Substep& s, const std::vector<char>& restarts, FunctionRef<void()> impacts) {
   before_velocity_.clear();
   before_spin_.clear();
+  restarts_.reserve(at(bodies()));
   for (int i = 0; i < bodies(); ++i) {
     before_velocity_.push_back(motions_[at(i)].velocity);
     before_spin_.push_back(motions_[at(i)].spin);
+    if (restarts[at(i)] != 0) show_spin_at_start(s, i);
   }
-  change();
+  impacts();
+  std::erase_if(restarts_, [&](Restart& restart) { return !turn_anew(s, restart); });
   for (int i = 0; i < bodies(); ++i) {
     pushed_[at(i)] = plus(pushed_[at(i)], before_velocity_[at(i)] - motions_[at(i)].velocity);
     const Quatf start = quaternion(start_orientations_[at(i)]);

@@ -61,10 +61,21 @@ class BodyMotions {
   /// By how much a body has turned since the frame's start, but about axes about which it is round [rad].
   float turned(int body) const { return length(motions_[static_cast<std::size_t>(body)].rotation); }
 
-  /// Calls change(), whose effect on velocities the next substep does not start with.
-  void change_once(FunctionRef<void()> change);
+  /// Calls impacts(), whose effect on velocities the next substep does not start with. Impacts act at the substep's
+  /// start: bodies with 1 in `restarts` [body] that no constraint has turned show them the spin that they have there, and
+  /// then turn freely with what impacts leave of it. With the spin of the substep's middle, and impulses after the
+  /// gyroscopic torque, each impact of a tilted box would bring or take energy.
+  void bounce(const Substep& s, const std::vector<char>& restarts, FunctionRef<void()> impacts);
 
  private:
+  /// A body whose free turn begins anew.
+  struct Restart {
+    int body = 0;
+    Vec3f spin;                                 ///< at the substep's start, in the body's axes [rad/s]
+    Vec3f shown;                                ///< the same as contacts see it
+    Record orientation, predicted, spin_after;  ///< of the frame, by the new turn
+  };
+
   /// Bodies [first, last) of an object.
   struct Range {
     int object = 0, first = 0, last = 0;
@@ -72,6 +83,9 @@ class BodyMotions {
 
   BodyArrays arrays(const Substep& s, std::vector<BodyMotion>& motions);
   void restore(const Pushes& pushes, const std::vector<char>& of, char value);
+  void show_spin_at_start(const Substep& s, int body);
+  bool turn_anew(const Substep& s, Restart& restart);
+  void store_turns(const Substep& s, const std::vector<char>* of);
   BodyArrays arrays(const Substep& s) { return arrays(s, motions_); }
   int bodies() const { return static_cast<int>(particles_.size()); }
 
@@ -84,7 +98,8 @@ class BodyMotions {
   Records round_;                                     ///< of each body (FrameArrays)
   Records pushed_, pushed_spin_;                      ///< of each body (BodyArrays)
   std::vector<BodyMotion> present_;                   ///< masses and inertias by present orientations
-  std::vector<Vec3f> before_velocity_, before_spin_;  ///< of change_once
+  std::vector<Vec3f> before_velocity_, before_spin_;  ///< of bounce
+  std::vector<Restart> restarts_;                     ///< not yet stored
 };
 
 }  // namespace pliant

@@ -123,6 +123,7 @@ void BodySolver::make_manifolds(const Substep& s) {
   const double left = time_left(s);
   const float fall = s.h * length(s.model.gravity);
   is_separating_.resize(bodies_of.size());
+  may_bounce_.resize(bodies_of.size());
   contacts_.count_overlaps(overlaps_);
   const auto prefetch = [&](int i) { fetch(contacts_.all()[at(i)]); };
   blocks_.fill(executor, colours_, is_fixed_, prefetch, [&](int i) {
@@ -131,6 +132,7 @@ void BodySolver::make_manifolds(const Substep& s) {
     const bool separates = limit_depths(motions_.all()[at(a)], motions_.all()[at(b)], contacts_.size(i),
                                         std::max(overlaps_[at(a)], overlaps_[at(b)]), pressed_by_, s.h, m);
     is_separating_[at(i)] = separates ? 1 : 0;
+    may_bounce_[at(i)] = m.restitution > 0 ? 1 : 0;
     m.settles = settling_speed(contacts_.all()[at(i)], m, contacts_.states()[at(a)], contacts_.states()[at(b)], fall);
     turn_arm(contacts_.states()[at(a)], m.normal, left, m.arm_a);
     turn_arm(contacts_.states()[at(b)], m.normal, left, m.arm_b);
@@ -139,6 +141,20 @@ void BodySolver::make_manifolds(const Substep& s) {
     return m;
   });
   blocks_.prepare(executor, s.kernels.manifolds, motions_.all());
+  find_bouncing();
+}
+
+/// Finds the bodies of contacts with restitution that no joint or tie holds.
+void BodySolver::find_bouncing() {
+  may_restart_.assign(at(bodies_.dynamic()), 0);
+  for (std::size_t i = 0; i < may_bounce_.size(); ++i) {
+    const auto& [a, b] = contacts_.bodies()[i];
+    for (const int body : {a, b})
+      if (may_bounce_[i] != 0 && body < bodies_.dynamic()) may_restart_[at(body)] = 1;
+  }
+  for (const BodyLink& link : islands_.links())
+    for (const int body : {link.a, link.b})
+      if (body < bodies_.dynamic()) may_restart_[at(body)] = 0;
 }
 
 void BodySolver::begin_frame(Substep& s) {
@@ -182,7 +198,7 @@ void BodySolver::start_substep(const Substep& s) {
   if (!blocks_.bounces()) return;
   blocks_.clear_bounced();
   const Vec3f fall = s.model.gravity * s.h;
-  motions_.change_once([&] {
+  motions_.bounce(s, may_restart_, [&] {
     bool goes_on = true;
     for (int round = 0; goes_on && round < most_rounds_of_body_impacts; ++round)
       goes_on = blocks_.bounce(executor, kernels, motions_.all(), s.h, fall);

@@ -92,6 +92,7 @@ class BodySolver {
   void take_impulses(const Substep& s);
   void follow_meshes(const Substep& s);
   void make_manifolds(const Substep& s);
+  void find_bouncing();
   void start_substep(const Substep& s);
   void find_tied(const Model& model);
   bool find_jointed(const Substep& s);
@@ -116,6 +117,8 @@ class BodySolver {
   std::vector<int> overlaps_;                  ///< [place] FrameContacts::count_overlaps
   PressedBy pressed_by_ = PressedBy::bodies;
   std::vector<char> is_separating_;    ///< [contact] nonzero: its bodies overlap more than what presses them explains
+  std::vector<char> may_bounce_;       ///< [contact] nonzero: has restitution
+  std::vector<char> may_restart_;      ///< [body] BodyMotions::bounce
   bool pushes_are_known_ = false;      ///< false in the first substep of a frame
   bool is_pressed_ = false;            ///< true from press_joints to project, if any body is
   float push_share_ = 0;               ///< of the last substep's pushes, with which this one starts
