@@ -135,7 +135,7 @@ int run(const RunOptions& options) {
     throw Error(where, report.last().explain());
   }
   if (!options.quiet) {
-    for (const std::string& warning : report.warnings()) print("warning: " + one_line(warning) + "\n");
+    for (const std::string& warning : report.warnings(world)) print("warning: " + one_line(warning) + "\n");
     if (const std::string advice = report.advice(world); !advice.empty()) print("warning: " + one_line(advice) + "\n");
     print(summary(options, world, report) + summary(report.tears()) + summary(report.flow()));
     for (const auto& writer : writers) print_written(writer->written());

@@ -69,6 +69,28 @@ Json overstretch_json(const Report& report) {
           {"frame_of_worst_largest", worst.frame_of_largest}};
 }
 
+Json estimate_json(const World& world, const ConvergenceEstimate& of) {
+  const std::vector<ObjectId> objects = world.objects();
+  const bool is_there = std::find(objects.begin(), objects.end(), of.object) != objects.end();
+  return {{"excess", of.excess},
+          {"strain", of.strain},
+          {"object", is_there ? Json(world.object(of.object).info().name) : Json()},
+          {"substeps", of.substeps}};
+}
+
+/// The convergence estimates of the last frame, and the worst of any, by kind; without kinds that the scene lacks.
+Json estimates_json(const World& world, const Report& report) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < resistance_count; ++k) {
+    const WorstEstimates& worst = report.worst_estimates;
+    if (worst.frames[k] == 0) continue;
+    json[name_of(static_cast<Resistance>(k))] = {{"last", estimate_json(world, report.estimates[k])},
+                                                 {"worst", estimate_json(world, worst.estimates[k])},
+                                                 {"frame_of_worst", worst.frames[k]}};
+  }
+  return json;
+}
+
 /// The rigid tie that was open farthest in any frame; null without one.
 Json tie_json(const World& world, const TieGap& tie, std::int64_t frame) {
   if (tie.body < 0) return nullptr;
@@ -210,7 +232,7 @@ void RunReport::add(const TetrahedraMeasure& tetrahedra, std::int64_t frame) {
   frame_of_tetrahedra_ = frame;
 }
 
-std::vector<std::string> RunReport::warnings() const {
+std::vector<std::string> RunReport::warnings(const World& world) const {
   constexpr double tolerated = 0.01;
   std::vector<std::string> lines = warnings_.lines();
   if (worst_compression_.mean > tolerated)
@@ -222,6 +244,10 @@ std::vector<std::string> RunReport::warnings() const {
     lines.push_back("in frame " + std::to_string(frame_of_tetrahedra_) + ", " + std::to_string(worst_tetrahedra_.inverted) +
                     " of " + std::to_string(worst_tetrahedra_.tetrahedra) +
                     " tetrahedra were turned inside out; use more substeps");
+  std::vector<std::string> said = lines;
+  said.push_back(advice(world));
+  const std::vector<std::string> soft = unconverged(world, last_.worst_estimates, said);
+  lines.insert(lines.end(), soft.begin(), soft.end());
   return lines;
 }
 
@@ -276,13 +302,14 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["mean_stretch"] = stretch.mean;
   json["p99_stretch"] = stretch.p99;
   json["overstretch"] = overstretch_json(last_);
+  json["convergence"] = estimates_json(world, last_);
   json["widest_tie"] = tie_json(world, widest_tie_, frame_of_tie_);
   json["flow"] = flow_json(scene, flow_);
   json["tears"] = tears_json(scene, tears_);
   json["compression"] = compression_json(scene, last_.compression, worst_compression_, frame_of_mean_, frame_of_largest_);
   json["tetrahedra"] = tetrahedra_json(world, worst_tetrahedra_, frame_of_tetrahedra_);
   json["nonfinite"] = nonfinite_json(last_);
-  json["warnings"] = warnings();
+  json["warnings"] = warnings(world);
   json["advice"] = advice(world);
   json["threads"] = world.threads();
   json["isa"] = world.isa();

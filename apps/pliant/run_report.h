@@ -39,8 +39,9 @@ class RunReport {
   std::size_t frames() const { return milliseconds_.size(); }  ///< number of frames simulated in this run
   const Report& last() const { return last_; }
   /// For each kind of warning the first one, with its frame. Warnings that differ only in numbers are of one kind.
-  /// The last ones are of liquids that were compressed by more than 1 % on average, and of tetrahedra turned inside out.
-  std::vector<std::string> warnings() const;
+  /// The last ones are of liquids that were compressed by more than 1 % on average, of tetrahedra turned inside out,
+  /// and of what was far from converged (unconverged).
+  std::vector<std::string> warnings(const World& world) const;
   const Tears& tears() const { return tears_; }
   const FlowReport& flow() const { return flow_; }
 

@@ -24,6 +24,11 @@ class WarningLog {
   std::vector<std::string> lines_;
 };
 
+/// A line for each kind of resistance that was not converged in its worst frame (is_tolerable): the object, by how much,
+/// and the substeps that should mend it. Density is left out, and so are objects of which a line of `said` tells that
+/// they yield too far.
+std::vector<std::string> unconverged(const World& world, const WorstEstimates& worst, const std::vector<std::string>& said);
+
 /// Limits of the trial runs.
 struct AdviseOptions {
   double seconds = 3;             ///< approximate limit of computing time [s]: a frame that was begun is completed

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -66,6 +67,42 @@ struct WorstOverstretch {
   /// after it was removed or edited.
   Overstretch overstretch;
   std::int64_t frame_of_p99 = 0, frame_of_largest = 0;  ///< Report::frame of each; 0: none was too long
+};
+
+/// What resists, of which a ConvergenceEstimate is.
+enum class Resistance { stretching, bending, shear, volume, joints, density };
+inline constexpr std::size_t resistance_count = 6;
+
+/// How far the solve of one kind of resistance is from converged, of the object where it is farthest: an estimate from
+/// what the last substep of a frame leaves. The error falls about as the square of the substeps, so twice as many take
+/// off three quarters of it (docs/internals/convergence.md).
+struct ConvergenceEstimate {
+  /// Of bending and shear: by what share of the right deformation the object yields too much; below 0 in fast motion,
+  /// where forces are ahead of it. Of the others the error as a share: of lengths (Overstretch::p99), of the volumes of
+  /// tetrahedra (root mean square), of the size of the bodies at a joint (root mean square), of the density at rest
+  /// (Compression::mean) [-].
+  double excess = 0;
+  double strain = 0;             ///< of bending and shear: the same as an angle or a strain, weighted by force [rad or -]
+  ObjectId object;               ///< empty if there is no estimate, and of density
+  int substeps = 0;              ///< of that object in the frame
+  std::int64_t constraints = 0;  ///< sampled in this frame and those before, which count less and less; 0: no estimate
+};
+
+/// One for each Resistance, in its order.
+using ConvergenceEstimates = std::array<ConvergenceEstimate, resistance_count>;
+
+/// The name of a Resistance: "stretching".
+const char* name_of(Resistance kind);
+
+/// True if an estimate is so small that it need not be told: bending within a quarter or 0.001 rad, shear within a tenth
+/// or 0.002, stretching as Overstretch::p99, volume within a twentieth, joints and density within a hundredth.
+bool is_tolerable(Resistance kind, const ConvergenceEstimate& estimate);
+
+/// The estimates that were farthest from converged since the World was made or a State was restored. They follow those of
+/// the frames up by a twentieth of the way each and down at once, so that an impact of a few frames does not count.
+struct WorstEstimates {
+  ConvergenceEstimates estimates;
+  std::array<std::int64_t, resistance_count> frames{};  ///< Report::frame of each; 0: none
 };
 
 /// Where the first value that is not finite arose.
@@ -247,6 +284,8 @@ struct Report {
   std::optional<NonFinite> nonfinite;
   bool stopped = false;  ///< true if World::stop_when ended the step before the frame was complete
   std::vector<std::string> warnings;
+  ConvergenceEstimates estimates;  ///< by Resistance; of no kind if the frame was not completed
+  WorstEstimates worst_estimates;  ///< of this and earlier frames
 
   bool ok() const { return !nonfinite; }
   std::string explain() const;  ///< problems and warnings as text; also says if nothing moved, as for an invalid dt

@@ -150,6 +150,10 @@ class Trials {
     if (!is_tolerable(trial.worst)) found.words = in_words(world, trial, last);
     if (!last.ok()) return;  // its words contain the warnings, and its positions mean nothing
     found.warnings = warnings;
+    std::vector<std::string> said = warnings;
+    if (!found.words.empty()) said.push_back(found.words);
+    const std::vector<std::string> soft = unconverged(world, last.worst_estimates, said);
+    found.warnings.insert(found.warnings.end(), soft.begin(), soft.end());
     const std::vector<std::string> passed = passed_through_themselves(scene_, world);
     found.warnings.insert(found.warnings.end(), passed.begin(), passed.end());
     if (const std::string warning = passing.warning(); !warning.empty()) found.warnings.push_back(warning);

@@ -1,7 +1,6 @@
 // Warnings about an object: settings that a World accepts, but that are probably not intended.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -12,7 +11,6 @@
 #include "model/cohesion.h"
 #include "model/compile_surface.h"
 #include "model/object_sets.h"
-#include "model/sheet_bending.h"
 #include "pliant/report.h"
 #include "topology/boundary.h"
 #include "topology/edges.h"
@@ -193,31 +191,6 @@ void doubt_hinges(const Doubts& d, const ConstraintGroup& group) {
                         "the surface will flatten: use dihedral bending");
 }
 
-/// A number with two digits.
-std::string two_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, value < 100 ? "%.2g" : "%.0f", value);
-  return text;
-}
-
-/// Hinges that one sweep a substep leaves too soft: a sheet with a curved or plastic rest shape and short edges.
-void doubt_convergence_of_hinges(const Doubts& d) {
-  constexpr double tolerated = 0.25, wanted = 0.05;
-  constexpr int by_default = 20;
-  const Settings& settings = d.scene.settings;
-  const int substeps = settings.substeps > 0 ? settings.substeps : by_default;
-  const double h = double(d.scene.frame_time) / (substeps * std::sqrt(double(std::max(1, settings.iterations))));
-  const double excess = excess_of_hinges(d.object, h);
-  if (!(excess > tolerated) || d.object.volume) return;
-  const double factor = std::sqrt(excess / wanted);
-  d.problems.doubtful("",
-                      "its hinges bend about " + two_digits(1 + excess) + " times as far as their stiffness says, with " +
-                          std::to_string(substeps) + " substeps a frame",
-                      "use " + std::to_string(static_cast<int>(std::ceil(factor * substeps))) + " substeps, or edges " +
-                          two_digits(std::sqrt(factor)) +
-                          " times as long; a flat rest shape without plasticity needs neither");
-}
-
 void doubt_surface(const Doubts& d) {
   if (d.object.triangles.empty()) return;
   const std::vector<Edge> edges = find_edges(d.object.triangles, static_cast<int>(d.count()));
@@ -362,7 +335,6 @@ void doubt_object(Problems& problems, const Object& object, const Scene& scene) 
     if (is_hinge(group.type)) doubt_hinges(doubts, group);
     doubt_damping(doubts, group);
   }
-  doubt_convergence_of_hinges(doubts);
   doubt_elements(problems, object);
   doubt_surface(doubts);
   doubt_volume(doubts);

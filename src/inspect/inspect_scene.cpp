@@ -306,6 +306,7 @@ void look_through(Problems& problems, const Scene& scene) {
     doubt_soft_bodies(problems, scene);
     doubt_substeps_of_soft_bodies(problems, scene);
     doubt_substeps_of_woven(problems, scene);
+    doubt_substeps_of_hinges(problems, scene);
     doubt_substeps_of_rods(problems, scene);
     doubt_jumps_of_volumes(problems, scene);
     doubt_flows(problems, scene);

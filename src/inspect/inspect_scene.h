@@ -37,5 +37,8 @@ std::vector<std::string> warnings_of_soft_bodies(const Scene& scene, const Setti
 /// For each woven cloth whose triangles yield much more than their stiffness says with these settings: a warning with
 /// by how much.
 std::vector<std::string> warnings_of_woven(const Scene& scene, const Settings& settings);
+/// For each sheet whose hinges bend much further than their stiffness says with these settings: a warning with by how
+/// much.
+std::vector<std::string> warnings_of_hinges(const Scene& scene, const Settings& settings);
 
 }  // namespace pliant

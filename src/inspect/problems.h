@@ -105,6 +105,8 @@ void doubt_substeps_of_soft_bodies(Problems& problems, const Scene& scene);
 void doubt_starts_in_solids(Problems& problems, const Scene& scene);
 /// Doubts woven cloth whose triangles yield much more than their stiffness says.
 void doubt_substeps_of_woven(Problems& problems, const Scene& scene);
+/// Those whose hinges bend further than their stiffness says, because they have too few substeps for their mesh.
+void doubt_substeps_of_hinges(Problems& problems, const Scene& scene);
 /// Warns of bodies that a pin moves, but that a load can turn.
 void doubt_bodies(Problems& problems, const Object& object);
 /// Warns of joints that are probably not as intended.

@@ -16,7 +16,7 @@
 //     yield         what is deformed too far keeps some of it (Plasticity)
 //     update        v from the corrections, x += displacement; restitution at colliders; joints of fast wheels
 //     respond       restitution between surfaces (friction is part of a contact's projection)
-//   measure         overstretch of the frame, and gaps of ties and stitches
+//   measure         overstretch of the frame, gaps of ties and stitches; how far it is from converged
 //
 // Mueller et al. 2007, algorithm 1, with the small steps of Macklin et al. 2019.
 #include "solver/step.h"
@@ -131,9 +131,11 @@ void run(const StepContext& context, double dt, Report& report) {
   if (!end_frame(groups, report)) return;
   if (!report.stopped) report.widest_tie = widest_tie(context.model, context.state);
   if (!report.stopped) warn_of_stitches(context.model, context.state, report.warnings);
-  if (context.meter != nullptr && !report.stopped)
-    report.overstretch = context.meter->measure({context.model, context.state, context.workspace, context.kernels.lengths},
-                                                &context.executor);
+  if (report.stopped) return;
+  const MeasuredFrame measured{context.model, context.state, context.workspace, context.kernels.lengths};
+  if (context.meter != nullptr) report.overstretch = context.meter->measure(measured, &context.executor);
+  // Forces of that integrator are those of the middle of a substep.
+  if (context.estimator != nullptr && !context.keeps_energy) context.estimator->add({measured, dt, context.iterations});
 }
 
 }  // namespace

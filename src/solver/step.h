@@ -7,6 +7,7 @@
 #include "model/model.h"
 #include "parallel/executor.h"
 #include "pliant/report.h"
+#include "solver/convergence_meter.h"
 #include "solver/kernels.h"
 #include "solver/overstretch_meter.h"
 #include "solver/substep_group.h"
@@ -34,6 +35,7 @@ struct StepContext {
   bool keeps_energy = false;                ///< Settings::integrator is `energy`
   /// The objects of `model`, whose rest data and pressures substeps change; null: none has any that change.
   std::vector<CompiledObject>* changing = nullptr;
+  ConvergenceMeter* estimator = nullptr;  ///< estimates the frame if it is completed; null: not estimated
 };
 
 /// Advances the State by `dt` seconds. Never throws; the report describes all problems.

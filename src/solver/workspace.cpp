@@ -24,8 +24,7 @@ void prepare_multipliers(const CompiledObject& object, Multipliers kept, std::ve
   pointers.clear();
   if (kept == Multipliers::none) return;
   for (const Pool& pool : object.pools) {
-    const bool is_asked_for = kept > Multipliers::lengths || pool.is_length || !pool.in_lanes;
-    const bool keeps = pool.law != Law::pbd && is_asked_for && (kept == Multipliers::all || needs_multipliers(pool));
+    const bool keeps = pool.law != Law::pbd && (kept == Multipliers::all || needs_multipliers(pool));
     multipliers.emplace_back(keeps ? static_cast<std::size_t>(pool.batches) * batch_width * pool.components : 0, 0.f);
   }
   for (AlignedVector<float>& values : multipliers) pointers.push_back(values.empty() ? nullptr : values.data());
@@ -43,6 +42,7 @@ void resize(const Model& model, Workspace& workspace) {
   workspace.frames.corrections.resize(model.frames());
   workspace.multipliers.resize(objects);
   workspace.multiplier_pointers.resize(objects);
+  workspace.pointers_before_last.resize(objects);
   workspace.stores_in_last.resize(objects);
   workspace.volume_multipliers.resize(objects);
   workspace.cluster_multipliers.resize(objects);
@@ -78,6 +78,10 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
   std::fill_n(workspace.frames.round.begin() + frame, model.end_of_frames(object) - frame,
               Record{});  // those of another object before
   prepare_multipliers(from, kept, workspace.multipliers[object], workspace.multiplier_pointers[object]);
+  workspace.pointers_before_last[object] = workspace.multiplier_pointers[object];
+  for (std::size_t pool = 0; pool < workspace.pointers_before_last[object].size(); ++pool)
+    if (kept <= Multipliers::lengths && !from.pools[pool].is_length && from.pools[pool].in_lanes)
+      workspace.pointers_before_last[object][pool] = nullptr;
   const bool has_stencils = std::any_of(from.pools.begin(), from.pools.end(), [](const Pool& p) { return !p.in_lanes; });
   workspace.stores_in_last[object] = kept == Multipliers::lengths_in_last && !has_stencils ? 1 : 0;
   workspace.volume_multipliers[object] = 0;

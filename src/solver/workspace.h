@@ -119,11 +119,13 @@ struct Workspace {
   Records expected_velocities;   ///< velocities after the impacts of the next quarter (impacts.h) [m/s]
   std::vector<float> last_h;     ///< length of each object's last substep [s]; 0: none yet
   ResidualScratch residual;      ///< the residual for Settings::tolerance
+  /// As multiplier_pointers, of substeps before the last of a frame: null where only that one stores them.
+  std::vector<std::vector<float*>> pointers_before_last;
 };
 
-/// Which multipliers are stored: none; those of distances in the last substep of a frame, after which overstretch is
-/// measured, or in each substep; those that a second iteration needs; or all. Only `all` includes rigid constraints, whose
-/// multipliers no projection needs.
+/// Which multipliers are stored: none; those of elastic constraints in the last substep of a frame, after which
+/// overstretch is measured and convergence estimated, those of distances in each substep if `lengths`; those that a
+/// second iteration needs; or all. Only `all` includes rigid constraints, whose multipliers no projection needs.
 enum class Multipliers { none, lengths_in_last, lengths, needed, all };
 
 /// Resizes everything for a model but its sweeps.

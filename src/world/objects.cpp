@@ -177,6 +177,7 @@ Replacement compile_again(WorldData& world, ObjectId object, const Edit& edit) {
   const Sweep sweep = edit.object.sweep == Sweep::automatic ? old.sweep : edit.object.sweep;
   require_accelerable(world, sweep, edit.object.name);
   world.overstretch.forget_object(object.slot);
+  world.convergence.forget_object(object);
   const std::optional<KeptSchedule> kept =
       sweep == old.sweep ? follow_edit(old, edit.object, edit.from) : std::optional<KeptSchedule>{};
   const KeptSchedule* const to_keep = kept ? &*kept : nullptr;
@@ -205,6 +206,7 @@ std::vector<int> World::edit(ObjectId object, const Edit& edit) { return edit_ob
 void World::remove(ObjectId object) {
   remove_object(*data_, data_->number(object));
   data_->overstretch.forget_object(object.slot);
+  data_->convergence.forget_object(object);
   forget_touching(*data_, object);
   keep_description(*data_, object.slot, nullptr);
   data_->ids.objects.remove(object);

@@ -175,7 +175,8 @@ std::vector<float> ObjectView::multipliers(const std::string& type) const {
   if (read_->workspace.multipliers[number].empty()) return out;
   for (std::size_t p = 0; p < from.pools.size(); ++p) {
     const Pool& pool = from.pools[p];
-    if (type != constraint_types()[pool.type].name || read_->workspace.multipliers[number][p].empty()) continue;
+    const bool is_kept = read_->workspace.pointers_before_last[number][p] != nullptr;  // not for the estimates alone
+    if (type != constraint_types()[pool.type].name || !is_kept) continue;
     for (std::size_t lane = 0; lane < pool.origin.size(); ++lane) {
       if (pool.origin[lane] < 0) continue;
       const std::size_t first = static_cast<std::size_t>(pool.origin[lane]) * pool.components;

@@ -373,6 +373,7 @@ void World::restore(const State& state) {
   data_->stopped = false;
   data_->may_drift = true;
   data_->overstretch.restart();
+  data_->convergence.restart();
   data_->workspace.control = {};
   data_->events.touching.clear();
   data_->events.of_last_step.clear();

@@ -42,6 +42,7 @@ WorldData::WorldData(const Scene& scene, const Settings& given, const Settings& 
   warnings = warnings_of_starts_in_solids(scene);
   for (std::string& warning : warnings_of_soft_bodies(scene, given)) warnings.push_back(std::move(warning));
   for (std::string& warning : warnings_of_woven(scene, given)) warnings.push_back(std::move(warning));
+  for (std::string& warning : warnings_of_hinges(scene, given)) warnings.push_back(std::move(warning));
   model.gravity = scene.gravity;
   model.wind = scene.wind;
   model.forces = scene.forces;
@@ -88,8 +89,12 @@ CompileOptions compile_options(const WorldData& world, Sweep sweep) {
 
 void forget_multipliers(WorldData& world, bool only_of_last) {
   for (std::size_t o = 0; o < world.workspace.multipliers.size(); ++o) {
-    if (only_of_last && world.workspace.stores_in_last[o] == 0) continue;
-    for (auto& values : world.workspace.multipliers[o]) std::fill(values.begin(), values.end(), 0.f);
+    auto& of_pools = world.workspace.multipliers[o];
+    for (std::size_t pool = 0; pool < of_pools.size(); ++pool) {
+      const bool is_of_last =
+          world.workspace.stores_in_last[o] != 0 || world.workspace.pointers_before_last[o][pool] == nullptr;
+      if (!only_of_last || is_of_last) std::fill(of_pools[pool].begin(), of_pools[pool].end(), 0.f);
+    }
   }
   if (!only_of_last) std::fill(world.workspace.volume_multipliers.begin(), world.workspace.volume_multipliers.end(), 0.);
 }
@@ -128,6 +133,7 @@ Report World::step(float dt) {
   report.frame = data_->state.frame;
   report.time = data_->state.time;
   report.worst_overstretch = data_->overstretch.worst();
+  report.worst_estimates = data_->convergence.worst();
   bring_up_to_date(*data_);
   if (!(dt > 0) || !std::isfinite(dt) || double(dt) / data_->groups.all.back().substeps < shortest_substep) {
     report.warnings.push_back("a time step must be finite and above zero, its substeps 1e-12 s or more; nothing moved");
@@ -156,7 +162,7 @@ Report World::step(float dt) {
        data_->settings.iterations, data_->settings.sweep_options, data_->settings.record_residuals, data_->stop,
        data_->settings.separate_phases, static_cast<double>(data_->settings.tolerance), groups, &data_->overstretch.meter(),
        data_->settings.sleep, data_->settings.integrator == Settings::Integrator::energy,
-       changes_in_substeps(data_->model) ? &data_->model.objects : nullptr},
+       changes_in_substeps(data_->model) ? &data_->model.objects : nullptr, &data_->convergence.meter()},
       dt, report);
   keep_flowed(*data_);
   forget_overlaps(*data_);
@@ -176,8 +182,10 @@ Report World::step(float dt) {
   if (report.overstretch) {
     report.overstretch = with_slot(*data_, *report.overstretch);
     data_->overstretch.add(*report.overstretch, report.frame);
+    report.estimates = data_->convergence.add(report, data_->ids.objects);
   }
   report.worst_overstretch = data_->overstretch.worst();
+  report.worst_estimates = data_->convergence.worst();
   if (data_->workspace.contact_log != nullptr) make_events(*data_);
   if (data_->settings.measure) {
     report.residuals = measure().residuals();

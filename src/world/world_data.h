@@ -17,6 +17,7 @@
 #include "solver/near_sets.h"
 #include "solver/substep_group.h"
 #include "solver/workspace.h"
+#include "world/convergence_record.h"
 #include "world/id_table.h"
 #include "world/overstretch_record.h"
 
@@ -79,6 +80,7 @@ struct WorldData {
   Workspace workspace;
   WorldGroups groups;
   OverstretchRecord overstretch;
+  ConvergenceRecord convergence;
   WorldEvents events;
   std::map<int, Object> descriptions;       ///< of objects that tear or are cut, by slot of their id
   std::vector<std::string> warnings;        ///< for the Report of the next step

@@ -1,0 +1,27 @@
+// The convergence estimates of the frames of a World, and the worst. They are no part of the State: restoring a State
+// clears them.
+#pragma once
+
+#include "solver/convergence_meter.h"
+#include "world/id_table.h"
+
+namespace pliant {
+
+class ConvergenceRecord {
+ public:
+  ConvergenceMeter& meter() { return meter_; }
+  const WorstEstimates& worst() const { return worst_; }
+
+  /// The estimates after a complete frame. What lasts of them is added to the worst. `ids`: of objects by their number in the model.
+  ConvergenceEstimates add(const Report& report, const IdTable<Object>& ids);
+  /// Forgets the worst estimates of an object whose particles change, and the frames before of all: numbers may change.
+  void forget_object(ObjectId object);
+  void restart();
+
+ private:
+  ConvergenceMeter meter_;
+  ConvergenceEstimates lasting_;  ///< which follow those of the frames down at once and up slowly
+  WorstEstimates worst_;
+};
+
+}  // namespace pliant
