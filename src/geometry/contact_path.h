@@ -68,13 +68,14 @@ class ContactPath {
 /// The path of a solid against another one, and what counts as touching on it.
 struct SolidPath {
   ContactPath path;
-  double slop = 0;  ///< solids that go in by no more slide past each other [m]
-  double sag = 0;   ///< what gravity may add to the path [m]
+  double slop = 0;   ///< solids that go in by no more slide past each other [m]
+  double sag = 0;    ///< what gravity may add to the path [m]
+  double least = 0;  ///< what comes nearer by less in the frame is not stopped [m]
 
   /// True if a contact in a direction, with a gap now [m], stops the solid on its path.
   bool is_stopped(const Vec3d& normal, double gap) const {
     const double along = path.least_along(normal);
-    return along < -slop && gap + along < sag;
+    return along < -least && gap + along < sag;
   }
 };
 
@@ -110,7 +111,7 @@ class PathSearch {
   static constexpr int most_steps = 32;
   static constexpr double accuracy = 0.1;  ///< share of the slop
   static constexpr double sideways =
-      1e-3;  ///< of motion whose share along the normal is less solids neither come nearer nor part
+      1e-4;  ///< of motion whose share along the normal is less solids neither come nearer nor part
   static constexpr double narrow = 1e-4;  ///< share of a leg
 
   /// Returns true if solids touch on a leg, and go in. `now` may be a plane that separates them at its start.
@@ -129,6 +130,7 @@ class PathSearch {
       note(here, gap.separation);
       if (!touched && gap.separation <= accuracy * slop_) touched = true, first_ = here;
       if (slope < 0 && gap.separation <= (accuracy - 1) * slop_) return true;
+      if (std::fabs(slope) <= level) note_least(here, gap.separation);
       if (std::fabs(slope) <= level || (slope < 0 && share >= 1)) return false;
       (slope < 0 ? before : after) = share;
       if (after - before < narrow) return false;
@@ -142,6 +144,15 @@ class PathSearch {
   void note(const PathContact& here, double separation) {
     if (separation >= least_) return;
     least_ = separation;
+    nearest_ = here;
+    nearest_.touches = false;
+  }
+
+  /// Where solids neither come nearer nor part they are nearest, as the separation is convex: of two that slide along
+  /// one another, and not at the edge at which that begins.
+  void note_least(const PathContact& here, double separation) {
+    if (!(separation < least_ + slop_)) return;
+    least_ = std::fmin(separation, least_);
     nearest_ = here;
     nearest_.touches = false;
   }

@@ -11,6 +11,8 @@ namespace pliant {
 namespace {
 
 constexpr std::size_t corners_of_disc = 8;
+/// A round solid lies on what is tilted by less against the surface [sine].
+constexpr double flat = 0.02;
 
 /// The farthest point of a disc in the plane of x and z.
 Vec3d on_circle(double radius, const Vec3d& direction) {
@@ -83,8 +85,12 @@ Feature feature_of_round(const ConvexShape& shape, const Vec3d& direction, doubl
   const Vec3d side = on_circle(1, direction), below = side * r - Vec3d{0, h, 0}, above = side * top_radius + Vec3d{0, h, 0};
   const bool has_disc = tilt <= slack && (direction.y < 0 || top_radius > 0),
              has_side = std::fabs(dot(direction, above - below)) <= slack;
-  // Of a needle or a coin the slack exceeds the thickness: then the longer of both is what it lies on.
-  if (has_side && (!has_disc || length_squared(above - below) > 4 * r * r)) return points_of({below, above});
+  // Of a needle or a coin the slack exceeds the thickness: then the longer of both is what it lies on, unless it lies
+  // on one of them already.
+  const double of_side = length_squared(above - below), along = dot(direction, above - below);
+  const bool lies_on_side = along * along <= flat * flat * of_side, lies_on_disc = across <= flat;
+  const bool prefers_side = lies_on_side || (!lies_on_disc && of_side > 4 * r * r);
+  if (has_side && (!has_disc || prefers_side)) return points_of({below, above});
   if (has_disc) return disc(r, direction.y < 0 ? -h : h, direction.y >= 0);
   return points_of({support(shape, direction)});
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -12,11 +13,12 @@
 #include "pliant/body.h"
 #include "pliant/random.h"
 #include "pliant/world.h"
+#include "world/body_path_support.h"
 
 namespace pliant {
 namespace {
 
-constexpr float half_root = 0.70710678f;
+using namespace testing_support;
 
 struct Slider {
   const char* name;
@@ -24,21 +26,6 @@ struct Slider {
   Quatf rotation{};
   float height;  ///< of its centre above what it lies on [m]
 };
-
-Hull octahedron(float radius) {
-  return {{{radius, 0, 0}, {-radius, 0, 0}, {0, radius, 0}, {0, -radius, 0}, {0, 0, radius}, {0, 0, -radius}}, 0};
-}
-
-/// A prism of eight sides that stands.
-Hull prism(float radius, float half_height) {
-  Hull hull;
-  for (const float y : {-half_height, half_height})
-    for (const Vec3f& p :
-         {Vec3f{1, y, 0}, Vec3f{half_root, y, half_root}, Vec3f{0, y, 1}, Vec3f{-half_root, y, half_root}, Vec3f{-1, y, 0},
-          Vec3f{-half_root, y, -half_root}, Vec3f{0, y, -1}, Vec3f{half_root, y, -half_root}})
-      hull.points.push_back({radius * p.x, p.y, radius * p.z});
-  return hull;
-}
 
 std::vector<Slider> sliders() {
   return {{"ball", Sphere{0.1f}, {}, 0.1f},
@@ -60,22 +47,6 @@ Object slider(const Slider& of, const Vec3f& position, const Vec3f& velocity) {
   return object;
 }
 
-Collider block(const Vec3f& centre, const Vec3f& half) {
-  Collider box;
-  box.shape = Box{half};
-  box.position = centre;
-  box.static_friction = box.kinetic_friction = 0;
-  return box;
-}
-
-MeshCollider mesh_block(const Vec3f& centre, const Vec3f& half) {
-  MeshCollider box;
-  box.mesh = mesh_of({{Box{half}}});
-  for (Vec3f& p : box.mesh.positions) p += centre;
-  box.static_friction = box.kinetic_friction = 0;
-  return box;
-}
-
 /// A floor of four solids side by side along x with their tops at y = 0.
 struct Floor {
   const char* name;
@@ -88,16 +59,6 @@ template <class Add>
 void lay(const Add& add, float overlap = 0) {
   for (int i = 0; i < 4; ++i)
     add(Vec3f{2 * half_block * static_cast<float>(i), -half_block, 0}, Vec3f{half_block + overlap, half_block, half_block});
-}
-
-void lay_fixed_body(Scene& scene, const std::vector<Solid>& solids, const Vec3f& position) {
-  BodyOptions options;
-  options.mass = INFINITY;
-  options.position = position;
-  Object object = make_body(solids, options);
-  object.name = "floor " + std::to_string(scene.objects.size());
-  object.static_friction = object.kinetic_friction = 0;
-  scene.objects.push_back(object);
 }
 
 const std::vector<Floor>& floors() {
@@ -218,22 +179,6 @@ std::vector<SolidShape> tumblers(float r) {
           prism(r, 0.5f * r)};
 }
 
-/// A flat grid of cells of a width, about the origin.
-MeshCollider grid(int cells, float width) {
-  MeshCollider out;
-  for (int z = 0; z <= cells; ++z)
-    for (int x = 0; x <= cells; ++x)
-      out.mesh.positions.push_back({width * (static_cast<float>(x) - 0.5f * static_cast<float>(cells)), 0,
-                                    width * (static_cast<float>(z) - 0.5f * static_cast<float>(cells))});
-  for (int z = 0; z < cells; ++z)
-    for (int x = 0; x < cells; ++x) {
-      const int at = z * (cells + 1) + x;
-      out.mesh.triangles.push_back({at, at + cells + 1, at + 1});
-      out.mesh.triangles.push_back({at + 1, at + cells + 1, at + cells + 2});
-    }
-  return out;
-}
-
 /// What solids are shot at, with its surface at y = 0.
 std::vector<Floor> targets() {
   return {{"coarse mesh", [](Scene& s) { s.add(grid(2, 8)); }},
@@ -290,40 +235,30 @@ int shoot(const Floor& target, float size, float speed, float across, int seed) 
   return static_cast<int>(std::count_if(lowest.begin(), lowest.end(), [&](float y) { return !(y > -size); }));
 }
 
-/// How often all shots are taken, each time with other places and tilts: 5 376 of them.
+/// How often all shots are taken, each time with other places and tilts: 7 168 of them.
 int rounds_of_shots() {
   const char* const wanted = std::getenv("PLIANT_SHOTS");
   return wanted != nullptr ? std::max(std::atoi(wanted), 1) : 1;
 }
 
-/// Of small solids at 25 m/s one in some thousands is turned so fast by the impact that it goes in by its size: none of
-/// those here, and fewer than one a round of many.
+/// What is hit at an end at 100 m/s turns by more than a radian in a substep, in which contacts are linear. The ball
+/// about its centre holds it: without that 60 of 896 small solids and 3 of the large ones go in by their size. In 20
+/// rounds one does, a capsule that is left spinning at some hundred radians a second.
 TEST(BodyPath, NoTiltedSolidPassesThroughASurface) {
   int seed = 1, passed = 0;
   const int rounds = rounds_of_shots();
   for (int round = 0; round < rounds; ++round)
     for (const Floor& target : targets())
       for (const float size : {0.05f, 0.2f})
-        for (const float speed : {3.f, 9.f, 25.f})
+        for (const float speed : {3.f, 9.f, 25.f, 100.f})
           for (const float across : {0.f, 0.5f}) {
             const int now = shoot(target, size, speed, across, ++seed);
+            if (now > 0)
+              std::printf("%d of %.2f m on %s at %.0f m/s, seed %d\n", now, static_cast<double>(size), target.name,
+                          static_cast<double>(speed), seed);
             passed += now;
-            EXPECT_TRUE(now == 0 || (size < 0.1f && speed > 20))
-                << now << " solids of " << size << " m on " << target.name << " at " << speed << " m/s, seed " << seed;
           }
-  EXPECT_LT(passed, rounds) << "of " << 5376 * rounds;
-}
-
-/// What is hit at an end at 100 m/s turns by more than a radian in a substep, which contacts that are linear in a
-/// substep do not see: 60 of the small ones and 3 of the large ones go in by more than their size.
-TEST(BodyPath, FewSolidsPassAtAHundredMetresASecond) {
-  int seed = 1000;
-  for (const float size : {0.05f, 0.2f}) {
-    int passed = 0;
-    for (const Floor& target : targets())
-      for (const float across : {0.f, 0.5f}) passed += shoot(target, size, 100, across, ++seed);
-    EXPECT_LE(passed, size < 0.1f ? 80 : 10) << "of 896, of " << size << " m";
-  }
+  EXPECT_LE(passed, rounds / 20) << "of " << 7168 * rounds;
 }
 
 }  // namespace

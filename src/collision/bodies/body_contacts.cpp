@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "collision/bodies/contact_points.h"
+#include "collision/bodies/inner_ball.h"
 #include "collision/bodies/kept_side.h"
 #include "collision/bodies/mesh_contacts.h"
 #include "collision/bodies/pair_touch.h"
@@ -25,10 +26,16 @@ constexpr double fast_share = 0.15;
 /// Solids that would go into each other by less than this share of the smaller part's size and this share of the path
 /// that gravity adds in a frame pass each other: what lies on one of two flush solids is pressed in by less.
 constexpr double slop_share = 0.005, slop_of_fall = 0.1;
+/// What comes nearer in a frame by less than this share of the path that gravity adds is at rest.
+constexpr double approach_of_fall = 0.03;
 constexpr float unlimited = 1e30f;  ///< [m]
 /// A contact stays while its bodies have moved less against each other since it began than this share of the smaller part's size, and
 /// turned by less than 1.6 degrees (cosine of half the angle).
 constexpr double still_share = 0.04, still_cosine = 0.9999;
+/// Where points may move in a frame by more than this multiple of the smaller part's size, a substep may turn it far.
+constexpr double tumbling_sizes = 2;
+/// ContactPart::piece of b: contact is that of a solid, of the ball inside of that of b, or of the ball inside of that of a.
+constexpr int of_solids = 0, of_ball_b = 1, of_ball_a = 2;
 
 /// Where two bodies are in one place, no direction separates them. They count as a little apart, each pair in a direction of its own.
 Posed apart(Posed relative, int a, int b, double size) {
@@ -82,11 +89,19 @@ class ContactsBefore {
   std::size_t next_ = 0;
 };
 
+/// The contacts of the solids themselves, of those of two convex parts.
+std::span<const BodyContact> of_solids_in(std::span<const BodyContact> contacts) {
+  const auto end =
+      std::find_if(contacts.begin(), contacts.end(), [](const BodyContact& c) { return c.b.piece != of_solids; });
+  return contacts.first(static_cast<std::size_t>(end - contacts.begin()));
+}
+
 /// The contact of the frame before with the same piece, or else the one whose normal agrees best; null if none is similar.
 const BodyContact* like(const BodyContact& c, std::span<const BodyContact> before) {
   const BodyContact* best = nullptr;
   float closest = 0.9f;
   for (const BodyContact& old : before) {
+    if (old.b.piece != c.b.piece) continue;
     const float agreement = old.a.piece == c.a.piece ? 2 : dot(old.normal, c.normal);
     if (!(agreement > closest)) continue;
     closest = agreement;
@@ -213,6 +228,13 @@ struct BodyContacts::Task {
     return !one.is_half_space && way > (one.mesh != nullptr ? still_share : fast_share) * size;
   }
 
+  /// True if bodies may touch in a frame at a contact that was found on another path.
+  bool comes_near(const Pair& pair, const BodyState& a, const BodyState& b, const BodyContact& contact) const {
+    if (of.parts_[at(pair.first)].is_half_space || !one_is_held(a, b)) return false;
+    const double along = static_cast<double>(dot(contact.normal, b.velocity - a.velocity) * dt);
+    return along < -least_approach();
+  }
+
   /// True if the contacts of a pair stay, or, where there are none, if no new ones are looked for.
   bool stay(const Pair& pair, std::span<const BodyContact> old, const BodyState& a, const BodyState& b,
             const Posed& relative) const {
@@ -221,7 +243,8 @@ struct BodyContacts::Task {
       const double size = size_of(pair);
       if (may_meet_more(pair, a, b, size)) return false;
       const auto hardly_changed = [&](const BodyContact& contact) {
-        return hardly_moved(relative, contact, size) && hardly_turned(a.pose.rotation, contact);
+        return contact.b.piece == of_solids && !comes_near(pair, a, b, contact) && hardly_moved(relative, contact, size) &&
+               hardly_turned(a.pose.rotation, contact);
       };
       // Contacts of what turns by itself turn with it, so that friction acts along its surface of this frame.
       return !old.empty() && !a.deforms && !a.is_driven_round && !b.is_driven_round &&
@@ -244,6 +267,9 @@ struct BodyContacts::Task {
     double size, reach, turning;
     SolidPath on;
     bool is_fast;
+
+    /// True if a body may turn far in a substep of the frame.
+    bool may_tumble() const { return is_fast && turning > 2 * tumbling_sizes * size; }
   };
 
   static void note_depth(const BodyContact& contact, const Piece& parties, double size, Found& found) {
@@ -267,7 +293,11 @@ struct BodyContacts::Task {
     }
     relative.rotation = normalise(relative.rotation);
     const Meeting meeting = meeting_of(number, old, relative);
+    const std::size_t first = found.made.size();
     one.mesh != nullptr ? meet_mesh(meeting, found) : meet(meeting, found);
+    if (!meeting.may_tumble()) return;
+    meet_balls(meeting, found);
+    std::sort(found.made.begin() + offset(first), found.made.end(), in_order);
   }
 
   Meeting meeting_of(int number, std::span<const BodyContact> old, const Posed& relative) const {
@@ -288,18 +318,21 @@ struct BodyContacts::Task {
     // An impact may turn the whole approach into spin. Of two opposite points one may rise as the other sinks.
     const double turning =
         static_cast<double>(2 * dt * (approach + turning_of(pair.first, a) + turning_of(pair.second, b)));
-    const SolidPath on{path_of(one.body, other.body, number), slop_share * size + slop_of_fall * fall(), 0.5 * fall()};
-    const bool is_fast = length(on.path.end()) > fast_share * size;
+    const SolidPath on{path_of(one.body, other.body, number), slop_share * size + slop_of_fall * fall(), 0.5 * fall(),
+                       least_approach()};
+    const bool is_fast = length(on.path.end()) > (one_is_held(a, b) ? least_approach() : fast_share * size);
     return {number, one, other, a, b, old, relative, size, reach_of(pair, approach), turning, on, is_fast};
   }
 
   /// Adds a contact that b touches when it has moved by so much in the frame of a [m].
-  static void add(const Meeting& m, const Touch& touching, const Vec3d& moved, int piece, Found& found) {
+  static void add(const Meeting& m, const Touch& touching, const Vec3d& moved, int piece, Found& found,
+                  int of = of_solids) {
     if (touching.count == 0) return;
     BodyContact contact;
     contact.a = m.one.id;
     contact.a.piece = piece;
     contact.b = m.other.id;
+    contact.b.piece = of;
     contact.position = convert<float>(m.relative.position);
     contact.rotation = convert<float>(m.relative.rotation);
     contact.turned = convert<float>(m.a.pose.rotation);
@@ -320,9 +353,10 @@ struct BodyContacts::Task {
       if (m.is_fast) note_first(first_on_plane(now, m.on), m, found);
       return add(m, now, {}, 0, found);
     }
-    if (has_changed_sides(now, m.a.pose, m.old)) {
-      const Vec3d kept = rotate(conjugate(m.a.pose.rotation), convert<double>(m.old.front().normal));
-      return add(m, touch_along(m.one, m.other, m.relative, kept, m.turning), {}, 0, found);
+    const std::span<const BodyContact> earlier = of_solids_in(m.old);
+    if (has_changed_sides(now, m.a.pose, earlier)) {
+      const Vec3d kept = rotate(conjugate(m.a.pose.rotation), convert<double>(earlier.front().normal));
+      return add(m, touch_along(m.one, m.other, m.relative, kept, 0, m.turning), {}, 0, found);
     }
     if (!m.is_fast) return add(m, now, {}, 0, found);
     const PairTouch touching = touch_on_path(m.one, m.other, placed, within, now, m.on);
@@ -332,10 +366,13 @@ struct BodyContacts::Task {
     add(m, touching.touch, touching.moved, 0, found);
   }
 
+  static MeshSideKept side_kept_of(const Meeting& m) {
+    return m.a.deforms ? MeshSideKept{} : side_kept(*m.one.mesh, m.other, m.relative, 2 * m.reach, m.old);
+  }
   void meet_mesh(const Meeting& m, Found& found) const {
     const BodyMesh& mesh = *m.one.mesh;
     const Posed pose = compose(m.relative, m.other.pose);
-    const MeshSideKept kept = m.a.deforms ? MeshSideKept{} : side_kept(mesh, m.other, m.relative, 2 * m.reach, m.old);
+    const MeshSideKept kept = side_kept_of(m);
     if (kept.triangle >= 0) {
       const MeshTouch touching = touch_side(m.other.shape, pose, mesh, kept, m.reach, m.turning);
       return add(m, touching.touch, {}, touching.piece, found);
@@ -344,6 +381,33 @@ struct BodyContacts::Task {
     found.any_stopped = true;
     note_first(touch_mesh(m.other.shape, pose, mesh, m.reach, touches, m.turning, m.is_fast ? &m.on : nullptr), m, found);
     for (const MeshTouch& touching : touches) add(m, touching.touch, touching.moved, touching.piece, found);
+  }
+
+  /// The contacts of the balls inside of bodies that may turn far in a substep.
+  void meet_balls(const Meeting& m, Found& found) const {
+    const float of_a = m.a.is_fixed ? 0 : inner_radius(m.one), of_b = m.b.is_fixed ? 0 : inner_radius(m.other);
+    if (of_b > 0 && m.one.mesh != nullptr) meet_mesh_ball(m, inner_ball(m.other, of_b), found);
+    if (of_b > 0 && m.one.mesh == nullptr) meet_ball(m, m.one, inner_ball(m.other, of_b), of_ball_b, found);
+    if (of_a > 0) meet_ball(m, inner_ball(m.one, of_a), m.other, of_ball_a, found);
+  }
+  void meet_ball(const Meeting& m, const BodyPart& one, const BodyPart& other, int which, Found& found) const {
+    const Reach within{m.reach, m.turning, {}};
+    const Posed placed = apart(m.relative, one.body, other.body, m.size);
+    const Touch now = touch_of(one, other, placed, within);
+    if (one.is_half_space) return add(m, now, {}, 0, found, which);
+    const PairTouch touching = touch_on_path(one, other, placed, within, now, m.on);
+    add(m, touching.touch, touching.moved, 0, found, which);
+  }
+  void meet_mesh_ball(const Meeting& m, const BodyPart& ball, Found& found) const {
+    const BodyMesh& mesh = *m.one.mesh;
+    const Posed pose = compose(m.relative, ball.pose);
+    std::vector<MeshTouch> touches;
+    const MeshSideKept kept = side_kept_of(m);
+    if (kept.triangle >= 0)
+      touches.push_back(touch_side(ball.shape, pose, mesh, kept, m.reach, m.turning));
+    else
+      touch_mesh(ball.shape, pose, mesh, m.reach, touches, m.turning, &m.on);
+    for (const MeshTouch& touching : touches) add(m, touching.touch, touching.moved, touching.piece, found, of_ball_b);
   }
 
   /// The path of b against a in the frame of a.
@@ -355,8 +419,14 @@ struct BodyContacts::Task {
   /// Twice what gravity may add to a path in the frame [m].
   double fall() const { return static_cast<double>(dt * faster); }
 
+  /// Solids that slide along free ones meet them as often as these meet one another, in piles, where a search costs more
+  /// than it gains.
+  static bool one_is_held(const BodyState& a, const BodyState& b) { return a.is_fixed || b.is_fixed; }
+  /// What comes nearer by less in the frame is thrown by no more than a hundredth of a millimetre [m].
+  double least_approach() const { return approach_of_fall * fall() + 1e-7; }
+
   static void note_first(const PathContact& first, const Meeting& m, Found& found) {
-    if (first.touches)
+    if (first.touches && length(m.on.path.end()) > fast_share * m.size)
       found.first.push_back({m.one.body, m.other.body, m.number, first.time, rotate(m.a.pose.rotation, first.normal)});
   }
 };

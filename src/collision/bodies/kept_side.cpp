@@ -16,6 +16,8 @@ namespace {
 
 /// Normals that agree less than this have changed sides: by more than 120 degrees since the last search.
 constexpr double other_way = -0.5;
+/// Normals of triangles that continue one another agree at least so much.
+constexpr double same_way = 0.7;
 
 /// A convex part in the frame of body a.
 struct Placed {
@@ -49,10 +51,10 @@ Posed surface(const Placed& part, const Vec3d& normal) {
 }
 
 /// Contact points of a half-space with a part. Those on the half-space are on_a.
-Touch touch_surface(const Posed& surface, const Placed& part, double turning) {
+Touch touch_surface(const Posed& surface, const Placed& part, double margin, double turning) {
   const Posed pose{to_local(surface, part.pose.position),
                    normalise(multiply(conjugate(surface.rotation), part.pose.rotation))};
-  Touch found = touch_half_space(part.shape, pose, 0, turning);
+  Touch found = touch_half_space(part.shape, pose, margin, turning);
   found.normal = rotate(surface.rotation, found.normal);
   for (int i = 0; i < found.count; ++i) {
     TouchPoint& point = found.points[static_cast<std::size_t>(i)];
@@ -105,6 +107,22 @@ MeshSideKept first_between(const BodyMesh& mesh, const Vec3d& from, const Vec3d&
   return found;
 }
 
+/// The triangle over which a point lies that has slid on from one with that normal, at most `farthest` from its plane.
+MeshSideKept beside(const BodyMesh& mesh, const Vec3d& point, const Vec3d& normal, double farthest) {
+  std::vector<int> near;
+  mesh.find(BoxBounds{convert<float>(point), convert<float>(point)}.grown(static_cast<float>(farthest)), near);
+  MeshSideKept found;
+  double least = farthest;
+  for (const int triangle : near) {
+    const MeshFace& face = mesh.face(triangle);
+    const double along = dot(face.normal, normal), height = std::fabs(dot(face.normal, point - face.corners[0]));
+    if (std::fabs(along) < same_way || height >= least || !is_over(face, point, MeshSide::tolerance)) continue;
+    least = height;
+    found = {triangle, along < 0 ? -face.normal : face.normal};
+  }
+  return found;
+}
+
 }  // namespace
 
 bool has_changed_sides(const Touch& found, const Posed& a, std::span<const BodyContact> before) {
@@ -114,10 +132,11 @@ bool has_changed_sides(const Touch& found, const Posed& a, std::span<const BodyC
   return overlap && dot(rotate(a.rotation, found.normal), convert<double>(before.front().normal)) < other_way;
 }
 
-Touch touch_along(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Vec3d& normal, double turning) {
+Touch touch_along(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Vec3d& normal, double margin,
+                  double turning) {
   const Placed one{a.shape, a.pose}, other{b.shape, compose(b_in_a, b.pose)};
-  if (area(one, normal) >= area(other, normal)) return touch_surface(surface(one, normal), other, turning);
-  Touch found = touch_surface(surface(other, -normal), one, turning);
+  if (area(one, normal) >= area(other, normal)) return touch_surface(surface(one, normal), other, margin, turning);
+  Touch found = touch_surface(surface(other, -normal), one, margin, turning);
   found.normal = normal;
   for (int i = 0; i < found.count; ++i) {
     TouchPoint& point = found.points[static_cast<std::size_t>(i)];
@@ -140,6 +159,8 @@ MeshSideKept side_kept(const BodyMesh& mesh, const BodyPart& b, const Posed& b_i
     if (old.height(old.centre) > 0 || old.height(centre) > 0) continue;
     const MeshFace& face = mesh.face(triangle);
     if (is_over(face, centre, old.size)) return {triangle, dot(face.normal, old.normal) < 0 ? -face.normal : face.normal};
+    const MeshSideKept next = beside(mesh, centre, old.normal, old.size - old.height(centre));
+    if (next.triangle >= 0) return next;
   }
   return first_between(mesh, first.centre, centre);
 }

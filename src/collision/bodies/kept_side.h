@@ -17,8 +17,9 @@ namespace pliant {
 bool has_changed_sides(const Touch& found, const Posed& a, std::span<const BodyContact> before);
 
 /// Contact points of two convex parts along `normal`, a unit vector in the frame of body a: the one that is wider across it counts as a
-/// half-space.
-Touch touch_along(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Vec3d& normal, double turning);
+/// half-space. They are within `margin` of it [m].
+Touch touch_along(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Vec3d& normal, double margin,
+                  double turning);
 
 /// A triangle of a mesh that the centre of a solid has passed, and the side from which.
 struct MeshSideKept {

@@ -13,6 +13,8 @@ namespace {
 
 /// Manifolds whose normals agree better than this are one [cosine].
 constexpr double alike_cosine = 0.995;
+/// A direction this close to a triangle's normal is that normal [cosine].
+constexpr double own_cosine = 1 - 1e-6;
 /// Points nearer to each other than this share of the solid's size are one.
 constexpr double coincident_share = 1e-4;
 
@@ -110,6 +112,12 @@ int triangle_above(const BodyMesh& mesh, const SolidInMesh& solid) {
   return dot(face.normal, solid.centre() - face.corners[0]) <= 0 ? triangle : -1;
 }
 
+/// True if a point is not over its triangle. Terrain is one smooth piece, of which only ends and ridges have sides.
+bool has_side(const BodyMesh& mesh, const std::vector<TrianglePoint>& points) {
+  return std::any_of(points.begin(), points.end(),
+                     [&](const TrianglePoint& at) { return dot(at.normal, mesh.face(at.triangle).normal) < own_cosine; });
+}
+
 std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& solid, double reach, const SolidPath* path,
                                      PathContact& first) {
   std::vector<TrianglePoint> points;
@@ -118,8 +126,8 @@ std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& so
   if (plane < 0) {
     mesh.find(solid.box(reach + mesh.thickness()), near);
     for (const int triangle : near) touch_triangle(solid, mesh, triangle, reach, points);
-    // Terrain is one smooth piece, above which nothing is a side.
-    if (path != nullptr && !mesh.is_terrain()) first = put_on_path(solid, mesh, near, reach, *path, points);
+    if (path != nullptr && (!mesh.is_terrain() || has_side(mesh, points)))
+      first = put_on_path(solid, mesh, near, reach, *path, points);
     // Deep inside a fine mesh no triangle may be below the solid's lowest points.
     if (points.empty()) plane = least_overlapped(solid, mesh, near);
   }

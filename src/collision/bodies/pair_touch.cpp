@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collision/bodies/kept_side.h"
 #include "core/at.h"
 #include "geometry/convex_contact.h"
 #include "geometry/convex_distance.h"
@@ -12,6 +13,8 @@ namespace {
 
 /// Contacts whose normals agree so well are one [cosine].
 constexpr double same_normal = 1 - 1e-6;
+/// The direction of a contact may differ so much from that of the place where both are nearest [cosine].
+constexpr double alike_normal = 1 - 1e-4;
 
 Posed relative_pose(const Posed& a, const Posed& b) {
   Posed relative = relative_to(a, b);
@@ -68,7 +71,11 @@ PairTouch touch_on_path(const BodyPart& a, const BodyPart& b, const Posed& b_in_
   if (dot(found.normal, now.normal) > same_normal) return {now, {}, found.touches ? found : PathContact{}, true};
   Posed moved = b_in_a;
   moved.position += found.displacement;
-  const Touch there = touch_of(a, b, moved, reach);
+  Touch there = touch_of(a, b, moved, reach);
+  // Of polyhedra that are apart the axis that separates them most may be another one, and where edges of flush ones
+  // meet several separate them as well.
+  if (there.count == 0 || dot(there.normal, found.normal) < alike_normal)
+    there = touch_along(a, b, moved, found.normal, reach.margin, reach.turning);
   if (there.count == 0) return {now, {}, {}, true};
   return {there, found.displacement, found.touches ? found : PathContact{}, true};
 }

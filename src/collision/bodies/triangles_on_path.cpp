@@ -28,7 +28,7 @@ struct Way {
 
   /// True if points that were found at the start stop the solid on a path.
   bool stops(const ContactPath& path, const std::vector<TrianglePoint>& points, const Met& of) const {
-    const SolidPath here{path, on.slop, on.sag};
+    const SolidPath here{path, on.slop, on.sag, on.least};
     for (std::size_t i = of.first; i < of.end; ++i)
       if (here.is_stopped(points[i].normal, points[i].point.separation)) return true;
     return false;
