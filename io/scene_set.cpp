@@ -21,6 +21,9 @@ std::vector<std::string> steps_of(const std::string& pointer) {
     else
       steps.back() += pointer[i];
   }
+  if (static_cast<int>(steps.size()) > deepest_nesting)
+    throw Error({}, "'" + printable(pointer) + "' leads more than " + std::to_string(deepest_nesting) + " levels deep",
+                "scenes never need so many levels");
   return steps;
 }
 
@@ -45,7 +48,9 @@ JsonValue& item_of(const JsonDocument& document, JsonValue& array, const std::st
   return array.items[std::stoul(step)];
 }
 
+/// What a pointer adds is a record, or a list where its next step appends.
 JsonValue& below(const JsonDocument& document, JsonValue& at, const std::string& step) {
+  if (at.kind == JsonValue::Kind::object && at.items.empty() && step == "-") at.kind = JsonValue::Kind::array;
   if (at.kind == JsonValue::Kind::array) return item_of(document, at, step);
   if (at.kind != JsonValue::Kind::object)
     document.fail(at, "this has no member '" + printable(step) + "' to set", "it is neither an object nor an array");

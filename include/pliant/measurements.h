@@ -30,7 +30,7 @@ class Measurements {
   /// Kinetic and gravitational energy of all dynamic particles [J]. Heights are relative to the origin.
   double kinetic_energy() const;
   double potential_energy() const;
-  std::vector<Residual> residuals() const;
+  std::vector<Residual> residuals() const;  ///< with the forces of the last substep; without, as overstretch()
   Stretch stretch() const;
   /// The overstretch of the present State. Before the first step, after World::restore and after a frame that was not
   /// completed, the forces in compliant constraints are unknown, so their whole stretch counts.

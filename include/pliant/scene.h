@@ -297,7 +297,7 @@ Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr
 /// solved by chains and not meant to stretch,
 /// and none has PBD stiffness between 0 and 1. Other sets have 80 to 160 with a volume; 5 if all use `multigrid`, 10 if one
 /// can touch, is in wind or a force field, or has pins that move or lie together; up to 160 with a sheet that is meant to
-/// stretch and hangs from few of its particles; rigid bodies 8 by themselves, and 40 with what deforms; else 20. A tolerance makes one set of all.
+/// stretch and hangs from few of its particles; woven cloth up to 160; rigid bodies 8, 40 with what deforms; else 20. A tolerance makes one set.
 std::vector<int> chosen_substeps(const Scene& scene);
 
 /// Returns the settings of a World of this scene; what the scene leaves open is chosen by its content.

@@ -89,7 +89,7 @@ struct Channel {
 struct ContactPart {
   int owner = 0;  ///< an object or mesh collider: its index in State::blocks; a primitive collider: -1 - its index
   int solid = 0;  ///< of an object: its solids are numbered body after body; else 0
-  int piece = 0;  ///< of a mesh collider: a triangle; else 0
+  int piece = 0;  ///< of a mesh collider: a triangle; of b 1 or 2: the ball inside b or a touches; else 0
   friend auto operator<=>(const ContactPart&, const ContactPart&) = default;  // NOLINT(modernize-use-nullptr)
 };
 

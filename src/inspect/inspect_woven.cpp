@@ -22,6 +22,12 @@ struct SoftWoven {
   std::string problem, advice;
 };
 
+/// True if a substep projects each constraint once in Gauss-Seidel's way, as solver/substep.cpp asks.
+bool leads(Sweep sweep, const Settings& settings) {
+  const bool is_other = sweep == Sweep::jacobi || sweep == Sweep::symmetric || sweep == Sweep::multigrid;
+  return !is_other && settings.iterations == 1 && settings.sweep_options.relaxation == 1;
+}
+
 /// The number of substeps that the settings give each object; the least, where they follow the State.
 std::vector<int> substeps_of_all(const Scene& scene, const Settings& settings) {
   std::vector<int> all = chosen_substeps(scene, settings);
@@ -30,9 +36,9 @@ std::vector<int> substeps_of_all(const Scene& scene, const Settings& settings) {
   return all;
 }
 
-std::string advice_for(const Object& object, double frame_time, const WovenYield& yield) {
+std::string advice_for(const Object& object, double frame_time, bool is_led, const WovenYield& yield) {
   const std::string needed =
-      std::to_string(std::llround(std::min(std::ceil(needed_substeps_of_woven(object, frame_time)), 1e9)));
+      std::to_string(std::llround(std::min(std::ceil(needed_substeps_of_woven(object, frame_time, is_led)), 1e9)));
   const std::string mesh = yield.is_of_yarns ? ", larger triangles, or edges along the yarns" : ", or larger triangles";
   return "give " + needed + " substeps" + mesh;
 }
@@ -46,7 +52,9 @@ std::vector<SoftWoven> find_soft_woven(const Scene& scene, const Settings& setti
     const Object& object = scene.objects[o];
     if (!is_woven(object)) continue;
     const int substeps = substeps_of[o];
-    const WovenYield yield = yield_of_woven(object, frame_time, {static_cast<double>(substeps), settings.iterations});
+    const bool is_led = leads(object.sweep == Sweep::automatic ? settings.sweep : object.sweep, settings);
+    const WovenYield yield =
+        yield_of_woven(object, frame_time, {static_cast<double>(substeps), settings.iterations, is_led});
     if (yield.ratio <= tolerated_yield) continue;
     all.push_back({&object,
                    "is woven so finely that with " + std::to_string(substeps) + " substeps " +
@@ -54,7 +62,7 @@ std::vector<SoftWoven> find_soft_woven(const Scene& scene, const Settings& setti
                        (yield.is_of_yarns ? " stretch about " : " shears about ") +
                        words(std::round(10 * yield.ratio) / 10) + " times as much as their stiffness says, " +
                        words(std::round(1000 * yield.strain) / 10) + " % of strain too much under its weight",
-                   advice_for(object, frame_time, yield)});
+                   advice_for(object, frame_time, is_led, yield)});
   }
   return all;
 }

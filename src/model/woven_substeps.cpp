@@ -17,10 +17,11 @@ namespace pliant {
 
 namespace {
 
-constexpr double largest_number = 0.5;       ///< s up to which the error is below 3 %
-constexpr double tolerated_strain = 0.0005;  ///< by weight: what strains less may yield by so much more [-]
-constexpr double yield_of_number = 1.25;     ///< measured for s of 1 to 16: 1.25 s times as much
-constexpr double excess_of_number = 1.1;     ///< the same where several iterations leave no lead: 1 + 1.1 s
+constexpr double largest_number = 0.5;         ///< s up to which the error is below 3 %
+constexpr double largest_without_lead = 0.09;  ///< the same where several passes leave no lead: 10 % too far
+constexpr double tolerated_strain = 0.0005;    ///< by weight: what strains less may yield by so much more [-]
+constexpr double yield_of_number = 1.25;       ///< measured for s of 1 to 16: 1.25 s times as much
+constexpr double excess_of_number = 1.1;       ///< the same where several iterations leave no lead: 1 + 1.1 s
 constexpr int most_substeps_of_woven = 160;
 
 double excess_of(double number, bool is_led) {
@@ -32,8 +33,9 @@ struct WovenGroup {
   double strain = 0;        ///< by the object's weight [-]
   bool is_of_yarns = false;
   double number(double h) const { return rate_squared * h * h; }
-  double allowed() const {
+  double allowed(bool is_led) const {
     const bool is_stiff = strain > 0 && strain < tolerated_strain;
+    if (!is_led) return is_stiff ? tolerated_strain / strain / excess_of_number : largest_without_lead;
     return is_stiff ? (1 + tolerated_strain / strain) / yield_of_number : largest_number;
   }
 };
@@ -92,10 +94,10 @@ bool is_woven(const Object& object) {
   return std::any_of(object.constraints.begin(), object.constraints.end(), is_of_triangles);
 }
 
-double needed_substeps_of_woven(const Object& object, double frame_time) {
+double needed_substeps_of_woven(const Object& object, double frame_time, bool is_led) {
   double needed = is_woven(object) ? 1 : 0;
   for_woven_groups(object, [&](const WovenGroup& group) {
-    needed = std::max(needed, frame_time * std::sqrt(group.rate_squared / group.allowed()));
+    needed = std::max(needed, frame_time * std::sqrt(group.rate_squared / group.allowed(is_led)));
   });
   return needed;
 }
@@ -110,9 +112,9 @@ WovenYield yield_of_woven(const Object& object, double frame_time, const Passes&
   double farthest = 1;
   const double h = frame_time / (passes.substeps * std::sqrt(double(passes.iterations)));
   for_woven_groups(object, [&](const WovenGroup& group) {
-    const double s = group.number(h), excess = excess_of(s, passes.iterations == 1);
-    if (!(s > farthest * group.allowed())) return;
-    farthest = s / group.allowed();
+    const double s = group.number(h), excess = excess_of(s, passes.is_led), allowed = group.allowed(passes.is_led);
+    if (!(s > farthest * allowed)) return;
+    farthest = s / allowed;
     most = {1 + excess, excess * group.strain, group.is_of_yarns};
   });
   return most;

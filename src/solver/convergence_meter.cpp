@@ -97,8 +97,10 @@ double damping_explains(const EstimatedObject& of, const ConstraintPlace& at, co
 /// Adds an elastic constraint of one row over points.
 void add_elastic_error(const EstimatedObject& of, const ConstraintPlace& at, const std::int32_t* slots,
                        ConvergenceSums& sums) {
+  const double soft = softness(at, of.inverse_h2);
+  if (!(soft > 0)) return;  // a rigid one among others of its type
   const double multiplier = static_cast<double>(of.of_pool(at.pool_number)[at.multiplier_place(0)]);
-  const double elastic = softness(at, of.inverse_h2) * multiplier;
+  const double elastic = soft * multiplier;
   StencilArrays<float> arrays;
   load_estimated(of, at.pool, slots, arrays);
   arrays.load_rest(at);
@@ -106,7 +108,7 @@ void add_elastic_error(const EstimatedObject& of, const ConstraintPlace& at, con
   const double c = static_cast<double>(arrays.c[0]) + damping_explains(of, at, slots, arrays);
   sums.work -= multiplier * (c + elastic);
   sums.elastic += multiplier * elastic;
-  sums.deformed += c * c / std::max(softness(at, of.inverse_h2), static_cast<double>(smallest_denominator));
+  sums.deformed += c * c / std::max(soft, static_cast<double>(smallest_denominator));
   sums.force += std::fabs(multiplier);
   sums.squares += (c + elastic) * (c + elastic);
   sums.sampled += 1;

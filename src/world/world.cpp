@@ -182,7 +182,9 @@ Report World::step(float dt) {
   if (report.overstretch) {
     report.overstretch = with_slot(*data_, *report.overstretch);
     data_->overstretch.add(*report.overstretch, report.frame);
-    report.estimates = data_->convergence.add(report, data_->ids.objects);
+    report.estimates = data_->convergence.add(report, data_->ids.objects, [&](int number) {
+      return static_cast<int>(std::lround(static_cast<double>(dt) / static_cast<double>(data_->workspace.last_h[number])));
+    });
   }
   report.worst_overstretch = data_->overstretch.worst();
   report.worst_estimates = data_->convergence.worst();

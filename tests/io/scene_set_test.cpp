@@ -31,7 +31,6 @@ TEST(SceneSet, ReplacesAndAddsMembers) {
   const Scene scene = scene_set({{"/settings/substeps", "7"},
                                  {"/objects/1/name", "second"},
                                  {"/objects/0/colour", "[1, 0, 0.5]"},
-                                 {"/colliders", "[]"},
                                  {"/colliders/-", R"({"plane": {}, "name": "ground"})"},
                                  {"/gravity", "[0, -1.5, 0]"}});
   EXPECT_EQ(scene.settings.substeps, 7);
@@ -64,6 +63,9 @@ TEST(SceneSet, RefusesWithThePathAndThePlaceInTheFile) {
 }
 
 TEST(SceneSet, NeverCrashesOnStrangePointersAndValues) {
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "/a";
+  EXPECT_NE(refusal_of_set({{deep, "1"}}).find("leads more than 64 levels deep"), std::string::npos);
   for (const char* pointer : {"", "/", "//", "/~", "/~2", "/objects/", "/objects/-/-", "/objects/99999999999",
                               "/objects/-1", "/objects/0/rope/line/from/0"})
     for (const char* value : {"", "null", "{", "[[[[", "1e999", "\xff", "\"\\ud800\"", "{}", "[]"})

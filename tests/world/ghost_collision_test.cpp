@@ -158,6 +158,7 @@ struct GhostMotion {
 struct GhostPath {
   std::string what;
   float rise = 0;   ///< the most above where it began [m]
+  float sunk = 0;   ///< the most below [m]
   float aside = 0;  ///< the most from the straight line [m]
   float lost = 0;   ///< the most change of the horizontal velocity, or of the velocity without gravity; share of the speed
 };
@@ -181,6 +182,7 @@ GhostPath follow(Scene scene, const Ghost& of, BodyOptions options, const GhostM
     Vec3f moved = world.object(object).positions()[0] - start - velocity * time;
     Vec3f change = world.object(object).velocities()[0] - velocity;
     out.rise = std::max(out.rise, moved.y);
+    out.sunk = std::max(out.sunk, -moved.y);
     if (falls) moved.y = change.y = 0;
     out.aside = std::max(out.aside, length(moved));
     out.lost = std::max(out.lost, length(change) / motion.speed);
@@ -368,7 +370,7 @@ struct Ghosts {
   }
 };
 
-bool slides(const GhostPath& path) { return path.rise < 1e-4f && path.lost < 1e-3f; }
+bool slides(const GhostPath& path) { return path.rise < 1e-4f && path.lost < 1e-3f && path.sunk < 5e-3f; }
 
 /// Of 4 000 one in a hundred rises by more than 0.1 mm or loses more than a thousandth of its speed: the contacts of
 /// few long substeps are so soft that the next solid is a step, and some meet an edge.

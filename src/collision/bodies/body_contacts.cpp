@@ -20,8 +20,8 @@ namespace pliant {
 namespace {
 
 constexpr int narrow_pairs_a_task = 64;
-/// Where solids move against each other by less than this share of the smaller part's size in a frame, directions
-/// hardly change.
+/// Where two free solids move against each other by less than this share of the smaller part's size in a frame,
+/// directions hardly change.
 constexpr double fast_share = 0.15;
 /// Solids that would go into each other by less than this share of the smaller part's size and this share of the path
 /// that gravity adds in a frame pass each other: what lies on one of two flush solids is pressed in by less.
@@ -267,9 +267,10 @@ struct BodyContacts::Task {
     double size, reach, turning;
     SolidPath on;
     bool is_fast;
+    bool starts_fast;  ///< before its path turns
 
     /// True if a body may turn far in a substep of the frame.
-    bool may_tumble() const { return is_fast && turning > 2 * tumbling_sizes * size; }
+    bool may_tumble() const { return starts_fast && turning > 2 * tumbling_sizes * size; }
   };
 
   static void note_depth(const BodyContact& contact, const Piece& parties, double size, Found& found) {
@@ -320,8 +321,10 @@ struct BodyContacts::Task {
         static_cast<double>(2 * dt * (approach + turning_of(pair.first, a) + turning_of(pair.second, b)));
     const SolidPath on{path_of(one.body, other.body, number), slop_share * size + slop_of_fall * fall(), 0.5 * fall(),
                        least_approach()};
-    const bool is_fast = length(on.path.end()) > (one_is_held(a, b) ? least_approach() : fast_share * size);
-    return {number, one, other, a, b, old, relative, size, reach_of(pair, approach), turning, on, is_fast};
+    const double least_fast = one_is_held(a, b) ? least_approach() : fast_share * size;
+    const bool is_fast = length(on.path.end()) > least_fast;
+    const bool starts_fast = static_cast<double>(dt * length(velocity)) > least_fast;
+    return {number, one, other, a, b, old, relative, size, reach_of(pair, approach), turning, on, is_fast, starts_fast};
   }
 
   /// Adds a contact that b touches when it has moved by so much in the frame of a [m].
@@ -385,7 +388,7 @@ struct BodyContacts::Task {
 
   /// The contacts of the balls inside of bodies that may turn far in a substep.
   void meet_balls(const Meeting& m, Found& found) const {
-    const float of_a = m.a.is_fixed ? 0 : inner_radius(m.one), of_b = m.b.is_fixed ? 0 : inner_radius(m.other);
+    const float of_a = is_held(m.a) ? 0 : inner_radius(m.one), of_b = is_held(m.b) ? 0 : inner_radius(m.other);
     if (of_b > 0 && m.one.mesh != nullptr) meet_mesh_ball(m, inner_ball(m.other, of_b), found);
     if (of_b > 0 && m.one.mesh == nullptr) meet_ball(m, m.one, inner_ball(m.other, of_b), of_ball_b, found);
     if (of_a > 0) meet_ball(m, inner_ball(m.one, of_a), m.other, of_ball_a, found);
@@ -421,7 +424,9 @@ struct BodyContacts::Task {
 
   /// Solids that slide along free ones meet them as often as these meet one another, in piles, where a search costs more
   /// than it gains.
-  static bool one_is_held(const BodyState& a, const BodyState& b) { return a.is_fixed || b.is_fixed; }
+  static bool one_is_held(const BodyState& a, const BodyState& b) { return is_held(a) || is_held(b); }
+  /// Colliders that move are not fixed while bodies sleep, but yield to nothing.
+  static bool is_held(const BodyState& body) { return body.is_fixed || !body.yields; }
   /// What comes nearer by less in the frame is thrown by no more than a hundredth of a millimetre [m].
   double least_approach() const { return approach_of_fall * fall() + 1e-7; }
 

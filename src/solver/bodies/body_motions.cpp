@@ -200,7 +200,8 @@ void BodyMotions::store_velocities(const Substep& s) {
 // same energy as that of the end, and the free turn begins anew.
 
 /// Shows impacts the motion that a body has at the substep's start, without what contacts did in the last one: a bounce
-/// off what that leaves would bring energy where the passes take it back.
+/// off what that leaves would bring energy where the passes take it back. Where other forces than gravity act, what
+/// contacts did stays: they press on what lies still by more than a bounce may tell from an impact.
 void BodyMotions::show_spin_at_start(const Substep& s, int body) {
   const FrameArrays all = frame_arrays(s);
   const std::size_t frame = at(frames_[at(body)]);
@@ -210,16 +211,16 @@ void BodyMotions::show_spin_at_start(const Substep& s, int body) {
   const Vec3f spin =
       spin_at_start(xyz(all.inverse_inertias[frame]), xyz(all.round[frame]), xyz(all.angular_velocities[frame]), s.h);
   const Seen then = seen(start_orientations_[at(body)], all.starts[frame], all.round[frame]);
-  motion.velocity = motion.kept_velocity;
+  if (!changes_velocities(s)) motion.velocity = motion.kept_velocity;
   motion.spin = to_contacts(then, spin);
-  restarts_.push_back({body, spin, motion.spin, {}, {}, {}});
+  restarts_.push_back({body, spin, motion.spin, motion.velocity, {}, {}, {}, false});
 }
 
 /// Predicts the free turn of a body with the spin that impacts have left it. Returns false if there were none.
 bool BodyMotions::turn_anew(const Substep& s, Restart& restart) {
   BodyMotion& motion = motions_[at(restart.body)];
   Vec3f& before = before_spin_[at(restart.body)];
-  motion.velocity = before_velocity_[at(restart.body)] + (motion.velocity - motion.kept_velocity);
+  motion.velocity = before_velocity_[at(restart.body)] + (motion.velocity - restart.shown_velocity);
   const Vec3f change = motion.spin - restart.shown;
   motion.spin = before;
   if (vanishes(change)) return false;
@@ -262,7 +263,8 @@ void BodyMotions::bounce(const Substep& s, const std::vector<char>& restarts, Fu
     if (restarts[at(i)] != 0) show_spin_at_start(s, i);
   }
   impacts();
-  std::erase_if(restarts_, [&](Restart& restart) { return !turn_anew(s, restart); });
+  for (Restart& restart : restarts_) restart.turns = turn_anew(s, restart);
+  std::erase_if(restarts_, [](const Restart& restart) { return !restart.turns; });
   for (int i = 0; i < bodies(); ++i) {
     pushed_[at(i)] = plus(pushed_[at(i)], before_velocity_[at(i)] - motions_[at(i)].velocity);
     const Quatf start = quaternion(start_orientations_[at(i)]);

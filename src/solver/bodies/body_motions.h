@@ -63,7 +63,7 @@ class BodyMotions {
 
   /// Calls impacts(), whose effect on velocities the next substep does not start with. Impacts act at the substep's
   /// start: bodies with 1 in `restarts` [body] that no constraint has turned show them the spin that they have there, and
-  /// then turn freely with what impacts leave of it. With the spin of the substep's middle, and impulses after the
+  /// then turn freely with what impacts leave of it; but not those that hardly turn in a substep. With the spin of the substep's middle, and impulses after the
   /// gyroscopic torque, each impact of a tilted box would bring or take energy.
   void bounce(const Substep& s, const std::vector<char>& restarts, FunctionRef<void()> impacts);
 
@@ -73,7 +73,9 @@ class BodyMotions {
     int body = 0;
     Vec3f spin;                                 ///< at the substep's start, in the body's axes [rad/s]
     Vec3f shown;                                ///< the same as contacts see it
+    Vec3f shown_velocity;                       ///< as contacts see it [m/s]
     Record orientation, predicted, spin_after;  ///< of the frame, by the new turn
+    bool turns = false;                         ///< impacts have changed its spin
   };
 
   /// Bodies [first, last) of an object.

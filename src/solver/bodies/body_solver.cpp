@@ -141,20 +141,23 @@ void BodySolver::make_manifolds(const Substep& s) {
     return m;
   });
   blocks_.prepare(executor, s.kernels.manifolds, motions_.all());
-  find_bouncing();
+  find_bouncing(s);
 }
 
 /// Finds the bodies of contacts with restitution that no joint or tie holds.
-void BodySolver::find_bouncing() {
+void BodySolver::find_bouncing(const Substep& s) {
   may_restart_.assign(at(bodies_.dynamic()), 0);
   for (std::size_t i = 0; i < may_bounce_.size(); ++i) {
     const auto& [a, b] = contacts_.bodies()[i];
     for (const int body : {a, b})
       if (may_bounce_[i] != 0 && body < bodies_.dynamic()) may_restart_[at(body)] = 1;
   }
-  for (const BodyLink& link : islands_.links())
+  for (const BodyLink& link : islands_.links()) {
+    const std::vector<int>& broken = s.work.joints[at(link.object)].broken;
+    if (link.joint >= 0 && std::binary_search(broken.begin(), broken.end(), link.joint)) continue;
     for (const int body : {link.a, link.b})
       if (body < bodies_.dynamic()) may_restart_[at(body)] = 0;
+  }
 }
 
 void BodySolver::begin_frame(Substep& s) {

@@ -92,7 +92,7 @@ class BodySolver {
   void take_impulses(const Substep& s);
   void follow_meshes(const Substep& s);
   void make_manifolds(const Substep& s);
-  void find_bouncing();
+  void find_bouncing(const Substep& s);
   void start_substep(const Substep& s);
   void find_tied(const Model& model);
   bool find_jointed(const Substep& s);

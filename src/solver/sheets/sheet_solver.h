@@ -38,7 +38,7 @@ struct SheetScratch {
   Records direction, product;             ///< of conjugate gradients
   std::vector<double> sums;               ///< of blocks
   std::vector<double> factor;             ///< Cholesky factor of the last level, by rows
-  std::vector<char> is_pinned;            ///< of each piece: 1 if it has a particle of infinite mass
+  std::vector<char> is_pinned;            ///< of each piece: 1 if it has a particle that is pinned or held
   std::vector<RigidSums> momentum;        ///< of each piece
 };
 
