@@ -4,6 +4,7 @@
 
 #include "constraints/registry.h"
 #include "core/at.h"
+#include "math/disjoint_sets.h"
 #include "math/vector.h"
 #include "model/sheet_bending.h"
 #include "topology/edges.h"
@@ -18,8 +19,9 @@ constexpr double most_of_hinges = 0.02;
 constexpr double most_of_floats = 1e5;
 /// Hinges at a vertex that differ by more in their stiffness are a crease, or a seam of another material.
 constexpr double largest_ratio = 4;
-/// A rest shape is flat if no hinge is folded by more [rad].
-constexpr double largest_fold = 1e-3;
+/// A rest shape is flat if no hinge is folded by more [rad]; or by no more than the second, which rounding in a mesh file
+/// makes, where each piece lies in a plane up to this share of an edge.
+constexpr double largest_fold = 1e-3, largest_rounded_fold = 0.05, largest_offset = 0.02;
 
 Vec3d rest_position(const Object& object, int particle) { return convert<double>(object.positions[at(particle)]); }
 
@@ -37,16 +39,56 @@ std::array<Vec3d, 4> hinge_at(const Object& object, const ConstraintGroup& group
   return x;
 }
 
-/// True if all hinges of a group are flat at rest.
-bool is_flat(const Object& object, const ConstraintGroup& group) {
-  const bool angles = !group.rest.empty() && !is_flat_hinge(group.type);
-  const auto is_folded = [](float angle) { return std::fabs(double(angle)) > largest_fold; };
-  if (angles && std::any_of(group.rest.begin(), group.rest.end(), is_folded)) return false;
-  for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
-    const std::array<Vec3d, 4> x = hinge_at(object, group, i);
-    if (std::fabs(fold_angle({x[0], x[1], x[2], x[3]})) > largest_fold) return false;
+/// By how much a hinge of an object is folded at rest, at most [rad].
+double largest_fold_of(const Object& object) {
+  double most = 0;
+  for (const ConstraintGroup& group : object.constraints) {
+    if (!is_hinge(group.type)) continue;
+    if (!is_flat_hinge(group.type))
+      for (const float angle : group.rest) most = std::max(most, std::fabs(double(angle)));
+    for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
+      const std::array<Vec3d, 4> x = hinge_at(object, group, i);
+      most = std::max(most, std::fabs(fold_angle({x[0], x[1], x[2], x[3]})));
+    }
+  }
+  return most;
+}
+
+/// Sums over a piece of a sheet.
+struct PieceSums {
+  Vec3d positions{}, normals{};
+  double vertices = 0;
+};
+
+/// True if the vertices of each piece lie in one plane, up to a share of the mean edge.
+bool lies_in_planes(const Object& object) {
+  DisjointSets pieces(object.positions.size());
+  for (const auto& [a, b, c] : object.triangles) pieces.join(at(a), at(b)), pieces.join(at(b), at(c));
+  std::vector<PieceSums> sums(object.positions.size());
+  double edges = 0;
+  for (const auto& [a, b, c] : object.triangles) {
+    const Vec3d x = rest_position(object, a), y = rest_position(object, b), z = rest_position(object, c);
+    const Vec3d normal = cross(y - x, z - x);
+    Vec3d& sum = sums[pieces.root(at(a))].normals;
+    sum += dot(sum, normal) < 0 ? -normal : normal;  // triangles need not be wound alike
+    edges += length(y - x) / static_cast<double>(object.triangles.size());
+  }
+  for (std::size_t v = 0; v < object.positions.size(); ++v) {
+    PieceSums& piece = sums[pieces.root(v)];
+    piece.positions += rest_position(object, static_cast<int>(v));
+    piece.vertices += 1;
+  }
+  for (std::size_t v = 0; v < object.positions.size(); ++v) {
+    const PieceSums& piece = sums[pieces.root(v)];
+    const Vec3d away = rest_position(object, static_cast<int>(v)) - piece.positions * (1 / piece.vertices);
+    if (std::fabs(dot(away, piece.normals)) > largest_offset * edges * length(piece.normals)) return false;
   }
   return true;
+}
+
+bool is_flat(const Object& object) {
+  const double fold = largest_fold_of(object);
+  return fold <= largest_fold || (fold <= largest_rounded_fold && lies_in_planes(object));
 }
 
 /// True if every edge of two triangles has one hinge, and none has three or more triangles. A seam or crease without
@@ -183,10 +225,10 @@ bool bends_as_sheet(const Object& object, double h) {
   const double stiffness = sheet_stiffness(object);
   if (!(h * h * stiffness > most_of_hinges && h * h * stiffness < most_of_floats)) return false;
   const auto can_be_sheet = [&](const ConstraintGroup& group) {
-    return !is_hinge(group.type) || group.particles.empty() || (is_of_material(group) && is_flat(object, group));
+    return !is_hinge(group.type) || group.particles.empty() || is_of_material(group);
   };
   return object.bodies.empty() && std::all_of(object.constraints.begin(), object.constraints.end(), can_be_sheet) &&
-         has_hinges_everywhere(object) && is_at_rest(object) && is_alike(object);
+         is_flat(object) && has_hinges_everywhere(object) && is_at_rest(object) && is_alike(object);
 }
 
 double excess_of_hinges(const Object& object, double h) {

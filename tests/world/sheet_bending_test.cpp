@@ -25,6 +25,7 @@ struct Strip {
   float heavier = 1;         ///< of the material's mass and stiffness
   int behind = 1;            ///< rows pinned behind that of the clamp
   bool is_attached = false;  ///< the clamp is made of rigid attachments instead of pins
+  double rounded = 0;        ///< heights at random up to this share of an edge
 };
 
 TriangleMesh mesh_of(const Strip& strip, double edge) {
@@ -36,7 +37,8 @@ TriangleMesh mesh_of(const Strip& strip, double edge) {
     for (int j = 0; j < strip_columns; ++j) {
       const bool is_inner = i > strip.behind && j > 0 && i + 1 < rows && j + 1 < strip_columns;
       const double x = i - strip.behind + (is_inner ? uniform() : 0), z = j + (is_inner ? uniform() : 0);
-      mesh.positions.push_back({static_cast<float>(x * edge), 0, static_cast<float>(z * edge)});
+      const double y = strip.rounded * (static_cast<double>((i * 7 + j * 5) % 11) / 5 - 1);
+      mesh.positions.push_back({static_cast<float>(x * edge), static_cast<float>(y * edge), static_cast<float>(z * edge)});
     }
   for (int i = 0; i + 1 < rows; ++i)
     for (int j = 0; j + 1 < strip_columns; ++j) {
@@ -98,6 +100,11 @@ TEST(SheetBendingInAWorld, SagsAlikeInAClampOfManyRows) {
 
 TEST(SheetBendingInAWorld, IsClampedByRigidAttachmentsAsByPins) {
   for (const int edges : {6, 24}) EXPECT_NEAR(sag_ratio({"cotton", edges, 0, false, 1, 1, true}, 0), 1, 0.05) << edges;
+}
+
+TEST(SheetBendingInAWorld, SagsAlikeWhereAFileRoundsItsPlane) {
+  for (const double rounded : {0.002, 0.01})
+    EXPECT_NEAR(sag_ratio({"cotton", 12, 0, false, 1, 1, false, rounded}, 0), 1, 0.05) << rounded;
 }
 
 TEST(SheetBendingInAWorld, SagsAlikeWhateverTheSubstepsAndTheFrameTime) {
