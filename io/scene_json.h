@@ -56,8 +56,8 @@ constexpr int deepest_nesting = 64;
 /// kept, as the standard allows. Throws an Error with line and column.
 JsonDocument parse_json(std::string text, std::string name);
 
-/// Sets the value that a JSON pointer (RFC 6901) names; "-" appends to an array, and members that are not there are added.
-/// `value` is JSON, or text that is none and stands for itself. Throws an Error if the pointer is none, or leads
+/// Sets the value that a JSON pointer (RFC 6901) names; "-" appends to an array, and members that are not there are
+/// added. `value` is JSON, or text that is none and stands for itself. Throws an Error if the pointer is none, or leads
 /// through a value that has no members or to an item that is not there.
 void set_value(JsonDocument& document, const std::string& pointer, const std::string& value);
 

@@ -60,11 +60,12 @@ enum class Repair { yes, no };
 SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const std::string& name,
                     Repair repair = Repair::yes);
 
-/// The tetrahedra in memory that the string `at` names. Throws an Error if there are none, or if an index is out of range.
+/// The tetrahedra in memory that the string `at` names. Throws an Error if there are none, or if an index is out of
+/// range.
 TetrahedralMesh tetrahedra_named(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder);
 
-/// The member "positions" of a checked record: a list, or the points in memory that {"array": NAME} names; empty if it is
-/// absent. Throws an Error if there are no such points, or one is beyond `largest_place`.
+/// The member "positions" of a checked record: a list, or the points in memory that {"array": NAME} names; empty if it
+/// is absent. Throws an Error if there are no such points, or one is beyond `largest_place`.
 std::vector<Vec3f> positions_at(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder);
 
 /// Moves positions by the placement in a checked record with `fit`, `scale`, `rotate` and `translate`. Throws an Error if one is then

@@ -66,7 +66,8 @@ struct Silo {
   }
 };
 
-/// The floor is lowered at 4 cm/s for the last second: only then do the walls' friction and the weight act against one another in full.
+/// The floor is lowered at 4 cm/s for the last second: only then do the walls' friction and the weight act against one
+/// another in full.
 Silo measure_silo(float side, float filled, float friction) {
   constexpr int frames = 150, lowered = 60, averaged = 40;
   constexpr float speed = 0.04f, half = 0.1f;

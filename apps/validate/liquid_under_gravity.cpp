@@ -1,4 +1,5 @@
-// Liquids under gravity, with the default settings: force on a wall, sloshing, a jet from a hole (docs/internals/liquids.md).
+// Liquids under gravity, with the default settings: force on a wall, sloshing, a jet from a hole
+// (docs/internals/liquids.md).
 #include <algorithm>
 #include <cmath>
 #include <string>

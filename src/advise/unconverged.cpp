@@ -11,7 +11,8 @@ namespace pliant {
 
 namespace {
 
-/// The error that the advised substeps leave, as ConvergenceEstimate::excess: of bending and shear, of volumes, and of joints.
+/// The error that the advised substeps leave, as ConvergenceEstimate::excess: of bending and shear, of volumes, and of
+/// joints.
 constexpr double wanted_of_yield = 0.05, wanted_of_volume = 0.025, wanted_of_joints = 0.005;
 
 bool is_yield(Resistance kind) { return kind == Resistance::bending || kind == Resistance::shear; }

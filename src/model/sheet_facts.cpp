@@ -19,8 +19,8 @@ constexpr double most_of_hinges = 0.02;
 constexpr double most_of_floats = 1e5;
 /// Hinges at a vertex that differ by more in their stiffness are a crease, or a seam of another material.
 constexpr double largest_ratio = 4;
-/// A rest shape is flat if no hinge is folded by more [rad]; or by no more than the second, which rounding in a mesh file
-/// makes, where each piece lies in a plane up to this share of an edge.
+/// A rest shape is flat if no hinge is folded by more [rad]; or by no more than the second, which rounding in a mesh
+/// file makes, where each piece lies in a plane up to this share of an edge.
 constexpr double largest_fold = 1e-3, largest_rounded_fold = 0.05, largest_offset = 0.02;
 
 Vec3d rest_position(const Object& object, int particle) { return convert<double>(object.positions[at(particle)]); }

@@ -247,7 +247,8 @@ void ConvergenceMeter::add(const EstimatedFrame& frame, int number) {
 }
 
 /// A solid yields in shear and volume together. One pass makes the directions of its shear forces differ from those of
-/// its shear, so neither sum alone says how far it yields; the geometric mean of both does (docs/internals/convergence.md).
+/// its shear, so neither sum alone says how far it yields; the geometric mean of both does
+/// (docs/internals/convergence.md).
 ConvergenceEstimate ConvergenceMeter::estimate(const ObjectSums& sums, Resistance kind) {
   const ConvergenceSums& of = sums.of[static_cast<std::size_t>(kind)];
   const ConvergenceSums& volume = sums.of[static_cast<std::size_t>(Resistance::volume)];

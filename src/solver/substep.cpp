@@ -11,8 +11,8 @@ Vec3f gravity_for(const Substep& s, double seconds) { return s.model.gravity * s
 
 namespace {
 
-/// Half by theory; the rest, of second order, is fitted to bars with the default substeps (docs/internals/solids.md). It fits
-/// woven sheets as well (docs/internals/woven.md).
+/// Half by theory; the rest, of second order, is fitted to bars with the default substeps (docs/internals/solids.md).
+/// It fits woven sheets as well (docs/internals/woven.md).
 constexpr float lead_of_one_pass = 0.62f;
 
 /// True if each constraint is projected once in a substep, in Gauss-Seidel's way.

@@ -1,5 +1,5 @@
-// Convergence estimates of the Report against what twice the substeps change, one case of each kind; and what is said of
-// them.
+// Convergence estimates of the Report against what twice the substeps change, one case of each kind; and what is said
+// of them.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -332,8 +332,8 @@ TEST(InspectScene, NamesConstraintsOnFlatElements) {
   }
 }
 
-/// Where no edge lies along a yarn, its stretch is that of triangles, which yield by 1.25 s with s = Y h^2 / (2 rho e^2)
-/// on squares of edges e; so does shear with s = G h^2 / (rho e^2).
+/// Where no edge lies along a yarn, its stretch is that of triangles, which yield by 1.25 s with s = Y h^2 / (2 rho
+/// e^2) on squares of edges e; so does shear with s = G h^2 / (rho e^2).
 TEST(InspectScene, DoubtsWovenClothThatYieldsTooMuch) {
   const auto doubt = [](const Vec3f& warp, int substeps, float stiffness, float shear = 0) {
     Scene scene;

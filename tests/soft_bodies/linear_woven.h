@@ -1,4 +1,5 @@
-// The oracle of woven cloth at small strain: its distances and triangles, linearised at rest, solved in double precision.
+// The oracle of woven cloth at small strain: its distances and triangles, linearised at rest, solved in double
+// precision.
 #pragma once
 
 #include <cstddef>

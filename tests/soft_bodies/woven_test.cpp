@@ -194,9 +194,9 @@ TEST(WovenCloth, HangsAlikeOnAnyMesh) {
           << rows << ", " << substeps;
 }
 
-/// A sheet of width W that is held at one side shears by its weight: the other side sinks by rho g W^2 / (2 G). It bends
-/// in its plane, too, by 1.5 rho g W^4 / (Y H^2). With G = 20 and 81 rows 20 substeps are too few, so it has more by
-/// default.
+/// A sheet of width W that is held at one side shears by its weight: the other side sinks by rho g W^2 / (2 G). It
+/// bends in its plane, too, by 1.5 rho g W^4 / (Y H^2). With G = 20 and 81 rows 20 substeps are too few, so it has more
+/// by default.
 TEST(WovenCloth, ShearsByItsModulusOnAnyMesh) {
   const double width = 0.25, shear = 0.12 * gravity * width * width / (2 * 20),
                bends = 1.5 * 0.12 * gravity * std::pow(width, 4) / 10000;

@@ -1,5 +1,5 @@
-// Tests with random solids that nothing rises from flush solids or loses speed on them, and that nothing is turned aside
-// by what it misses.
+// Tests with random solids that nothing rises from flush solids or loses speed on them, and that nothing is turned
+// aside by what it misses.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -50,7 +50,8 @@ TriangleMesh mesh_of(const Strip& strip, double edge) {
   return mesh;
 }
 
-/// The sag of a cantilever at rest, clamped by two rows or more, over q L^4 / (8 B). Its length is chosen for a sag of L / 20.
+/// The sag of a cantilever at rest, clamped by two rows or more, over q L^4 / (8 B). Its length is chosen for a sag of
+/// L / 20.
 double sag_ratio(const Strip& strip, int substeps, double frame_time = 1.0 / 60) {
   Fabric material = fabric(strip.material);
   for (float* value : {&material.area_density, &material.bending_stiffness, &material.stretch_stiffness})

@@ -34,7 +34,8 @@ constexpr float unlimited = 1e30f;  ///< [m]
 constexpr double still_share = 0.04, still_cosine = 0.9999;
 /// Where points may move in a frame by more than this multiple of the smaller part's size, a substep may turn it far.
 constexpr double tumbling_sizes = 2;
-/// ContactPart::piece of b: contact is that of a solid, of the ball inside of that of b, or of the ball inside of that of a.
+/// ContactPart::piece of b: contact is that of a solid, of the ball inside of that of b, or of the ball inside of that
+/// of a.
 constexpr int of_solids = 0, of_ball_b = 1, of_ball_a = 2;
 
 /// Where two bodies are in one place, no direction separates them. They count as a little apart, each pair in a direction of its own.
@@ -422,8 +423,8 @@ struct BodyContacts::Task {
   /// Twice what gravity may add to a path in the frame [m].
   double fall() const { return static_cast<double>(dt * faster); }
 
-  /// Solids that slide along free ones meet them as often as these meet one another, in piles, where a search costs more
-  /// than it gains.
+  /// Solids that slide along free ones meet them as often as these meet one another, in piles, where a search costs
+  /// more than it gains.
   static bool one_is_held(const BodyState& a, const BodyState& b) { return is_held(a) || is_held(b); }
   /// Colliders that move are not fixed while bodies sleep, but yield to nothing.
   static bool is_held(const BodyState& body) { return body.is_fixed || !body.yields; }

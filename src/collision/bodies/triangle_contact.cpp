@@ -255,7 +255,8 @@ int least_overlapped(const SolidInMesh& solid, const BodyMesh& mesh, const std::
     const bool is_flat = length_squared(face.normal) > 0;
     const double radii = solid.radius() + mesh.thickness();
     if (!is_flat || !nearest_on(face, solid, radii, mesh.is_terrain()).is_near) continue;
-    // Only a triangle's own normal is looked at where it is smooth, though the solid may reach below its plane beside it.
+    // Only a triangle's own normal is looked at where it is smooth, though the solid may reach below its plane beside
+    // it.
     if (!mesh.is_terrain() && !(exactly_nearest_on(face, solid, {}).separation <= radii)) continue;
     const Vec3d normal = facing_normal(face, solid.centre(), mesh.is_terrain());
     const double separation = dot(normal, solid.support(-normal) - face.corners[0]);
