@@ -197,7 +197,7 @@ void BodyMotions::store_velocities(const Substep& s) {
 // A frame's prediction turns it with the spin of the substep's middle and ends with that of the end, after gyroscopic
 // torque. An impulse that is computed with the former and added to the latter changes the energy by impulse times h
 // times that torque, of either sign: a tilted box gained 12 % in 20 s. So impacts act on the spin at the start, which
-// has the same energy as that of the end, and the free turn begins anew.
+// has the same energy as that of the end, and the free turn begins again.
 
 /// Shows impacts the motion that a body has at the substep's start, without what contacts did in the last one: a bounce
 /// off what that leaves would bring energy where the passes take it back. Where other forces than gravity act, what

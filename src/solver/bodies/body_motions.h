@@ -68,7 +68,7 @@ class BodyMotions {
   void bounce(const Substep& s, const std::vector<char>& restarts, FunctionRef<void()> impacts);
 
  private:
-  /// A body whose free turn begins anew.
+  /// A body whose free turn begins again.
   struct Restart {
     int body = 0;
     Vec3f spin;                                 ///< at the substep's start, in the body's axes [rad/s]
