@@ -189,8 +189,10 @@ std::vector<std::string_view> with_state_blocks(std::vector<std::string_view> na
   return names;
 }
 
-Contents state_file(const std::string& path) {
-  Contents contents(path, Content::state);
+/// The contents of a file, or of bytes in memory that `from` names, whose blocks are those of a State.
+template <class... From>
+Contents state_contents(const From&... from) {
+  Contents contents(from..., Content::state);
   contents.refuse_unknown(with_state_blocks({fingerprint_blocks[0], fingerprint_blocks[1]}));
   return contents;
 }
@@ -261,7 +263,9 @@ void require_fingerprint(const Contents& contents, const Fingerprint& of) {
 
 // ---------------------------------------------------------------- a World
 
-void save_world(const std::string& path, const World& world, const Scene& scene, const Fingerprint* of) {
+/// Passes the blocks of a World to `write(content, blocks)`.
+template <class Write>
+auto save_world(const World& world, const Scene& scene, const Fingerprint* of, Write write) {
   refuse_other_scene(world, scene);
   refuse_force_fields(scene);
   Settings settings = world.settings();
@@ -274,22 +278,30 @@ void save_world(const std::string& path, const World& world, const Scene& scene,
   blocks.push_back({settings_block, Type::bytes, 1, settings_bytes.size(), settings_bytes.data()});
   blocks.push_back({layout_block, Type::bytes, 1, layout_bytes.size(), layout_bytes.data()});
   if (of != nullptr) add(blocks, *of);
-  write(path, Content::world, blocks);
+  return write(Content::world, blocks);
 }
 
-Contents world_file(const std::string& path) {
-  Contents contents(path, Content::world);
+/// Writes to a file of that path.
+auto to_file(const std::string& path) {
+  return [&path](Content content, const std::vector<Block>& blocks) { write(path, content, blocks); };
+}
+
+template <class... From>
+Contents world_contents(const From&... from) {
+  Contents contents(from..., Content::world);
   contents.refuse_unknown(
       with_state_blocks({scene_block, settings_block, layout_block, fingerprint_blocks[0], fingerprint_blocks[1]}));
   return contents;
 }
 
-LoadedWorld world_in(const std::string& path, const Contents& contents, const Settings& settings) {
+/// `keep...` is a KeepDescription or nothing.
+template <class... Keep>
+LoadedWorld world_in(const std::string& path, const Contents& contents, const Settings& settings, Keep... keep) {
   Scene scene = read_bytes<Scene>(contents, scene_block);
   scene.settings = settings;
   const State state = state_in(contents);
   try {
-    World world(scene, read_bytes<WorldLayout>(contents, layout_block));
+    World world(scene, read_bytes<WorldLayout>(contents, layout_block), keep...);
     world.restore(state);
     return {std::move(scene), std::move(world)};
   } catch (const Error& error) {
@@ -321,10 +333,10 @@ void save(const std::string& path, const State& state, const Fingerprint& of) {
   write(path, Content::state, blocks);
 }
 
-State load_state(const std::string& path) { return state_in(state_file(path)); }
+State load_state(const std::string& path) { return state_in(state_contents(path)); }
 
 State load_state(const std::string& path, const Fingerprint& of) {
-  const Contents contents = state_file(path);
+  const Contents contents = state_contents(path);
   require_fingerprint(contents, of);
   return state_in(contents);
 }
@@ -339,19 +351,57 @@ Scene present_scene(const World& world, Scene scene) {
   return scene;
 }
 
-void save(const std::string& path, const World& world, const Scene& scene) { save_world(path, world, scene, nullptr); }
+void save(const std::string& path, const World& world, const Scene& scene) {
+  save_world(world, scene, nullptr, to_file(path));
+}
 
 void save(const std::string& path, const World& world, const Scene& scene, const Fingerprint& of) {
-  save_world(path, world, scene, &of);
+  save_world(world, scene, &of, to_file(path));
+}
+
+void save(const std::string& path, const World& world) { save(path, world, world.description()); }
+
+std::vector<std::byte> save_bytes(const State& state) {
+  Columns columns;
+  return bytes_of(Content::state, blocks_of(state, columns));
+}
+
+std::vector<std::byte> save_bytes(const State& state, const Fingerprint& of) {
+  Columns columns;
+  std::vector<Block> blocks = blocks_of(state, columns);
+  add(blocks, of);
+  return bytes_of(Content::state, blocks);
+}
+
+std::vector<std::byte> save_bytes(const World& world, const Scene& scene) {
+  return save_world(world, scene, nullptr,
+                    [](Content content, const std::vector<Block>& blocks) { return bytes_of(content, blocks); });
+}
+
+std::vector<std::byte> save_bytes(const World& world) { return save_bytes(world, world.description()); }
+
+State load_state_bytes(std::span<const std::byte> bytes, const std::string& name) {
+  return state_in(state_contents(name, bytes));
+}
+
+State load_state_bytes(std::span<const std::byte> bytes, const Fingerprint& of, const std::string& name) {
+  const Contents contents = state_contents(name, bytes);
+  require_fingerprint(contents, of);
+  return state_in(contents);
+}
+
+LoadedWorld load_world_bytes(std::span<const std::byte> bytes, const std::string& name) {
+  const Contents contents = world_contents(name, bytes);
+  return world_in(name, contents, read_bytes<Settings>(contents, settings_block), KeepDescription{});
 }
 
 LoadedWorld load_world(const std::string& path) {
-  const Contents contents = world_file(path);
-  return world_in(path, contents, read_bytes<Settings>(contents, settings_block));
+  const Contents contents = world_contents(path);
+  return world_in(path, contents, read_bytes<Settings>(contents, settings_block), KeepDescription{});
 }
 
 LoadedWorld load_world(const std::string& path, const Fingerprint& of, const Settings& settings) {
-  const Contents contents = world_file(path);
+  const Contents contents = world_contents(path);
   require_fingerprint(contents, of);
   return world_in(path, contents, settings);
 }

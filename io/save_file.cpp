@@ -46,15 +46,16 @@ T value_at(std::string_view bytes, std::uint64_t at) {
 
 const char* words(Content content) { return content == Content::state ? "a State" : "a World"; }
 
-/// Appends bytes to a file, and adds them to its checksum.
+/// Appends bytes to a sink, and adds them to a checksum. A sink is called with (const void*, size).
+template <class Sink>
 class Writer {
  public:
-  explicit Writer(const std::string& path) : file_(path) {}
+  explicit Writer(Sink sink) : sink_(std::move(sink)) {}
 
   void add(const void* data, std::uint64_t size) {
     if (size == 0) return;
     sha_.add(data, size);
-    file_.write(data, size);
+    sink_(data, size);
   }
   template <class T>
   void add_value(const T& value) {
@@ -73,28 +74,51 @@ class Writer {
     add(zeros, padded(size) - size);
   }
   void finish() {
-    file_.write(digest(sha_));
-    file_.commit();
+    const std::string sum = digest(sha_);
+    sink_(sum.data(), sum.size());
   }
 
  private:
-  AtomicFile file_;
+  Sink sink_;
   Sha256 sha_;
 };
+
+std::uint64_t size_of(const std::vector<Block>& blocks) {
+  std::uint64_t size = header_size + checksum_size;
+  for (const Block& block : blocks) size += block_header_size + padded(block.count * block.element_size);
+  return size;
+}
+
+template <class Sink>
+void write_to(Sink sink, Content content, const std::vector<Block>& blocks) {
+  Writer out(std::move(sink));
+  out.add(magic.data(), magic.size());
+  out.add_value(version);
+  out.add_value(static_cast<std::uint32_t>(content));
+  out.add_value(size_of(blocks));
+  out.add_value(static_cast<std::uint64_t>(blocks.size()));
+  for (const Block& block : blocks) out.add(block);
+  out.finish();
+}
 
 }  // namespace
 
 void write(const std::string& path, Content content, const std::vector<Block>& blocks) {
-  std::uint64_t size = header_size + checksum_size;
-  for (const Block& block : blocks) size += block_header_size + padded(block.count * block.element_size);
-  Writer out(path);
-  out.add(magic.data(), magic.size());
-  out.add_value(version);
-  out.add_value(static_cast<std::uint32_t>(content));
-  out.add_value(size);
-  out.add_value(static_cast<std::uint64_t>(blocks.size()));
-  for (const Block& block : blocks) out.add(block);
-  out.finish();
+  AtomicFile file(path);
+  write_to([&](const void* data, std::uint64_t size) { file.write(data, size); }, content, blocks);
+  file.commit();
+}
+
+std::vector<std::byte> bytes_of(Content content, const std::vector<Block>& blocks) {
+  std::vector<std::byte> bytes;
+  bytes.reserve(size_of(blocks));
+  write_to(
+      [&](const void* data, std::uint64_t size) {
+        const auto* first = static_cast<const std::byte*>(data);
+        bytes.insert(bytes.end(), first, first + size);
+      },
+      content, blocks);
+  return bytes;
 }
 
 Contents::Contents(std::string path, Content expected) : path_(std::move(path)) {
@@ -103,7 +127,16 @@ Contents::Contents(std::string path, Content expected) : path_(std::move(path)) 
   std::error_code unknown;
   check_size(std::filesystem::file_size(path_, unknown));  // check the size before memory is allocated for the whole file
   bytes_ = read_file_bytes(path_, largest_save);
-  check_header(expected);  // again, because the file may have been replaced meanwhile
+  check_all(expected);  // the header again, because the file may have been replaced meanwhile
+}
+
+Contents::Contents(std::string name, std::span<const std::byte> bytes, Content expected)
+    : path_(std::move(name)), bytes_(reinterpret_cast<const char*>(bytes.data()), bytes.size()) {
+  check_all(expected);
+}
+
+void Contents::check_all(Content expected) {
+  check_header(expected);
   check_size(bytes_.size());
   check_sum();
   find_blocks();

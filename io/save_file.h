@@ -8,7 +8,9 @@
 // Everything is little-endian. A later version may add blocks; a reader rejects unknown ones.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -36,11 +38,16 @@ struct Block {
 /// Writes a file atomically. If that fails, throws an Error that names the path.
 void write(const std::string& path, Content content, const std::vector<Block>& blocks);
 
+/// The bytes of such a file.
+std::vector<std::byte> bytes_of(Content content, const std::vector<Block>& blocks);
+
 /// A file that has been read and validated: header, size, checksum and every block.
 class Contents {
  public:
   /// Reads and validates a file. Throws an Error that names the path and the reason.
   Contents(std::string path, Content expected);
+  /// Validates bytes that are in memory in the same way; `name` stands for the path.
+  Contents(std::string name, std::span<const std::byte> bytes, Content expected);
 
   bool has(std::string_view name) const { return find(name) != nullptr; }
   /// Finds a block. Throws an Error if it is missing, or has another type or element size.
@@ -54,6 +61,7 @@ class Contents {
 
  private:
   const Block* find(std::string_view name) const;
+  void check_all(Content expected);
   void check_header(Content expected) const;
   void check_size(std::uint64_t size) const;
   void check_sum() const;

@@ -383,6 +383,22 @@ void build_objects(const JsonDocument& document, const MeshFolder& folder, const
 
 }  // namespace
 
+Object build_object(const JsonDocument& document, const MeshFolder& folder, std::vector<std::string>& repairs) {
+  Names names;
+  const std::string name = names.of(document, document.root, matter_of(document.root).key);
+  SceneFile file;
+  Object object = object_of(document, {document.root, name, file.scene}, folder, file);
+  repairs = std::move(file.repairs);
+  return object;
+}
+
+std::variant<Collider, MeshCollider> build_collider(const JsonDocument& document, const MeshFolder& folder,
+                                                    std::vector<std::string>& repairs) {
+  Names names;
+  if (document.root.find("mesh") == nullptr) return collider_of(document, document.root, names);
+  return mesh_collider_of(document, document.root, folder, names, repairs);
+}
+
 SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
   const JsonValue& root = document.root;
   SceneFile file;

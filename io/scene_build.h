@@ -1,6 +1,10 @@
 // Makes a Scene of a JSON tree that has been checked.
 #pragma once
 
+#include <string>
+#include <variant>
+#include <vector>
+
 #include "pliant/io.h"
 #include "scene_json.h"
 #include "scene_mesh.h"
@@ -10,6 +14,12 @@ namespace pliant::scene_file {
 /// Builds the scene of a document that passed check() with scene_record(). Throws an Error if values contradict each
 /// other, a mesh cannot be read or used as cloth, a particle does not exist, or a selection is empty.
 SceneFile build(const JsonDocument& document, const MeshFolder& folder);
+
+/// Build one object or collider of a document whose root passed check() with object_record() or collider_record(). Nothing
+/// is around an object, so that its `fill` leaves nothing out.
+Object build_object(const JsonDocument& document, const MeshFolder& folder, std::vector<std::string>& repairs);
+std::variant<Collider, MeshCollider> build_collider(const JsonDocument& document, const MeshFolder& folder,
+                                                    std::vector<std::string>& repairs);
 
 /// An object, with the data that selections of its particles need.
 struct BuiltObject {

@@ -168,6 +168,8 @@ std::vector<std::string> sweep_names() {
   return names;
 }
 
+}  // namespace
+
 const Record& object_record() {
   static const Record result{
       "object",
@@ -236,6 +238,8 @@ const Record& object_record() {
       {"cloth", "soft_body", "rope", "rod", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"}};
   return result;
 }
+
+namespace {
 
 // ------------------------------------------------------------------------------------------------ the rest
 

@@ -57,6 +57,10 @@ struct Record {
 /// The record of a whole scene. It exists as long as the program runs.
 const Record& scene_record();
 
+/// The records of an item of "objects" and of "colliders".
+const Record& object_record();
+const Record& collider_record();
+
 /// All records of the format, the scene first; each before the records that it is the first to use.
 std::vector<const Record*> all_records();
 

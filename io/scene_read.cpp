@@ -16,14 +16,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SceneFile scene_from(std::string text, const std::string& name, const std::string& home, const SceneReadOptions& options) {
-  scene_file::JsonDocument document = scene_file::parse_json(std::move(text), name);
+/// A text, the name that stands for its file in errors, and the folder of its paths.
+struct SourceText {
+  std::string text, name, folder;
+};
+
+/// What a text is: the record that it is checked against, and what builds it.
+template <class Build>
+auto read_as(const scene_file::Record& record, const SourceText& source, const SceneReadOptions& options, Build build) {
+  scene_file::JsonDocument document = scene_file::parse_json(source.text, source.name);
   for (const auto& [pointer, value] : options.values) scene_file::set_value(document, pointer, value);
-  const scene_file::MeshFolder folder{home, options.allow_outside, options.meshes, &options.arrays};
-  scene_file::check(document, scene_file::scene_record());
-  SceneFile file = scene_file::build(document, folder);
+  const scene_file::MeshFolder folder{source.folder, options.allow_outside, options.meshes, &options.arrays};
+  scene_file::check(document, record);
+  auto built = build(document, folder);
   scene_file::check_all_used(document);
-  return file;
+  return built;
+}
+
+SceneFile scene_from(const SourceText& source, const SceneReadOptions& options) {
+  return read_as(scene_file::scene_record(), source, options,
+                 [](const scene_file::JsonDocument& document, const scene_file::MeshFolder& folder) {
+                   return scene_file::build(document, folder);
+                 });
 }
 
 /// Returns the bytes of a regular file. Others are rejected: a pipe may never end, and a device has no size.
@@ -50,7 +64,7 @@ std::string text_of(const std::string& path) {
 
 SceneFile read_scene_file(const std::string& path, const SceneReadOptions& options) {
   const std::string folder = fs::path(path).parent_path().string();
-  return scene_from(text_of(path), path, folder, options);
+  return scene_from({text_of(path), path, folder}, options);
 }
 
 SceneFile read_scene_file(const std::string& path, bool allow_outside) {
@@ -65,7 +79,30 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::s
 
 SceneFile parse_scene_file(const std::string& text, const std::string& name, const std::string& folder,
                            const SceneReadOptions& options) {
-  return scene_from(text, name, folder, options);
+  return scene_from({text, name, folder}, options);
+}
+
+Object parse_object(const std::string& text, const std::string& name, const std::string& folder,
+                    const SceneReadOptions& options, std::vector<std::string>* repairs) {
+  std::vector<std::string> made;
+  Object object = read_as(scene_file::object_record(), {text, name, folder}, options,
+                          [&](const scene_file::JsonDocument& document, const scene_file::MeshFolder& at) {
+                            return scene_file::build_object(document, at, made);
+                          });
+  if (repairs != nullptr) *repairs = std::move(made);
+  return object;
+}
+
+std::variant<Collider, MeshCollider> parse_collider(const std::string& text, const std::string& name,
+                                                    const std::string& folder, const SceneReadOptions& options,
+                                                    std::vector<std::string>* repairs) {
+  std::vector<std::string> made;
+  auto collider = read_as(scene_file::collider_record(), {text, name, folder}, options,
+                          [&](const scene_file::JsonDocument& document, const scene_file::MeshFolder& at) {
+                            return scene_file::build_collider(document, at, made);
+                          });
+  if (repairs != nullptr) *repairs = std::move(made);
+  return collider;
 }
 
 }  // namespace pliant

@@ -11,6 +11,7 @@
 
 #include "apps/command_line/guard.h"
 #include "apps/command_line/usage.h"
+#include "pliant/version.h"
 
 namespace pliant::command {
 

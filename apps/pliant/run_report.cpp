@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "apps/command_line/figure.h"
+#include "io/report_parts.h"
+#include "pliant/version.h"
 
 namespace pliant::command {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using report_parts::Json;
 
 Json constraints_by_type(const World& world) {
   std::map<std::string, std::int64_t> sums;
@@ -33,17 +34,6 @@ Json residuals_json(const World& world) {
     json[residual.type] = {{"constraints", residual.constraints}, {"rms", residual.rms}, {"largest", residual.largest}};
   }
   return json;
-}
-
-Json pairs_json(const PairReport& pairs) {
-  return {{"candidates", pairs.candidates},
-          {"contacts", pairs.contacts},
-          {"initially_intersecting", pairs.initially_intersecting},
-          {"truncated", pairs.truncated},
-          {"unresolvable", pairs.unresolvable},
-          {"rebuilds", pairs.rebuilds},
-          {"inside", pairs.inside},
-          {"deepest", pairs.deepest}};
 }
 
 /// Adds the figures of a frame to `sum`: counts are added up, momentary values replaced.
@@ -69,37 +59,11 @@ Json overstretch_json(const Report& report) {
           {"frame_of_worst_largest", worst.frame_of_largest}};
 }
 
-Json estimate_json(const World& world, const ConvergenceEstimate& of) {
-  const std::vector<ObjectId> objects = world.objects();
-  const bool is_there = std::find(objects.begin(), objects.end(), of.object) != objects.end();
-  return {{"excess", of.excess},
-          {"strain", of.strain},
-          {"object", is_there ? Json(world.object(of.object).info().name) : Json()},
-          {"substeps", of.substeps}};
-}
-
-/// The convergence estimates of the last frame, and the worst of any, by kind; without kinds that the scene lacks.
-Json estimates_json(const World& world, const Report& report) {
-  Json json = Json::object();
-  for (std::size_t k = 0; k < resistance_count; ++k) {
-    const WorstEstimates& worst = report.worst_estimates;
-    if (worst.frames[k] == 0) continue;
-    json[name_of(static_cast<Resistance>(k))] = {{"last", estimate_json(world, report.estimates[k])},
-                                                 {"worst", estimate_json(world, worst.estimates[k])},
-                                                 {"frame_of_worst", worst.frames[k]}};
-  }
-  return json;
-}
-
 /// The rigid tie that was open farthest in any frame; null without one.
 Json tie_json(const World& world, const TieGap& tie, std::int64_t frame) {
-  if (tie.body < 0) return nullptr;
-  return {{"object", world.object(tie.object).info().name},
-          {"particle", tie.particle},
-          {"body", tie.body},
-          {"gap", tie.gap},
-          {"length", tie.length},
-          {"frame", frame}};
+  Json json = report_parts::tie_json(world, tie);
+  if (!json.is_null()) json["frame"] = frame;
+  return json;
 }
 
 /// How much denser than at rest liquids were; null without a liquid.
@@ -120,9 +84,7 @@ Json compression_json(const Scene& scene, const Compression& last, const Compres
 Json flow_json(const Scene& scene, const FlowReport& flow) {
   const auto flows = [](const Object& object) { return object.flow.is_used() || object.absorbency; };
   if (std::none_of(scene.objects.begin(), scene.objects.end(), flows)) return nullptr;
-  return {{"emitted", flow.emitted}, {"drained", flow.drained}, {"expired", flow.expired},
-          {"refused", flow.refused}, {"blocked", flow.blocked}, {"soaked", flow.soaked},
-          {"seeped", flow.seeped},   {"dripped", flow.dripped}, {"present", flow.present}};
+  return report_parts::flow_json(flow);
 }
 
 /// How often what tore, and when at first; null if nothing can tear.
@@ -148,16 +110,6 @@ std::size_t body_count(const Scene& scene) {
   std::size_t count = 0;
   for (const Object& object : scene.objects) count += object.bodies.size();
   return count;
-}
-
-Json nonfinite_json(const Report& report) {
-  if (!report.nonfinite) return nullptr;
-  const NonFinite& found = *report.nonfinite;
-  return {{"object", found.object},
-          {"element", found.element},
-          {"frame", found.frame},
-          {"substep", found.substep},
-          {"message", report.explain()}};
 }
 
 /// Adds the number of substeps, the largest of any object; if objects differ, also that of each. Where they follow the
@@ -291,9 +243,8 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["sleeping_grains"] = last_.sleeping_grains;
   json["constraints"] = constraints_by_type(world);
   json["contacts"] = last_.contacts;
-  json["pairs"] = pairs_json(pairs_);
-  json["lost_momentum"] = {
-      {"filter", lost_momentum_.filter}, {"guards", lost_momentum_.guards}, {"sleep", lost_momentum_.sleep}};
+  json["pairs"] = report_parts::pairs_json(pairs_);
+  json["lost_momentum"] = report_parts::lost_momentum_json(lost_momentum_);
   json["ms_per_frame"] = {{"median", median_milliseconds()}, {"p95", p95_milliseconds()}};
   json["phases_ms"] = Json::object();
   for (const auto& [phase, sum] : phase_sums_) json["phases_ms"][phase] = sum / frames;
@@ -302,13 +253,13 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["mean_stretch"] = stretch.mean;
   json["p99_stretch"] = stretch.p99;
   json["overstretch"] = overstretch_json(last_);
-  json["convergence"] = estimates_json(world, last_);
+  json["convergence"] = report_parts::estimates_json(world, last_);
   json["widest_tie"] = tie_json(world, widest_tie_, frame_of_tie_);
   json["flow"] = flow_json(scene, flow_);
   json["tears"] = tears_json(scene, tears_);
   json["compression"] = compression_json(scene, last_.compression, worst_compression_, frame_of_mean_, frame_of_largest_);
   json["tetrahedra"] = tetrahedra_json(world, worst_tetrahedra_, frame_of_tetrahedra_);
-  json["nonfinite"] = nonfinite_json(last_);
+  json["nonfinite"] = report_parts::nonfinite_json(last_);
   json["warnings"] = warnings(world);
   json["advice"] = advice(world);
   json["threads"] = world.threads();

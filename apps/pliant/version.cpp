@@ -1,4 +1,5 @@
 // pliant version: prints the version.
+#include "pliant/version.h"
 #include "apps/command_line/output.h"
 #include "command.h"
 

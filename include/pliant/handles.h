@@ -47,8 +47,11 @@ class ObjectView {
   ObjectView(const WorldData& world, ObjectId id) : read_(&world), id_(id) {}
   ObjectId id() const { return id_; }
   ObjectInfo info() const;
-  /// The present description of an object with Object::tearing or cuts, which the World changes as it tears; the scene to save the World
-  /// with needs it. Throws an Error for other objects, of which the World keeps none.
+  /// Of info(), without allocation. The name is valid until the object is removed or edited.
+  const std::string& name() const;
+  int particle_count() const;
+  /// The present description of an object with Object::tearing or cuts, which the World changes as it tears; the scene to
+  /// save the World with needs it. Throws an Error for other objects, unless the World was made with KeepDescription.
   const Object& description() const;
 
   /// The positions of the particles in the user's order [m].
@@ -153,7 +156,8 @@ class ColliderView {
  public:
   ColliderView(const WorldData& world, ColliderId id) : read_(&world), id_(id) {}
   ColliderId id() const { return id_; }
-  RigidPose pose() const;  ///< the current pose; its rotation is a unit quaternion
+  const std::string& name() const;  ///< valid until a collider is added or removed
+  RigidPose pose() const;           ///< the current pose; its rotation is a unit quaternion
 
  private:
   const WorldData* read_;
@@ -184,6 +188,8 @@ class MeshColliderView {
  public:
   MeshColliderView(const WorldData& world, MeshColliderId id) : read_(&world), id_(id) {}
   MeshColliderId id() const { return id_; }
+  const std::string& name() const;  ///< valid until the collider is removed
+  int vertex_count() const;
   /// The current positions of the vertices in the mesh's own order [m].
   std::vector<Vec3f> positions() const;
   /// Copies them into the caller's memory. Throws an Error if the size differs.

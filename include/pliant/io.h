@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "pliant/gauges.h"
@@ -101,8 +102,23 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::s
 SceneFile parse_scene_file(const std::string& text, const std::string& name, const std::string& folder,
                            const SceneReadOptions& options = {});
 
+/// Reads one object or collider from JSON text: an item of "objects" or of "colliders" of the scene format, for
+/// World::add or Scene::add. `name`, `folder` and `options` as of parse_scene_file. An object's `fill` leaves out nothing,
+/// since nothing is known of what is around it. `repairs`, if not null, receives those of its meshes. Throws an Error as
+/// parse_scene_file does.
+Object parse_object(const std::string& text, const std::string& name = "object", const std::string& folder = ".",
+                    const SceneReadOptions& options = {}, std::vector<std::string>* repairs = nullptr);
+std::variant<Collider, MeshCollider> parse_collider(const std::string& text, const std::string& name = "collider",
+                                                    const std::string& folder = ".", const SceneReadOptions& options = {},
+                                                    std::vector<std::string>* repairs = nullptr);
+
 /// Returns the JSON Schema (2020-12) of the scene format as text.
 std::string scene_schema();
+
+/// A Report as one line of JSON, with the names of the objects of its World. Its members are those of Report, in snake
+/// case as there; `residuals` and `phases` are objects by type and phase, `nonfinite` and `widest_tie` null if there is
+/// none. A number that is not finite is null.
+std::string report_json(const Report& report, const World& world);
 
 /// Options of read_urdf.
 struct UrdfOptions {

@@ -6,6 +6,7 @@
 #include "pliant/cluster.h"
 #include "pliant/constraint.h"
 #include "pliant/decompose.h"
+#include "pliant/describe.h"
 #include "pliant/edit.h"
 #include "pliant/error.h"
 #include "pliant/gas.h"
@@ -34,4 +35,5 @@
 #include "pliant/substep_bounds.h"
 #include "pliant/surface.h"
 #include "pliant/vec3.h"
+#include "pliant/version.h"
 #include "pliant/world.h"

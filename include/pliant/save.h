@@ -5,7 +5,10 @@
 // docs/reference/save-format.md describes the format.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "pliant/scene.h"
 #include "pliant/world.h"
@@ -52,6 +55,9 @@ void save(const std::string& path, const World& world, const Scene& scene);
 /// Writes a World with the fingerprint of the scene that it was made from.
 void save(const std::string& path, const World& world, const Scene& scene, const Fingerprint& of);
 
+/// Writes a World that was made with KeepDescription, as it is. Throws an Error if it was not.
+void save(const std::string& path, const World& world);
+
 /// A World that was loaded, and the scene that it was saved with; its settings are the World's.
 struct LoadedWorld {
   Scene scene;
@@ -59,10 +65,23 @@ struct LoadedWorld {
 };
 
 /// Reads a World. All ids that were valid when it was saved are valid in it. Throws as load_state does.
+/// The World keeps its description, so that it can be saved again.
 LoadedWorld load_world(const std::string& path);
 
 /// Reads a World that was made from a scene of this fingerprint; throws an Error if it was not, or if the file does not say so. Its settings
 /// are `settings`, which may differ from the saved ones in what changes no bits, such as threads.
 LoadedWorld load_world(const std::string& path, const Fingerprint& of, const Settings& settings);
+
+// ---- The same in memory: the bytes of such a file, for databases, networks and other languages.
+
+std::vector<std::byte> save_bytes(const State& state);
+std::vector<std::byte> save_bytes(const State& state, const Fingerprint& of);
+std::vector<std::byte> save_bytes(const World& world, const Scene& scene);
+std::vector<std::byte> save_bytes(const World& world);
+
+/// Reads what save_bytes returned, or save() wrote. Throws an Error as load_state does, which names `name` instead of a path.
+State load_state_bytes(std::span<const std::byte> bytes, const std::string& name = "bytes");
+State load_state_bytes(std::span<const std::byte> bytes, const Fingerprint& of, const std::string& name = "bytes");
+LoadedWorld load_world_bytes(std::span<const std::byte> bytes, const std::string& name = "bytes");
 
 }  // namespace pliant

@@ -3,7 +3,9 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pliant/edit.h"
@@ -32,6 +34,9 @@ struct WorldLayout {
   bool sweep_is_open = false, substeps_are_open = false;
 };
 
+/// Asks a World to keep the descriptions of all that is in it (World::description).
+struct KeepDescription {};
+
 /// A simulation to step, change and read. Over thirty members, because what can be added, removed and found is overloaded
 /// for objects, colliders and mesh colliders, and because it can be made in five ways.
 class World {
@@ -45,6 +50,10 @@ class World {
   /// Makes a World as it was after additions and removals. The scene describes its objects in the order of objects(),
   /// colliders() and mesh_colliders(), with its settings. Also throws an Error if scene and layout do not fit together.
   World(const Scene& scene, const WorldLayout& layout);
+  /// Do the same, and keep the descriptions of all objects and colliders, so that description() returns them at any time.
+  /// They take as much memory as the scene.
+  World(const Scene& scene, KeepDescription keep);
+  World(const Scene& scene, const WorldLayout& layout, KeepDescription keep);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
@@ -98,11 +107,24 @@ class World {
 
   WorldLayout layout() const;
 
+  /// True if the World was made with KeepDescription.
+  bool keeps_description() const;
+  /// A scene of the present contents: as given, added and edited, in the order of objects(), colliders() and
+  /// mesh_colliders(), and objects that come apart as they are now. It has the settings of the scene that the World was made
+  /// from. Together with layout() and state() it makes the same World again. Throws an Error if the World was not made with
+  /// KeepDescription.
+  Scene description() const;
+
   /// The ids of the existing objects, ordered by slot. If none was removed, they are 0, 1, ...
   std::vector<ObjectId> objects() const;
   std::vector<ColliderId> colliders() const;
   std::vector<MeshColliderId> mesh_colliders() const;
   int object_count() const;
+
+  /// Finds an object or collider by its name. Empty if none has it; the first by slot if several have it.
+  std::optional<ObjectId> find(std::string_view object) const;
+  std::optional<ColliderId> find_collider(std::string_view name) const;
+  std::optional<MeshColliderId> find_mesh_collider(std::string_view name) const;
 
   // ---- Reading and control, between steps (handles.h, measurements.h).
 

@@ -1,6 +1,7 @@
 // A table of the ids of one kind of thing (objects, colliders) and the World's internal numbers for them.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -75,6 +76,14 @@ class IdTable {
     for (int slot = 0; slot < static_cast<int>(slots_.size()); ++slot)
       if (slots_[slot].number == number) return Id<Kind>(slot, slots_[slot].generation);
     return {};
+  }
+
+  /// The first id, by slot, whose internal number passes; empty if none does.
+  template <class Passes>
+  std::optional<Id<Kind>> first(Passes passes) const {
+    for (int slot = 0; slot < static_cast<int>(slots_.size()); ++slot)
+      if (slots_[slot].number != none && passes(slots_[slot].number)) return Id<Kind>(slot, slots_[slot].generation);
+    return std::nullopt;
   }
 
   std::vector<Id<Kind>> all() const {

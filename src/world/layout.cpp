@@ -45,18 +45,6 @@ std::vector<int> numbers_in(const std::vector<WorldLayout::Slot>& slots, std::si
   return numbers;
 }
 
-/// Copies a scene without its objects and colliders.
-Scene without_things(const Scene& scene) {
-  Scene rest;
-  rest.gravity = scene.gravity;
-  rest.wind = scene.wind;
-  rest.forces = scene.forces;
-  rest.pairs = scene.pairs;
-  rest.settings = scene.settings;
-  rest.frame_time = scene.frame_time;
-  return rest;
-}
-
 /// Removes the pairs that name an object that is missing. A World keeps these for an object of that name added later.
 Scene without_pairs_of_others(const Scene& scene) {
   std::set<std::string> names;
@@ -78,6 +66,18 @@ void require_place(const StateBlock& block, int first_frame, const CompiledObjec
 }
 
 }  // namespace
+
+Scene without_things(const Scene& scene) {
+  Scene rest;
+  rest.gravity = scene.gravity;
+  rest.wind = scene.wind;
+  rest.forces = scene.forces;
+  rest.pairs = scene.pairs;
+  rest.settings = scene.settings;
+  rest.frame_time = scene.frame_time;
+  rest.frames = scene.frames;
+  return rest;
+}
 
 WorldData::WorldData(const Scene& scene, const WorldLayout& layout)
     : WorldData(without_things(scene), scene.settings, scene.settings) {

@@ -143,7 +143,9 @@ ColliderId World::add(const Collider& collider) {
   data_->state.rest_times.clear();  // bodies may be where it is
   wake_all_grains(*data_);
   prepare_shape_contacts(*data_);
-  return data_->ids.colliders.add(static_cast<int>(data_->model.colliders.size()) - 1);
+  const ColliderId id = data_->ids.colliders.add(static_cast<int>(data_->model.colliders.size()) - 1);
+  if (data_->kept_scene) data_->kept_scene->colliders[id.slot] = collider;
+  return id;
 }
 
 MeshColliderId World::add(const MeshCollider& collider) {
@@ -155,7 +157,9 @@ MeshColliderId World::add(const MeshCollider& collider) {
   refuse_intersections(*data_, compiled, masks, collider.as == MeshCollider::As::distance_grid);
   const int number = add_to_model(*data_, collider, std::move(compiled));
   place_object(*data_, number);
-  return data_->ids.mesh_colliders.add(number);
+  const MeshColliderId id = data_->ids.mesh_colliders.add(number);
+  if (data_->kept_scene) data_->kept_scene->mesh_colliders[id.slot] = collider;
+  return id;
 }
 
 namespace {
@@ -219,6 +223,7 @@ void World::remove(ColliderId collider) {
   forget_touching(*data_, collider);
   forget_contacts_of_collider(*data_, number);
   data_->ids.colliders.remove(collider);
+  if (data_->kept_scene) data_->kept_scene->colliders.erase(collider.slot);
   data_->ids.colliders.close_gap(number);
   data_->model.colliders.erase(data_->model.colliders.begin() + number);
   data_->state.rest_times.clear();  // what lay on it wakes
@@ -236,6 +241,7 @@ void World::remove(MeshColliderId collider) {
   forget_surface_velocities(*data_, SurfaceVelocity::Of::mesh_collider, collider.slot);
   forget_touching(*data_, collider);
   data_->ids.mesh_colliders.remove(collider);
+  if (data_->kept_scene) data_->kept_scene->mesh_colliders.erase(collider.slot);
 }
 
 bool World::has(ObjectId object) const { return data_->ids.objects.has(object); }
@@ -245,6 +251,16 @@ bool World::has(MeshColliderId collider) const { return data_->ids.mesh_collider
 std::vector<ObjectId> World::objects() const { return data_->ids.objects.all(); }
 std::vector<ColliderId> World::colliders() const { return data_->ids.colliders.all(); }
 std::vector<MeshColliderId> World::mesh_colliders() const { return data_->ids.mesh_colliders.all(); }
+
+std::optional<ObjectId> World::find(std::string_view object) const {
+  return data_->ids.objects.first([&](int number) { return data_->model.objects[number].name == object; });
+}
+std::optional<ColliderId> World::find_collider(std::string_view name) const {
+  return data_->ids.colliders.first([&](int number) { return data_->model.colliders[number].name == name; });
+}
+std::optional<MeshColliderId> World::find_mesh_collider(std::string_view name) const {
+  return data_->ids.mesh_colliders.first([&](int number) { return data_->model.objects[number].name == name; });
+}
 
 int World::object_count() const { return data_->ids.objects.count(); }
 

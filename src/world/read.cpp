@@ -62,6 +62,9 @@ ObjectInfo ObjectView::info() const {
   return info;
 }
 
+const std::string& ObjectView::name() const { return read_->object(id_).name; }
+int ObjectView::particle_count() const { return read_->object(id_).user_particles; }
+
 std::vector<Vec3f> ObjectView::positions() const {
   return in_given_order(*read_, read_->number(id_), read_->state.positions);
 }
@@ -161,6 +164,15 @@ TriangleMesh ObjectView::mesh() const {
 RigidPose ColliderView::pose() const {
   const auto pose = convert<float>(pose_now(*read_, id_));
   return {pose.position, pose.rotation};
+}
+
+const std::string& ColliderView::name() const { return read_->collider(id_).name; }
+
+const std::string& MeshColliderView::name() const {
+  return read_->model.objects[read_->ids.mesh_colliders.number(id_)].name;
+}
+int MeshColliderView::vertex_count() const {
+  return read_->model.objects[read_->ids.mesh_colliders.number(id_)].user_particles;
 }
 
 std::vector<Vec3f> MeshColliderView::positions() const {

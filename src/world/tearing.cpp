@@ -232,7 +232,7 @@ void tear_object(WorldData& world, ObjectId id, Report& report) {
 }  // namespace
 
 void keep_description(WorldData& world, int slot, const Object* object) {
-  if (object == nullptr || !comes_apart(*object)) {
+  if (object == nullptr || !(world.kept_scene || comes_apart(*object))) {
     world.descriptions.erase(slot);
     return;
   }
@@ -240,7 +240,7 @@ void keep_description(WorldData& world, int slot, const Object* object) {
 }
 
 void keep_description(WorldData& world, int slot, Object&& object) {
-  if (comes_apart(object))
+  if (world.kept_scene || comes_apart(object))
     world.descriptions[slot] = std::move(object);
   else
     world.descriptions.erase(slot);
@@ -250,7 +250,7 @@ void tear_objects(WorldData& world, Report& report) {
   if (world.descriptions.empty()) return;
   for (const ObjectId id : world.ids.objects.all()) {
     const auto found = world.descriptions.find(id.slot);
-    if (found == world.descriptions.end()) continue;
+    if (found == world.descriptions.end() || !comes_apart(found->second)) continue;
     try {
       tear_object(world, id, report);
     } catch (const std::exception& error) {  // it stays whole
@@ -264,7 +264,7 @@ const Object& ObjectView::description() const {
   const auto found = read_->descriptions.find(id_.slot);
   if (found == read_->descriptions.end())
     throw Error({.object = name}, "has no description in the World",
-                "keep the Object that you added; only those that tear or are cut are kept");
+                "make the World with KeepDescription, or keep the Object that you added");
   return found->second;
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,6 +59,13 @@ struct WorldEvents {
   std::vector<ContactEvent> of_last_step;
 };
 
+/// What a World keeps, beside the descriptions of objects, if it was made with KeepDescription.
+struct KeptScene {
+  Scene rest;                                  ///< the scene without objects and colliders
+  std::map<int, Collider> colliders;           ///< by slot of their id
+  std::map<int, MeshCollider> mesh_colliders;  ///< by slot of their id
+};
+
 struct WorldData {
   /// `with` are the settings chosen where those given are open. If `given_away` is not null, it is `scene`; its objects
   /// are freed as soon as they are compiled.
@@ -82,12 +90,17 @@ struct WorldData {
   OverstretchRecord overstretch;
   ConvergenceRecord convergence;
   WorldEvents events;
-  std::map<int, Object> descriptions;       ///< of objects that tear or are cut, by slot of their id
+  std::map<int, Object>
+      descriptions;  ///< by slot of their id: of objects that come apart, or of all if `kept_scene` is there
+  std::optional<KeptScene> kept_scene;
   std::vector<std::string> warnings;        ///< for the Report of the next step
   bool stopped = false;                     ///< true after a value that is not finite, until a State is restored
   const std::atomic<bool>* stop = nullptr;  ///< flag given to World::stop_when
   bool may_drift = false;  ///< fixed particles may have a velocity from a frame in which the user moved them
 };
+
+/// Copies a scene without its objects and colliders; defined in layout.cpp.
+Scene without_things(const Scene& scene);
 
 /// The substeps that the user named; 0: none, so that each set of objects has its own.
 inline int named_substeps(const WorldData& world) { return world.open.substeps ? 0 : world.settings.substeps; }

@@ -345,11 +345,11 @@ TEST(Save, EveryCutAndEveryFlippedBitIsRefused) {
   }
   test::put(path, whole + "x");
   EXPECT_NE(reason([&] { load_state(path); }).find("header says"), std::string::npos);
-  for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
-    std::string bytes = whole;
-    bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
-    test::put(path, bytes);
-    ASSERT_EQ(reason([&] { load_state(path); }).rfind(path + ": ", 0), 0u) << "bit " << bit;
+  std::vector<std::byte> bytes = save_bytes(state);  // the same as in the file, and faster to read
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    bytes[bit / 8] ^= std::byte(1 << (bit % 8));
+    ASSERT_EQ(reason([&] { load_state_bytes(bytes, "it"); }).rfind("it: ", 0), 0u) << "bit " << bit;
+    bytes[bit / 8] ^= std::byte(1 << (bit % 8));
   }
 }
 

@@ -1,0 +1,7 @@
+#include "pliant/version.h"
+
+namespace pliant {
+
+std::string version() { return PLIANT_VERSION; }
+
+}  // namespace pliant
