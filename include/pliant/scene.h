@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -147,9 +148,32 @@ struct Wind {
 
 /// A force on each particle [N], computed from its position [m], velocity [m/s], mass [kg] and the time [s]. Use no
 /// function of libm if a run must give the same bits on other machines.
+///
+/// Or a force on all particles of an object at once (on_arrays).
 struct ForceField {
   using Function = std::function<Vec3f(const Vec3f& position, const Vec3f& velocity, float mass, float time)>;
   Function function;
+
+  /// What a force on arrays gets, in the order in which the user described the particles, and gives.
+  struct Arrays {
+    std::string_view object;                       ///< its name
+    std::span<const Vec3f> positions, velocities;  ///< [m], [m/s]
+    std::span<const float> masses;                 ///< infinite for kinematic particles, whose force has no effect [kg]
+    double time = 0;                               ///< [s]
+    std::span<Vec3f> forces;                       ///< to be set; zero at the call [N]
+  };
+  using ArrayFunction = std::function<void(const Arrays&)>;
+  /// Called once for each object and substep. Arrays are valid during the call.
+  ArrayFunction array_function{};
+
+  /// A force on arrays.
+  static ForceField on_arrays(ArrayFunction f, bool may_run_on_all_threads = false) {
+    ForceField field;
+    field.array_function = std::move(f);
+    field.on_all_threads = may_run_on_all_threads;
+    return field;
+  }
+
   /// True if calls may be concurrent and in any order, because the force depends on the arguments alone. If all fields
   /// of a scene are so, they run on all threads, with the same bits; otherwise on one thread in particle order.
   bool on_all_threads = false;
@@ -159,7 +183,7 @@ struct ForceField {
   requires(!std::same_as<std::remove_cvref_t<F>, ForceField> && std::constructible_from<Function, F>)
       ForceField(F&& f, bool may_run_on_all_threads = false)  // NOLINT: any callable is one, `requires` excludes copies
       : function(std::forward<F>(f)), on_all_threads(may_run_on_all_threads) {}
-  explicit operator bool() const { return static_cast<bool>(function); }
+  explicit operator bool() const { return function != nullptr || array_function != nullptr; }
   Vec3f operator()(const Vec3f& position, const Vec3f& velocity, float mass, float time) const {
     return function(position, velocity, mass, time);
   }

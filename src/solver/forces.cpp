@@ -70,18 +70,61 @@ struct LeftOut {
   int particle = -1, field = -1;
 };
 
-/// Applies all fields in turn to one particle; each sees the velocity that earlier ones left. Returns the first
-/// non-finite force.
-LeftOut apply_fields(const Model& model, const Record& x, const Vec3f& gravity, float h, double time, int user, Record& v) {
+/// Fields one after another in Model::forces, all of which take one particle.
+struct FieldRun {
+  std::size_t first = 0, last = 0;
+};
+
+/// What a field acts on: the particles of an object, and the part of gravity that velocities do not include yet.
+struct FieldTarget {
+  const CompiledObject& object;
+  const Record* positions;
+  Record* velocities;
+  Vec3f gravity;
+  double time;
+  float h;
+};
+
+/// Applies fields in turn to one particle; each sees the velocity that earlier ones left. Returns the first non-finite
+/// force.
+LeftOut apply_fields(const Model& model, FieldRun run, const FieldTarget& to, int i, int user) {
   LeftOut first;
+  const Record& x = to.positions[i];
+  Record& v = to.velocities[i];
   if (x.w == 0) return first;
-  for (std::size_t f = 0; f < model.forces.size(); ++f) {
-    const Vec3f force = model.forces[f](xyz(x), xyz(v) + gravity, 1 / x.w, static_cast<float>(time));
+  for (std::size_t f = run.first; f < run.last; ++f) {
+    const Vec3f force = model.forces[f](xyz(x), xyz(v) + to.gravity, 1 / x.w, static_cast<float>(to.time));
     if (is_finite(force)) {
-      push(v, force * (h * x.w));
+      push(v, force * (to.h * x.w));
     } else if (first.field < 0) {
       first = {user, static_cast<int>(f)};
     }
+  }
+  return first;
+}
+
+/// Applies a field to all particles of an object at once.
+LeftOut apply_array_field(const Model& model, int field, const FieldTarget& to) {
+  const auto count = static_cast<std::size_t>(to.object.user_particles);
+  std::vector<Vec3f> positions(count), velocities(count), forces(count);
+  std::vector<float> masses(count);
+  for (std::size_t user = 0; user < count; ++user) {
+    const int i = to.object.place[user];
+    positions[user] = xyz(to.positions[i]);
+    velocities[user] = xyz(to.velocities[i]) + to.gravity;
+    masses[user] = 1 / to.positions[i].w;
+  }
+  model.forces[static_cast<std::size_t>(field)].array_function(
+      {to.object.name, positions, velocities, masses, to.time, forces});
+  LeftOut first;
+  for (std::size_t user = 0; user < count; ++user) {
+    const int i = to.object.place[user];
+    const float w = to.positions[i].w;
+    if (w == 0) continue;
+    if (is_finite(forces[user]))
+      push(to.velocities[i], forces[user] * (to.h * w));
+    else if (first.field < 0)
+      first = {static_cast<int>(user), field};
   }
   return first;
 }
@@ -92,28 +135,25 @@ void warn_of(const LeftOut& force, const CompiledObject& object, std::vector<std
                      std::to_string(force.particle) + " of object '" + object.name + "' and was skipped there");
 }
 
-/// Applies all fields to an object's particles in the user's order, on one thread.
-LeftOut apply_in_order(const Model& model, const CompiledObject& object, const Record* positions, Record* velocities,
-                       const Vec3f& gravity, double time, float h) {
+/// Applies fields to an object's particles in the user's order, on one thread.
+LeftOut apply_in_order(const Model& model, FieldRun run, const FieldTarget& to) {
   LeftOut first;
-  for (int user = 0; user < object.user_particles; ++user) {
-    const int i = object.place[user];
-    const LeftOut one = apply_fields(model, positions[i], gravity, h, time, user, velocities[i]);
+  for (int user = 0; user < to.object.user_particles; ++user) {
+    const LeftOut one = apply_fields(model, run, to, to.object.place[user], user);
     if (first.field < 0) first = one;
   }
   return first;
 }
 
-/// Applies all fields to an object's particles tile by tile, on all threads. Particles are independent, so bits are the
-/// same.
-LeftOut apply_by_tiles(const Model& model, const CompiledObject& object, const Record* positions, Record* velocities,
-                       const Vec3f& gravity, double time, float h, Executor& executor) {
+/// Applies fields to an object's particles tile by tile, on all threads. Particles are independent, so bits are the same.
+LeftOut apply_by_tiles(const Model& model, FieldRun run, const FieldTarget& to, Executor& executor) {
+  const CompiledObject& object = to.object;
   std::vector<LeftOut> of_tiles(object.tiles.size());
   executor.parallel_for("forces: fields", static_cast<int>(object.tiles.size()), [&](int tile) {
     for (int i = object.tiles[tile].first_particle; i < object.tiles[tile].last_particle; ++i) {
       const int user = object.order[i];
       if (user >= object.user_particles) continue;
-      const LeftOut one = apply_fields(model, positions[i], gravity, h, time, user, velocities[i]);
+      const LeftOut one = apply_fields(model, run, to, i, user);
       LeftOut& first = of_tiles[tile];
       if (one.field >= 0 && (first.field < 0 || one.particle < first.particle)) first = one;
     }
@@ -124,6 +164,24 @@ LeftOut apply_by_tiles(const Model& model, const CompiledObject& object, const R
   return first;
 }
 
+/// Applies all fields to an object: those for single particles that follow one another together.
+void apply_fields(const Model& model, const FieldTarget& to, bool on_all_threads, Executor& executor,
+                  std::vector<std::string>& warnings) {
+  for (FieldRun run; run.first < model.forces.size(); run.first = run.last) {
+    run.last = run.first;
+    while (run.last < model.forces.size() && !model.forces[run.last].array_function) ++run.last;
+    if (run.last == run.first) {
+      Stopwatch watch(executor.timings(), "forces: fields");
+      warn_of(apply_array_field(model, static_cast<int>(run.last++), to), to.object, warnings);
+    } else if (on_all_threads) {
+      warn_of(apply_by_tiles(model, run, to, executor), to.object, warnings);
+    } else {
+      Stopwatch watch(executor.timings(), "forces: fields");
+      warn_of(apply_in_order(model, run, to), to.object, warnings);
+    }
+  }
+}
+
 void apply_fields(const Model& model, State& state, Executor& executor, double time, float h,
                   FunctionRef<Vec3f(int)> gravity, EachObject each, std::vector<std::string>& warnings) {
   const bool on_all_threads =
@@ -131,15 +189,10 @@ void apply_fields(const Model& model, State& state, Executor& executor, double t
   each([&](int o) {
     const CompiledObject& object = model.objects[o];
     if (object.is_collider) return;
-    const Vec3f gravity_so_far = gravity(o);
-    const Record* positions = state.positions.data() + model.first[o];
-    Record* velocities = state.velocities.data() + model.first[o];
-    if (on_all_threads) {
-      warn_of(apply_by_tiles(model, object, positions, velocities, gravity_so_far, time, h, executor), object, warnings);
-    } else {
-      Stopwatch watch(executor.timings(), "forces: fields");
-      warn_of(apply_in_order(model, object, positions, velocities, gravity_so_far, time, h), object, warnings);
-    }
+    apply_fields(model,
+                 {object, state.positions.data() + model.first[o], state.velocities.data() + model.first[o], gravity(o),
+                  time, h},
+                 on_all_threads, executor, warnings);
   });
 }
 

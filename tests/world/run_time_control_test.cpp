@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -267,6 +268,42 @@ TEST(ForceFields, OnAllThreadsGiveTheSameBits) {
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(words[0], words[1]);
   EXPECT_NE(words[0].find("force field 2"), std::string::npos) << words[0];
+}
+
+TEST(ForceFields, OnArraysGiveTheBitsOfThoseOnParticles) {
+  const auto swirl = [](const Vec3f& x, const Vec3f& v, float mass, float time) {
+    return Vec3f{-x.z * mass * 3, mass * time - v.y * 0.001f, x.x * mass * 3};
+  };
+  const auto drag = [](const Vec3f&, const Vec3f& v, float mass, float) { return v * (-0.5f * mass); };
+  const auto spoilt = [](const Vec3f& x, const Vec3f&, float, float) { return Vec3f{x.x > 0.4f ? nan : 0, 0, 0}; };
+  const auto on_arrays = [](auto force) {
+    return ForceField::on_arrays([force](const ForceField::Arrays& of) {
+      EXPECT_TRUE(of.object == "cloth" || of.object == "rope");
+      for (std::size_t i = 0; i < of.forces.size(); ++i)
+        if (std::isfinite(of.masses[i]))
+          of.forces[i] = force(of.positions[i], of.velocities[i], of.masses[i], static_cast<float>(of.time));
+    });
+  };
+  const std::vector<std::vector<ForceField>> ways{{ForceField(swirl), ForceField(drag), ForceField(spoilt)},
+                                                  {on_arrays(swirl), on_arrays(drag), on_arrays(spoilt)},
+                                                  {ForceField(swirl), on_arrays(drag), ForceField(spoilt, true)}};
+  std::set<std::string> hashes, words;
+  for (const std::vector<ForceField>& way : ways) {
+    Scene scene;
+    scene.settings = settings_of(4);
+    const int cloth = scene.add_cloth(grid_mesh(12, 12, 1, 1));
+    scene.pin(cloth, {0, 11});
+    Object rope = chain(20, 0.1f);
+    rope.name = "rope";
+    scene.add(rope);
+    scene.forces = way;
+    World world(scene);
+    for (int frame = 0; frame < 5; ++frame) words.insert(world.step(dt).explain());
+    hashes.insert(world.state_hash());
+  }
+  EXPECT_EQ(hashes.size(), 1u);
+  EXPECT_EQ(words.size(), 1u) << *words.begin() << *words.rbegin();
+  EXPECT_NE(words.begin()->find("force field 2"), std::string::npos) << *words.begin();
 }
 
 }  // namespace
