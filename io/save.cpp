@@ -47,7 +47,7 @@ template <class T>
 std::string bytes_of(const T& of) {
   std::string bytes;
   Output out([&](const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); }, Take::all);
-  out(of);
+  out("", of);
   return bytes;
 }
 
@@ -55,7 +55,7 @@ template <class T>
 T read_bytes(const Contents& from, std::string_view name) {
   T of;
   Input in(from.text(name));
-  in(of);
+  in("", of);
   if (!in.complete()) from.fail(fmt::format("is malformed: its block '{}' cannot be read", name), "use an earlier file");
   return of;
 }
@@ -203,7 +203,7 @@ template <class T, class... More>
 std::string hash_of(const T& of, const More&... more) {
   Sha256 sha;
   Output out([&](const void* data, std::size_t size) { sha.add(data, size); }, Take::deciding);
-  out(of, more...);
+  out("", of, more...);
   return sha.finish();
 }
 

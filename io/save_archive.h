@@ -38,11 +38,11 @@ class Output {
   Output(Sink sink, Take take) : sink_(std::move(sink)), take_(take) {}
 
   template <class... T>
-  void operator()(const T&... values) {
+  void operator()(const char* /*names*/, const T&... values) {
     (put(values), ...);
   }
   template <class... T>
-  void aside(const T&... values) {
+  void aside(const char* /*names*/, const T&... values) {
     if (take_ == Take::all) (put(values), ...);
   }
 
@@ -94,11 +94,11 @@ class Input {
   explicit Input(std::string_view bytes) : left_(bytes) {}
 
   template <class... T>
-  void operator()(T&... values) {
+  void operator()(const char* /*names*/, T&... values) {
     (get(values), ...);
   }
   template <class... T>
-  void aside(T&... values) {
+  void aside(const char* /*names*/, T&... values) {
     (get(values), ...);
   }
   /// True if all bytes were valid and all have been read.
@@ -111,7 +111,7 @@ class Input {
   void get(bool& value) { value = small(1) != 0; }
   template <class E>
   requires std::is_enum_v<E>
-  void get(E& value) { value = static_cast<E>(small(last_value(E{}))); }
+  void get(E& value) { value = static_cast<E>(small(static_cast<int>(words(E{}).size()) - 1)); }
   void get(std::string& text) {
     text.resize(count(1));
     copy(text.data(), text.size());

@@ -246,9 +246,9 @@ void JsonDocument::fail_key(const JsonValue& at, const std::string& problem, con
   throw Error(place, problem, advice);
 }
 
-JsonDocument parse_json(std::string text, std::string name) {
-  if (text.size() > largest_text)
-    throw Error({name, 0, {}, {}}, "longer than " + std::to_string(largest_text >> 20) + " MiB",
+JsonDocument parse_json(std::string text, std::string name, std::size_t most) {
+  if (text.size() > most)
+    throw Error({name, 0, {}, {}}, "longer than " + std::to_string(most >> 20) + " MiB",
                 "put geometry into mesh files beside the scene");
   constexpr const char* mark = "\xEF\xBB\xBF";
   if (text.compare(0, 3, mark) == 0) text.erase(0, 3);

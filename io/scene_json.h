@@ -52,9 +52,9 @@ constexpr std::size_t largest_text =
 constexpr int deepest_nesting = 64;
 
 /// Parses RFC 8259 strictly, after an optional byte order mark: no comments or trailing commas, valid UTF-8, numbers in
-/// the range of double, at most `deepest_nesting` nested values and `largest_text` bytes. Repeated member names are
+/// the range of double, at most `deepest_nesting` nested values and `most` bytes. Repeated member names are
 /// kept, as the standard allows. Throws an Error with line and column.
-JsonDocument parse_json(std::string text, std::string name);
+JsonDocument parse_json(std::string text, std::string name, std::size_t most = largest_text);
 
 /// Sets the value that a JSON pointer (RFC 6901) names; "-" appends to an array, and members that are not there are
 /// added. `value` is JSON, or text that is none and stands for itself. Throws an Error if the pointer is none, or leads

@@ -189,10 +189,10 @@ void apply_fields(const Model& model, State& state, Executor& executor, double t
   each([&](int o) {
     const CompiledObject& object = model.objects[o];
     if (object.is_collider) return;
-    apply_fields(model,
-                 {object, state.positions.data() + model.first[o], state.velocities.data() + model.first[o], gravity(o),
-                  time, h},
-                 on_all_threads, executor, warnings);
+    apply_fields(
+        model,
+        {object, state.positions.data() + model.first[o], state.velocities.data() + model.first[o], gravity(o), time, h},
+        on_all_threads, executor, warnings);
   });
 }
 
