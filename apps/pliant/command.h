@@ -44,6 +44,20 @@ struct RenderOptions {
 /// Draws a scene after some frames, or a movie of all frames.
 int render(const RenderOptions& options);
 
+struct StudyOptions {
+  std::string scene;
+  Overrides overrides;
+  std::vector<std::string> vary;      ///< "pointer=a,b,c": the members of the scene to vary, and their values
+  std::vector<std::string> measures;  ///< JSON pointers into the report of a run; each is a column of the table
+  std::string out;                    ///< file for the table as CSV; rows that it has are kept
+  std::string pictures;               ///< file (.png) for a picture of the last frame of each variant; empty: none
+  int jobs = 0;                       ///< how many variants run side by side; 0: as many as there are hardware threads
+  bool quiet = false;
+};
+
+/// Simulates a scene once for each combination of values. Returns 1 if a variant failed.
+int study(const StudyOptions& options);
+
 struct CheckOptions {
   std::string path;                 ///< a scene (.json) or a mesh file
   double seconds = 3;               ///< approximate time for trial runs [s]; 0: none

@@ -105,6 +105,30 @@ void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
   render_app->callback([&] { chosen = [&] { return render(options); }; });
 }
 
+void add_study(CLI::App& app, StudyOptions& options, Chosen& chosen) {
+  CLI::App* study_app = app.add_subcommand("study", "Simulate a scene with many values of its members, into a table");
+  study_app->add_option("SCENE", options.scene, "scene file (JSON)")->required();
+  study_app->add_option("--vary", options.vary, "values of a member of the scene: /settings/substeps=10,20; repeatable")
+      ->type_name("POINTER=VALUES")
+      ->allow_extra_args(false)
+      ->required();
+  study_app->add_option("--out", options.out, "table (CSV) with a row for each combination; rows that it has are kept")
+      ->type_name("FILE")
+      ->required();
+  study_app->add_option("--measure", options.measures, "member of the report of a run as a column: /contacts; repeatable")
+      ->type_name("POINTER")
+      ->allow_extra_args(false);
+  study_app->add_option("--pictures", options.pictures, "picture (.png) of the last frame of each variant")
+      ->type_name("FILE");
+  study_app->add_option("--jobs", options.jobs, "variants that run side by side; 0: one for each hardware thread")
+      ->type_name("N")
+      ->check(range(0, most_threads))
+      ->capture_default_str();
+  add_overrides(*study_app, options.overrides);
+  study_app->add_flag("--quiet", options.quiet, "print nothing unless something goes wrong");
+  study_app->callback([&] { chosen = [&] { return study(options); }; });
+}
+
 void add_check(CLI::App& app, CheckOptions& options, Chosen& chosen) {
   CLI::App* check_app = app.add_subcommand("check", "Report errors and doubtful settings of a scene or a mesh");
   check_app->add_option("FILE", options.path, "scene (.json) or mesh (.obj, .ply, .stl)")->required();
@@ -142,9 +166,11 @@ int main(int argc, char** argv) {
   Chosen chosen;
   RunOptions run_options;
   RenderOptions render_options;
+  StudyOptions study_options;
   CheckOptions check_options;
   add_run(app, run_options, chosen);
   add_render(app, render_options, chosen);
+  add_study(app, study_options, chosen);
   add_check(app, check_options, chosen);
   add_measure_subcommands(app);
   app.add_subcommand("schema", "Print the JSON Schema of the scene format")->callback([&] { chosen = schema; });

@@ -47,7 +47,8 @@ TEST_F(Command, SetsMembersOfAScene) {
 TEST_F(Command, UsageErrorsGiveTwo) {
   expect_refused("", 2, "no subcommand");
   expect_refused("fly", 2, "fly");
-  expect_refused("rnu small.json", 2, "did you mean 'run'? the subcommands are run, render, check, validate, bench, ");
+  expect_refused("rnu small.json", 2,
+                 "did you mean 'run'? the subcommands are run, render, study, check, validate, bench, ");
   expect_refused("run small.json --frame 3", 2, "did you mean '--frames'? see pliant run --help");
   expect_refused("run small.json --zzz 3", 2, "--zzz; see pliant run --help");
   expect_refused("bench W1-bendin", 1, "did you mean 'W1-bending'? the workloads are ");

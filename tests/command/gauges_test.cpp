@@ -18,13 +18,6 @@ std::string tank(const std::string& settings) {
       {"name": "front", "front": {}}, {"name": "weight", "force": {"on": "floor"}}]})";
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields{""};
   for (const char c : line) {
