@@ -117,8 +117,10 @@ void fields(A& a, Is<ObjectJointMotor> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<ObjectJoint> auto& of) {
-  auto& [name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque, motors] = of;
-  PLIANT_FIELDS(a, name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque, motors);
+  auto& [name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque, motors, anchor_a, axes_a, axes_b] =
+      of;
+  PLIANT_FIELDS(a, name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque, motors, anchor_a, axes_a,
+                axes_b);
 }
 template <class A>
 void fields(A& a, Is<Channel> auto& of) {

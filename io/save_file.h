@@ -18,7 +18,7 @@
 
 namespace pliant::save_file {
 
-inline constexpr std::uint32_t version = 23;
+inline constexpr std::uint32_t version = 24;
 
 /// What a file contains.
 enum class Content : std::uint32_t { state = 1, world = 2 };

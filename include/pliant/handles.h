@@ -34,6 +34,16 @@ struct JointLoad {
   Vec3f torque{};  ///< about the joint's anchor [N m]
 };
 
+/// Where the two bodies of a joint are to one another. Axes are those of the joint, fixed in body a: x along the axis of a
+/// hinge, slider or cylindrical joint, along `axis` of a ball joint, `axis_a` of a universal joint, and the normal of a
+/// planar joint. Everything is 0 at time 0.
+struct JointState {
+  Vec3f displacement{};      ///< of b's anchor from its place in a [m]
+  Vec3f rotation{};          ///< of b, as a vector along its axis whose length is the angle, up to half a turn [rad]
+  Vec3f velocity{};          ///< of b's anchor, as seen from a [m/s]
+  Vec3f angular_velocity{};  ///< of b against a [rad/s]
+};
+
 /// What a motor of a joint is to do.
 struct MotorCommand {
   float target = 0;             ///< an angle [rad], displacement [m] or speed [rad/s or m/s], as the motor's kind says
@@ -92,6 +102,13 @@ class ObjectView {
   /// Object::joints.
   JointLoad joint_load(int joint) const;
   bool joint_is_broken(int joint) const;
+  /// The mean of the load that a joint carried in the last frame in which it was solved, over the frame's substeps: that of
+  /// one substep oscillates. Throws an Error unless World::record_joint_loads is on. Zero before the first step.
+  JointLoad mean_joint_load(int joint) const;
+  /// Angles, displacements and speeds of a joint, as they are now; of a broken one, too.
+  JointState joint_state(int joint) const;
+  /// The index in Object::joints of the only joint of that name. Throws an Error if there is none, or if there are several.
+  int joint_index(const std::string& name) const;
   /// The present pose of a rigid body: of the frame in which it was described (BodyOptions::position, rotation), in the world. `body`
   /// is an index in Object::bodies, or a name that only one of these has. Throws an Error if there is no such body.
   RigidPose pose(int body) const;

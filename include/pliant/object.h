@@ -180,6 +180,8 @@ struct ObjectJoint {
   std::vector<std::array<int, 2>> constraints;  ///< each a group of Object::constraints, and an index in it
   float break_force = 0, break_torque = 0;      ///< greatest force [N] and torque about the anchor [N m]; 0: no limit
   std::vector<ObjectJointMotor> motors;
+  Vec3f anchor_a{};          ///< the same place at time 0, in the frame of a's principal axes [m]
+  Quatf axes_a{}, axes_b{};  ///< axes of the joint at time 0, in the frames of a's and of b's principal axes
 };
 
 /// Where an object tears: at edges and tetrahedra that become too long. World::step splits one of their particles, across the direction of

@@ -184,6 +184,24 @@ struct ContactEvent {
   Vec3d push{};         ///< sum of their normal impulses on `first` over the frame [N s]
 };
 
+/// A side of a BodyTouch.
+struct TouchSide {
+  Thing thing;
+  int body = -1;  ///< index in Object::bodies; -1: a collider, or particles of an object
+  friend bool operator==(const TouchSide&, const TouchSide&) = default;
+  friend auto operator<=>(const TouchSide&, const TouchSide&) = default;  // NOLINT(modernize-use-nullptr)
+};
+
+/// The contacts between a rigid body and another one, a collider or particles in a frame. `push` over the duration of the
+/// frame is the mean force between them. Friction is not in it.
+struct BodyTouch {
+  TouchSide first, second;  ///< first < second
+  int contacts = 0;         ///< largest number of active contacts in a substep
+  double impulse = 0;       ///< sum of the magnitudes of their normal impulses over the frame [N s]
+  Vec3f position{};         ///< mean position of the contacts, weighted by impulse [m]
+  Vec3d push{};             ///< sum of their normal impulses on `first` [N s]
+};
+
 /// A joint that broke: it carried more than its break_force or break_torque, or its rod tore or was cut.
 struct JointBreak {
   ObjectId object;

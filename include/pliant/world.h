@@ -138,12 +138,18 @@ class World {
   /// Energies, stretch and residuals of the present State, and advice.
   Measurements measure() const { return Measurements(*data_); }
 
+  /// Starts or ends the recording of mean loads of joints (ObjectView::mean_joint_load; initially off). It costs what an
+  /// evaluation of all joints does, in each substep.
+  void record_joint_loads(bool on);
+
   // ---- Contact events.
 
   /// Starts or ends the recording of contact events (initially off). It costs one more pass over the contacts of a step.
   void record_contact_events(bool on);
   /// The contact events of the last step, ordered by participants: contacts that began, persisted or ended.
   const std::vector<ContactEvent>& contact_events() const;
+  /// The same of the last step for each rigid body and what it touched, if contact events are recorded.
+  const std::vector<BodyTouch>& body_touches() const;
 
   /// The settings in use. A sweep or substeps that were left open are those chosen for the first objects; 0 substeps or
   /// the sweep `automatic` if these differ.

@@ -285,6 +285,9 @@ int JointDraft::finish() {
   joint.a = a_.body;
   joint.b = b_.body;
   joint.anchor = convert<float>(b_.local(anchor_));
+  joint.anchor_a = convert<float>(a_.local(anchor_));
+  joint.axes_a = convert<float>(a_.local(axes_));
+  joint.axes_b = convert<float>(b_.local(axes_));
   joint.break_force = std::isinf(options_.break_force) ? 0 : options_.break_force;
   joint.break_torque = std::isinf(options_.break_torque) ? 0 : options_.break_torque;
   for (const Part& part : parts_) {

@@ -82,6 +82,12 @@ CompiledJoint::Motor motor_of(const Object& object, const CompiledObject& compil
           value(joint::motor_most)};
 }
 
+CompiledJoint::Side side_of(const Object& object, const CompiledObject& compiled, int number, const Vec3f& anchor,
+                            const Quatf& axes) {
+  const ObjectBody& body = object.bodies[static_cast<std::size_t>(number)];
+  return {compiled.place[static_cast<std::size_t>(body.particle)], body.frame, anchor, axes};
+}
+
 }  // namespace
 
 std::vector<CompiledJoint> compile_joints(const Object& object, const CompiledObject& compiled) {
@@ -90,8 +96,9 @@ std::vector<CompiledJoint> compile_joints(const Object& object, const CompiledOb
   const Places places = places_of(compiled);
   const auto first = first_numbers(object);
   for (const ObjectJoint& joint : object.joints) {
-    if (joint.b < 0 || static_cast<std::size_t>(joint.b) >= object.bodies.size())
-      refuse(object, joint, "has a body that does not exist");
+    for (const int number : {joint.a, joint.b})
+      if (number < 0 || static_cast<std::size_t>(number) >= object.bodies.size())
+        refuse(object, joint, "has a body that does not exist");
     const ObjectBody& body = object.bodies[static_cast<std::size_t>(joint.b)];
     CompiledJoint made{joint.name,
                        compiled.place[static_cast<std::size_t>(body.particle)],
@@ -100,7 +107,9 @@ std::vector<CompiledJoint> compile_joints(const Object& object, const CompiledOb
                        joint.break_force,
                        joint.break_torque,
                        {},
-                       {}};
+                       {},
+                       side_of(object, compiled, joint.a, joint.anchor_a, joint.axes_a),
+                       side_of(object, compiled, joint.b, joint.anchor, joint.axes_b)};
     for (const auto& [group, index] : joint.constraints) {
       if (group < 0 || static_cast<std::size_t>(group) >= first.size())
         refuse(object, joint, "has a group that does not exist");

@@ -26,12 +26,19 @@ struct CompiledJoint {
     bool is_angle = false, to_position = false;
     float target = 0, most = 0;  ///< as described: [rad, m, rad/s or m/s], [N m or N]
   };
+  /// How the joint is fixed in one of its bodies.
+  struct Side {
+    int point = 0, frame = 0;  ///< storage index, and index among the object's frames
+    Vec3f anchor{};            ///< in the principal axes of the body, about its centre of mass [m]
+    Quatf axes{};              ///< of the joint, in those axes
+  };
   std::string name;
   int point = 0, frame = 0;                 ///< of body b: storage index, and index among the object's frames
   Vec3f anchor{};                           ///< in the principal axes of b, about its centre of mass [m]
   float break_force = 0, break_torque = 0;  ///< [N], [N m]; 0: no limit
   std::vector<Part> parts;
   std::vector<Motor> motors;
+  Side a{}, b{};
 
   bool may_break() const { return break_force > 0 || break_torque > 0; }
 };

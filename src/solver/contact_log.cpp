@@ -52,17 +52,27 @@ void log_contact(const Substep& s, const Contact& contact, const PointReader& of
 
 }  // namespace
 
-void add_push(const ContactPush& push, ContactLog& log) {
-  ContactSum& sum = log[std::minmax(push.on, push.by)];
+namespace {
+
+/// `sign` is -1 where the first of the sums' sides is the one that pushes.
+void add_to(ContactSum& sum, const ContactPush& push, double sign) {
   ++sum.in_substep;
   sum.impulse += push.impulse;
-  const double sign = push.on <= push.by ? 1 : -1;
   sum.push += convert<double>(push.normal) * (sign * push.impulse);
   sum.moment += push.at * push.impulse;
 }
 
+}  // namespace
+
+void add_push(const ContactPush& push, ContactLog& log) {
+  add_to(log.things[std::minmax(push.on, push.by)], push, push.on <= push.by ? 1 : -1);
+  if (push.on_body < 0 && push.by_body < 0) return;
+  const ContactSide on{push.on, push.on_body}, by{push.by, push.by_body};
+  add_to(log.bodies[std::minmax(on, by)], push, on <= by ? 1 : -1);
+}
+
 void add_pressure(int on, int by, const Vec3d& impulse, const Vec3d& at, ContactLog& log) {
-  ContactSum& sum = log[std::minmax(on, by)];
+  ContactSum& sum = log.things[std::minmax(on, by)];
   const double size = length(impulse);
   sum.impulse += size;
   sum.push += impulse * (on <= by ? 1. : -1.);
@@ -70,10 +80,14 @@ void add_pressure(int on, int by, const Vec3d& impulse, const Vec3d& at, Contact
 }
 
 void finish_substep(ContactLog& log) {
-  for (auto& [bodies, sum] : log) {
-    sum.contacts = std::max(sum.contacts, sum.in_substep);
-    sum.in_substep = 0;
-  }
+  const auto finish = [](auto& sums) {
+    for (auto& [sides, sum] : sums) {
+      sum.contacts = std::max(sum.contacts, sum.in_substep);
+      sum.in_substep = 0;
+    }
+  };
+  finish(log.things);
+  finish(log.bodies);
 }
 
 void log_contacts(const Substep& s, ContactLog& log) {

@@ -19,17 +19,32 @@ struct ContactSum {
   Vec3d moment{};                    ///< sum of position x normal impulse [N s m]
 };
 
-/// Contact sums; the key is a pair of bodies, the lower number first.
-using ContactLog = std::map<std::pair<int, int>, ContactSum>;
+/// A rigid body of an object, by its index there; -1: a collider, or particles.
+struct ContactSide {
+  int thing = 0, body = -1;
+  friend auto operator<=>(const ContactSide&, const ContactSide&) = default;  // NOLINT(modernize-use-nullptr)
+};
+
+/// Contact sums of a frame. Keys have the lower side first.
+struct ContactLog {
+  std::map<std::pair<int, int>, ContactSum> things;
+  std::map<std::pair<ContactSide, ContactSide>, ContactSum> bodies;  ///< where one side is a rigid body at least
+
+  void clear() {
+    things.clear();
+    bodies.clear();
+  }
+};
 
 struct Substep;
 
 /// The push of one contact.
 struct ContactPush {
-  int on = 0, by = 0;  ///< bodies on which the contact acts, and which exerts it
-  double impulse = 0;  ///< normal impulse [N s]
-  Vec3f normal{};      ///< unit direction of the impulse on body `on`
-  Vec3d at{};          ///< contact point [m]
+  int on = 0, by = 0;              ///< bodies on which the contact acts, and which exerts it
+  double impulse = 0;              ///< normal impulse [N s]
+  Vec3f normal{};                  ///< unit direction of the impulse on body `on`
+  Vec3d at{};                      ///< contact point [m]
+  int on_body = -1, by_body = -1;  ///< which of the rigid bodies of the objects; -1: none
 };
 
 /// Adds a push to the sums of the current substep.

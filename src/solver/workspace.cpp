@@ -89,6 +89,8 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
   workspace.joints[object] = {};
   prepare_joints(from, workspace.joints[object]);
   workspace.last_h[object] = 0;
+  if (static_cast<std::size_t>(object) < workspace.joint_loads.size())
+    workspace.joint_loads[static_cast<std::size_t>(object)] = {};
   workspace.triangle_forces[object] = {};
   workspace.anchors[object].resize(2 * from.tethers.anchors.size());
   workspace.shape_contacts.prepare(model, object);

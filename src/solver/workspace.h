@@ -15,6 +15,7 @@
 #include "solver/bodies/object_joints.h"
 #include "solver/contact_log.h"
 #include "solver/contact_solver.h"
+#include "solver/joint_load_sums.h"
 #include "solver/limit.h"
 #include "solver/momentum.h"
 #include "solver/residual.h"
@@ -106,14 +107,16 @@ struct Workspace {
   std::vector<TileScratch> tiles;                   ///< scratch data of each tile of the model
   std::vector<SubstepScratch> of_thread;            ///< [0] also for groups that take turns
   std::unique_ptr<ContactLog> contact_log;          ///< null if contact events are not requested
-  Control control;                                  ///< what the user set for the current frame
-  std::vector<FrameGravity> gravity;                ///< gravity in each object's velocities
-  std::vector<SheetScratch> sheets;                 ///< [object] that bends as a sheet
-  std::vector<Records> anchors;                     ///< [object], a position and a displacement for each tether anchor
-  SweepGroups sweeps;                               ///< the sweep groups in use
-  Records predicted;                                ///< predicted displacements, kept if residuals are recorded
-  std::unique_ptr<SurfaceContact> pairs;  ///< contact between surfaces; null if no dynamic surface can touch another
-  ShapeContacts shape_contacts;           ///< finds contacts of edges and triangles with primitive colliders
+  bool sums_joint_loads = false;
+  std::vector<JointLoadSums> joint_loads;  ///< [object]; empty unless sums_joint_loads
+  Control control;                         ///< what the user set for the current frame
+  std::vector<FrameGravity> gravity;       ///< gravity in each object's velocities
+  std::vector<SheetScratch> sheets;        ///< [object] that bends as a sheet
+  std::vector<Records> anchors;            ///< [object], a position and a displacement for each tether anchor
+  SweepGroups sweeps;                      ///< the sweep groups in use
+  Records predicted;                       ///< predicted displacements, kept if residuals are recorded
+  std::unique_ptr<SurfaceContact> pairs;   ///< contact between surfaces; null if no dynamic surface can touch another
+  ShapeContacts shape_contacts;            ///< finds contacts of edges and triangles with primitive colliders
   bool look_for_tangles = true;  ///< true: the next frame searches all initial intersections (first frame, restored State)
   Records velocities_before;     ///< of the substep's start, before forces change them; only where there are forces [m/s]
   Records expected_velocities;   ///< velocities after the impacts of the next quarter (impacts.h) [m/s]

@@ -2,6 +2,7 @@
 #include "world/events.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "math/vector.h"
 
@@ -20,11 +21,35 @@ Thing thing_of(const WorldData& world, int body) {
                                                : Thing(world.ids.objects.id_of(body));
 }
 
+/// The sums of each rigid body and what it touched.
+std::vector<BodyTouch> body_touches_of(const WorldData& world) {
+  std::vector<BodyTouch> touches;
+  touches.reserve(world.workspace.contact_log->bodies.size());
+  for (const auto& [sides, sum] : world.workspace.contact_log->bodies) {
+    BodyTouch touch{{thing_of(world, sides.first.thing), sides.first.body},
+                    {thing_of(world, sides.second.thing), sides.second.body},
+                    sum.contacts,
+                    sum.impulse,
+                    convert<float>(sum.moment * (1 / std::max(sum.impulse, 1e-300))),
+                    sum.push};
+    if (touch.second < touch.first) {
+      std::swap(touch.first, touch.second);
+      touch.push = -touch.push;
+    }
+    touches.push_back(touch);
+  }
+  std::sort(touches.begin(), touches.end(), [](const BodyTouch& a, const BodyTouch& b) {
+    return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+  });
+  return touches;
+}
+
 }  // namespace
 
 void make_events(WorldData& world) {
+  world.events.touches = body_touches_of(world);
   std::vector<ContactEvent> now;
-  for (const auto& [bodies, sum] : *world.workspace.contact_log) {
+  for (const auto& [bodies, sum] : world.workspace.contact_log->things) {
     ContactEvent event;
     event.first = thing_of(world, bodies.first);
     event.second = thing_of(world, bodies.second);
@@ -70,9 +95,11 @@ void forget_touching(WorldData& world, const Thing& thing) {
 void World::record_contact_events(bool on) {
   data_->events.of_last_step.clear();
   data_->events.touching.clear();
+  data_->events.touches.clear();
   data_->workspace.contact_log = on ? std::make_unique<ContactLog>() : nullptr;
 }
 
 const std::vector<ContactEvent>& World::contact_events() const { return data_->events.of_last_step; }
+const std::vector<BodyTouch>& World::body_touches() const { return data_->events.touches; }
 
 }  // namespace pliant

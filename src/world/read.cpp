@@ -3,7 +3,6 @@
 
 #include "constraints/registry.h"
 #include "pliant/error.h"
-#include "solver/bodies/joint_load.h"
 #include "world/control.h"
 #include "world/groups.h"
 
@@ -199,38 +198,6 @@ std::vector<float> ObjectView::multipliers(const std::string& type) const {
     }
   }
   return out;
-}
-
-namespace {
-
-/// Throws an Error if the object has no such joint.
-const CompiledJoint& joint_of(const CompiledObject& object, int joint) {
-  if (joint < 0 || static_cast<std::size_t>(joint) >= object.joints.size())
-    throw Error({.object = object.name, .element = "joint " + std::to_string(joint)},
-                "does not exist; there are " + std::to_string(object.joints.size()) + " joints", "indices count from 0");
-  return object.joints[static_cast<std::size_t>(joint)];
-}
-
-}  // namespace
-
-JointLoad ObjectView::joint_load(int joint) const {
-  const int number = read_->number(id_);
-  const CompiledObject& from = read_->model.objects[number];
-  const CompiledJoint& of = joint_of(from, joint);
-  if (joint_is_broken(joint)) return {};
-  const State& state = read_->state;
-  const ReactionLoad load = load_of({from, state.positions.data() + read_->model.first[number], nullptr,
-                                     state.frames.orientations.data() + read_->model.first_frame[number],
-                                     read_->workspace.multipliers[number], read_->workspace.last_h[number]},
-                                    of);
-  return {load.force, load.torque};
-}
-
-bool ObjectView::joint_is_broken(int joint) const {
-  const int number = read_->number(id_);
-  (void)joint_of(read_->model.objects[number], joint);
-  const std::vector<int>& broken = read_->workspace.joints[number].broken;
-  return std::binary_search(broken.begin(), broken.end(), joint);
 }
 
 const CompiledBodies::Body& body_of(const CompiledObject& object, int body) {

@@ -375,8 +375,10 @@ void World::restore(const State& state) {
   data_->overstretch.restart();
   data_->convergence.restart();
   data_->workspace.control = {};
+  data_->workspace.joint_loads.clear();
   data_->events.touching.clear();
   data_->events.of_last_step.clear();
+  data_->events.touches.clear();
 }
 
 std::string hash(const State& state) {

@@ -57,6 +57,7 @@ struct WorldGroups {
 struct WorldEvents {
   std::vector<std::pair<Thing, Thing>> touching;  ///< pairs of bodies that were in contact in the last step, ascending
   std::vector<ContactEvent> of_last_step;
+  std::vector<BodyTouch> touches;
 };
 
 /// What a World keeps, beside the descriptions of objects, if it was made with KeepDescription.

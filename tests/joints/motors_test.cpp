@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "joint_support.h"
+#include "pliant/error.h"
 
 namespace pliant {
 namespace {

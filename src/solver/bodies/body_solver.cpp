@@ -356,12 +356,26 @@ void BodySolver::end_frame(Substep& s) {
   sleep_.add_kept_contacts(contacts_.all());
 }
 
+namespace {
+
+/// The index in Object::bodies of a side of a contact; -1 of a collider.
+int body_in_object(const Substep& s, const ContactPart& part) {
+  if (part.owner < 0) return -1;
+  const std::vector<CompiledSolid>& solids = s.model.objects[at(part.owner)].bodies.solids;
+  return at(part.solid) < solids.size() ? solids[at(part.solid)].body : -1;
+}
+
+}  // namespace
+
 void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
   take_impulses(s);
   const auto add = [&](const BodyContact& c, float bounced, const Vec3d& centre_b) {
     const double pressed = static_cast<double>((c.impulse[0] + c.impulse[1]) + (c.impulse[2] + c.impulse[3]));
     const double impulse = pressed + static_cast<double>(bounced);
-    if (impulse > 0) add_push({c.a.owner, c.b.owner, impulse, -c.normal, centre_b + convert<double>(c.arm_b)}, log);
+    if (impulse > 0)
+      add_push({c.a.owner, c.b.owner, impulse, -c.normal, centre_b + convert<double>(c.arm_b), body_in_object(s, c.a),
+                body_in_object(s, c.b)},
+               log);
   };
   for (const int i : colours_.order()) {
     const std::size_t b = at(contacts_.bodies()[at(i)].second);

@@ -11,6 +11,7 @@
 #include "math/record.h"
 #include "solver/bodies/body_links.h"
 #include "solver/bodies/joint_forest.h"
+#include "solver/joint_load_sums.h"
 #include "solver/substep.h"
 #include "solver/visit.h"
 
@@ -85,17 +86,18 @@ struct Overload {
   float share = 0;  ///< the greater one of force and torque over their limits
 };
 
+/// An object after the solve of a substep.
+LoadView view_of(const Substep& s, int o) {
+  const SweepArguments a = arguments(s, o, false);
+  return {s.model.objects[static_cast<std::size_t>(o)],    a.positions, a.displacements, frame_arguments(s, o).orientations,
+          s.work.multipliers[static_cast<std::size_t>(o)], s.h};
+}
+
 /// The joints of an object that carry more than they can, ascending.
 std::vector<Overload> find_overloads(const Substep& s, int o) {
   const CompiledObject& object = s.model.objects[static_cast<std::size_t>(o)];
   const std::vector<int>& broken = s.work.joints[static_cast<std::size_t>(o)].broken;
-  const SweepArguments a = arguments(s, o, false);
-  const LoadView view{object,
-                      a.positions,
-                      a.displacements,
-                      frame_arguments(s, o).orientations,
-                      s.work.multipliers[static_cast<std::size_t>(o)],
-                      s.h};
+  const LoadView view = view_of(s, o);
   const auto share = [](const Vec3f& value, float most) { return most > 0 ? length(value) / most : 0; };
   std::vector<Overload> found;
   for (int j = 0; j < static_cast<int>(object.joints.size()); ++j) {
@@ -155,6 +157,25 @@ void keep_one_of_each_rod(const CompiledObject& object, const std::vector<int>& 
 }
 
 }  // namespace
+
+void add_joint_loads(const Substep& s) {
+  for_objects(s, [&](int o) {
+    const CompiledObject& object = s.model.objects[static_cast<std::size_t>(o)];
+    JointLoadSums& sums = s.work.joint_loads[static_cast<std::size_t>(o)];
+    if (object.joints.empty()) return;
+    if (sums.frame != s.state.frame || sums.forces.size() != object.joints.size())
+      sums = {std::vector<Vec3d>(object.joints.size()), std::vector<Vec3d>(object.joints.size()), 0, s.state.frame};
+    const std::vector<int>& broken = s.work.joints[static_cast<std::size_t>(o)].broken;
+    const LoadView view = view_of(s, o);
+    for (std::size_t j = 0; j < object.joints.size(); ++j) {
+      if (std::binary_search(broken.begin(), broken.end(), static_cast<int>(j))) continue;
+      const ReactionLoad load = load_of(view, object.joints[j]);
+      sums.forces[j] += convert<double>(load.force) * static_cast<double>(s.h);
+      sums.torques[j] += convert<double>(load.torque) * static_cast<double>(s.h);
+    }
+    sums.time += static_cast<double>(s.h);
+  });
+}
 
 void break_joints(Substep& s) {
   for_objects(s, [&](int o) {

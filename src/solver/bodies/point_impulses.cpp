@@ -162,7 +162,8 @@ void PointImpulses::log_contacts(const Substep& s, const BodySolids& solids, con
     const double impulse = static_cast<double>(impulses_[i] * share) + static_cast<double>(bounced_[i]);
     if (!(c.push > 0) || !(impulse > 0)) continue;
     const Vec3d place = convert<double>(relative(c, s.state.positions.data()));
-    add_push({s.model.object_of(c.point[0]), solids.body_of(c).object, impulse, c.normal, place}, log);
+    const TouchedBody& body = solids.body_of(c);
+    add_push({s.model.object_of(c.point[0]), body.object, impulse, c.normal, place, -1, body.body}, log);
   }
 }
 

@@ -98,6 +98,7 @@ void count_iterations(Substep& s, int iterations) {
 
 void solve(Substep& s) {
   count_iterations(s, iterate_to_tolerance(s));
+  if (s.work.sums_joint_loads) add_joint_loads(s);
   break_joints(s);
 }
 
