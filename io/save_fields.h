@@ -111,9 +111,14 @@ void fields(A& a, Is<ObjectBody> auto& of) {
   PLIANT_FIELDS(a, name, particle, frame, solids, origin, axes, surface_velocity);
 }
 template <class A>
+void fields(A& a, Is<MotorKeyframe> auto& of) {
+  auto& [time, target] = of;
+  PLIANT_FIELDS(a, time, target);
+}
+template <class A>
 void fields(A& a, Is<ObjectJointMotor> auto& of) {
-  auto& [name, constraint, to_position] = of;
-  PLIANT_FIELDS(a, name, constraint, to_position);
+  auto& [name, constraint, to_position, is_torque, keyframes] = of;
+  PLIANT_FIELDS(a, name, constraint, to_position, is_torque, keyframes);
 }
 template <class A>
 void fields(A& a, Is<ObjectJoint> auto& of) {

@@ -40,30 +40,74 @@ const Record& slide_range_record() {
   return result;
 }
 
+const Record& turn_keyframe_record() {
+  static const Record result{"keyframe of a rotary motor",
+                             "The target of a motor at a time: linear between keyframes, constant outside.",
+                             {needed("time", number("s", 0, 1e9), "Time, after that of the keyframe before."),
+                              needed("target", number("degree, degree/s or N m", -1e6, 1e6), "Target.")},
+                             {}};
+  return result;
+}
+
+const Record& slide_keyframe_record() {
+  static const Record result{"keyframe of a linear motor",
+                             "The target of a motor at a time: linear between keyframes, constant outside.",
+                             {needed("time", number("s", 0, 1e9), "Time, after that of the keyframe before."),
+                              needed("target", number("m, m/s or N", -1e6, 1e6), "Target.")},
+                             {}};
+  return result;
+}
+
+const Record& turn_spring_record() {
+  static const Record result{
+      "rotary spring",
+      "Pulls an angle towards its rest.",
+      {field("rest", number("degree", -180, 180), JointSpring{}.rest, "Angle at which it has no torque."),
+       needed("stiffness", positive("N m/rad", 1e20), "Torque over angle."),
+       field("damping", number("N m s/rad", 0), JointSpring{}.damping, "Torque over angular velocity.")},
+      {}};
+  return result;
+}
+
+const Record& slide_spring_record() {
+  static const Record result{
+      "linear spring",
+      "Pulls a displacement towards its rest.",
+      {field("rest", number("m", -largest_place, largest_place), JointSpring{}.rest, "Displacement without force."),
+       needed("stiffness", positive("N/m", 1e20), "Force over displacement."),
+       field("damping", number("N s/m", 0), JointSpring{}.damping, "Force over speed.")},
+      {}};
+  return result;
+}
+
 const Record& turn_motor_record() {
   static const Record result{
       "rotary motor",
-      "Drives an angle by a torque, at a speed or to a position.",
+      "Drives an angle, at a speed, to a position, or by a torque.",
       {either("speed", number("degree/s", -1e6, 1e6), "Speed to keep."),
        either("position", number("degree", -1e6, 1e6), "Angle to move to, at the remaining angle times `rate`."),
-       field("most", positive("N m"), JointMotor{}.most, "Greatest torque."),
+       either("torque", number("N m", -1e30, 1e30), "Torque."),
+       field("keyframes", list(record(turn_keyframe_record())), "none", "The target by time, instead of the one above."),
+       field("most", positive("N m"), JointMotor{}.most, "Greatest torque, without `torque`."),
        field("rate", positive("1/s"), JointMotor{}.rate, "Only with `position`: speed over remaining angle."),
        field("most_speed", positive("degree/s"), "no limit", "Only with `position`: greatest speed.")},
-      {"speed", "position"}};
+      {"speed", "position", "torque"}};
   return result;
 }
 
 const Record& slide_motor_record() {
   static const Record result{
       "linear motor",
-      "Drives a displacement by a force, at a speed or to a position.",
+      "Drives a displacement, at a speed, to a position, or by a force.",
       {either("speed", number("m/s", -largest_velocity, largest_velocity), "Speed to keep."),
        either("position", number("m", -largest_place, largest_place),
               "Displacement to move to, at the remaining displacement times `rate`."),
-       field("most", positive("N"), JointMotor{}.most, "Greatest force."),
+       either("force", number("N", -1e30, 1e30), "Force."),
+       field("keyframes", list(record(slide_keyframe_record())), "none", "The target by time, instead of the one above."),
+       field("most", positive("N"), JointMotor{}.most, "Greatest force, without `force`."),
        field("rate", positive("1/s"), JointMotor{}.rate, "Only with `position`: speed over remaining displacement."),
        field("most_speed", positive("m/s"), "no limit", "Only with `position`: greatest speed.")},
-      {"speed", "position"}};
+      {"speed", "position", "force"}};
   return result;
 }
 
@@ -96,7 +140,8 @@ const Record& hinge_record() {
        field("limit", record(turn_range_record()), "no limit", "Range of the angle."),
        field("motor", record(turn_motor_record()), "none", "Drives the angle."),
        field("friction", number("N m", 0), HingeJoint{}.friction, "Greatest torque of friction."),
-       field("damping", number("N m s/rad", 0), HingeJoint{}.damping, "Torque over angular velocity.")},
+       field("damping", number("N m s/rad", 0), HingeJoint{}.damping, "Torque over angular velocity."),
+       field("spring", record(turn_spring_record()), "none", "Pulls the angle towards its rest.")},
       {}};
   return result;
 }
@@ -109,7 +154,8 @@ const Record& slider_record() {
                               field("limit", record(slide_range_record()), "no limit", "Range of the displacement."),
                               field("motor", record(slide_motor_record()), "none", "Drives the displacement."),
                               field("friction", number("N", 0), SliderJoint{}.friction, "Greatest force of friction."),
-                              field("damping", number("N s/m", 0), SliderJoint{}.damping, "Force over speed.")},
+                              field("damping", number("N s/m", 0), SliderJoint{}.damping, "Force over speed."),
+                              field("spring", record(slide_spring_record()), "none", "Pulls the displacement.")},
                              {}};
   return result;
 }
@@ -125,7 +171,9 @@ const Record& cylindrical_record() {
        field("slide_motor", record(slide_motor_record()), "none", "Drives the displacement."),
        field("turn_motor", record(turn_motor_record()), "none", "Drives the angle."),
        field("slide_friction", number("N", 0), CylindricalJoint{}.slide_friction, "Greatest force of friction."),
-       field("turn_friction", number("N m", 0), CylindricalJoint{}.turn_friction, "Greatest torque of friction.")},
+       field("turn_friction", number("N m", 0), CylindricalJoint{}.turn_friction, "Greatest torque of friction."),
+       field("slide_spring", record(slide_spring_record()), "none", "Pulls the displacement towards its rest."),
+       field("turn_spring", record(turn_spring_record()), "none", "Pulls the angle towards its rest.")},
       {}};
   return result;
 }
@@ -142,7 +190,9 @@ const Record& universal_record() {
        field("motor_a", record(turn_motor_record()), "none", "Drives the angle about axis_a."),
        field("motor_b", record(turn_motor_record()), "none", "Drives the angle about axis_b."),
        field("friction_a", number("N m", 0), UniversalJoint{}.friction_a, "Greatest torque of friction about axis_a."),
-       field("friction_b", number("N m", 0), UniversalJoint{}.friction_b, "Greatest torque of friction about axis_b.")},
+       field("friction_b", number("N m", 0), UniversalJoint{}.friction_b, "Greatest torque of friction about axis_b."),
+       field("spring_a", record(turn_spring_record()), "none", "Pulls the angle about axis_a towards its rest."),
+       field("spring_b", record(turn_spring_record()), "none", "Pulls the angle about axis_b towards its rest.")},
       {}};
   return result;
 }
@@ -153,7 +203,7 @@ const Record& planar_record() {
       "The second body slides in a plane of the first, and rotates about its normal.",
       {needed("anchor", place(), anchor_meaning), field("normal", axis(), PlanarJoint{}.normal, "Normal of the plane."),
        field("axis_x", axis(), "none",
-             "Direction x in the plane; y is the normal times x. Needed for limits and motors of displacements."),
+             "Direction x in the plane; y is the normal times x. Needed for limits, motors and springs of displacements."),
        field("x_limit", record(slide_range_record()), "no limit", "Range of the displacement along x."),
        field("y_limit", record(slide_range_record()), "no limit", "Range of the displacement along y."),
        field("turn_limit", record(turn_range_record()), "no limit", "Range of the angle about the normal."),
@@ -162,7 +212,10 @@ const Record& planar_record() {
        field("turn_motor", record(turn_motor_record()), "none", "Drives the angle about the normal."),
        field("slide_friction", number("N", 0), PlanarJoint{}.slide_friction,
              "Greatest force of friction along x, and along y."),
-       field("turn_friction", number("N m", 0), PlanarJoint{}.turn_friction, "Greatest torque of friction.")},
+       field("turn_friction", number("N m", 0), PlanarJoint{}.turn_friction, "Greatest torque of friction."),
+       field("x_spring", record(slide_spring_record()), "none", "Pulls the displacement along x."),
+       field("y_spring", record(slide_spring_record()), "none", "Pulls the displacement along y."),
+       field("turn_spring", record(turn_spring_record()), "none", "Pulls the angle about the normal.")},
       {}};
   return result;
 }
@@ -232,7 +285,8 @@ const Record& slide_freedom_record() {
                              "Freedom along one axis.",
                              {field("limit", record(slide_range_record()), "no limit", "Range of the displacement."),
                               field("motor", record(slide_motor_record()), "none", "Drives the displacement."),
-                              field("friction", number("N", 0), AxisFreedom{}.friction, "Greatest force of friction.")},
+                              field("friction", number("N", 0), AxisFreedom{}.friction, "Greatest force of friction."),
+                              field("spring", record(slide_spring_record()), "none", "Pulls the displacement.")},
                              {}};
   return result;
 }
@@ -242,7 +296,8 @@ const Record& turn_freedom_record() {
                              "Freedom about one axis.",
                              {field("limit", record(turn_range_record()), "no limit", "Range of the angle."),
                               field("motor", record(turn_motor_record()), "none", "Drives the angle."),
-                              field("friction", number("N m", 0), AxisFreedom{}.friction, "Greatest torque of friction.")},
+                              field("friction", number("N m", 0), AxisFreedom{}.friction, "Greatest torque of friction."),
+                              field("spring", record(turn_spring_record()), "none", "Pulls the angle.")},
                              {}};
   return result;
 }

@@ -40,14 +40,36 @@ void set_motor(const JsonDocument& document, const JsonValue& at, const char* na
   JointMotor motor;
   motor.kind = set(*value, "position", motor.target) ? JointMotor::Kind::position : JointMotor::Kind::speed;
   set(*value, "speed", motor.target);
-  motor.target *= unit;
+  for (const char* torque : {"torque", "force"})
+    if (set(*value, torque, motor.target)) motor.kind = JointMotor::Kind::torque;
+  const float unit_of_target = motor.kind == JointMotor::Kind::torque ? 1 : unit;
+  motor.target *= unit_of_target;
+  for (const JsonValue& item : elements(*value, "keyframes")) {
+    MotorKeyframe key;
+    set(item, "time", key.time);
+    set(item, "target", key.target);
+    motor.keyframes.push_back({key.time, key.target * unit_of_target});
+  }
   set(*value, "most", motor.most);
   set(*value, "rate", motor.rate);
   if (set(*value, "most_speed", motor.most_speed)) motor.most_speed *= unit;
   for (const char* only : {"rate", "most_speed"})
-    if (const JsonValue* given = value->find(only); given != nullptr && motor.kind == JointMotor::Kind::speed)
+    if (const JsonValue* given = value->find(only); given != nullptr && motor.kind != JointMotor::Kind::position)
       document.fail_key(*given, "a motor that keeps a speed has no " + std::string(only), "remove it, or give a position");
+  if (const JsonValue* given = value->find("most"); given != nullptr && motor.kind == JointMotor::Kind::torque)
+    document.fail_key(*given, "a motor of a given torque or force has no other greatest one", "remove it");
   target = motor;
+}
+
+/// Reads a spring; `unit` converts its rest.
+void set_spring(const JsonValue& at, const char* name, float unit, std::optional<JointSpring>& target) {
+  const JsonValue* value = at.find(name);
+  if (value == nullptr) return;
+  JointSpring& spring = target.emplace();
+  set(*value, "rest", spring.rest);
+  set(*value, "stiffness", spring.stiffness);
+  set(*value, "damping", spring.damping);
+  spring.rest *= unit;
 }
 
 // ------------------------------------------------------------------------------------------------ a joint
@@ -104,6 +126,7 @@ Joint one_axis_of(const JointSource& from, float unit) {
   set_motor(from.document, from.at, "motor", unit, joint.motor);
   set(from.at, "friction", joint.friction);
   set(from.at, "damping", joint.damping);
+  set_spring(from.at, "spring", unit, joint.spring);
   return joint;
 }
 
@@ -116,6 +139,8 @@ CylindricalJoint cylindrical_of(const JointSource& from) {
   set_motor(from.document, from.at, "turn_motor", radian, joint.turn_motor);
   set(from.at, "slide_friction", joint.slide_friction);
   set(from.at, "turn_friction", joint.turn_friction);
+  set_spring(from.at, "slide_spring", 1, joint.slide_spring);
+  set_spring(from.at, "turn_spring", radian, joint.turn_spring);
   return joint;
 }
 
@@ -129,6 +154,8 @@ UniversalJoint universal_of(const JointSource& from) {
   set_motor(from.document, from.at, "motor_b", radian, joint.motor_b);
   set(from.at, "friction_a", joint.friction_a);
   set(from.at, "friction_b", joint.friction_b);
+  set_spring(from.at, "spring_a", radian, joint.spring_a);
+  set_spring(from.at, "spring_b", radian, joint.spring_b);
   return joint;
 }
 
@@ -144,6 +171,9 @@ PlanarJoint planar_of(const JointSource& from) {
   set_motor(from.document, from.at, "turn_motor", radian, joint.turn_motor);
   set(from.at, "slide_friction", joint.slide_friction);
   set(from.at, "turn_friction", joint.turn_friction);
+  set_spring(from.at, "x_spring", 1, joint.x_spring);
+  set_spring(from.at, "y_spring", 1, joint.y_spring);
+  set_spring(from.at, "turn_spring", radian, joint.turn_spring);
   return joint;
 }
 
@@ -200,6 +230,7 @@ AxisFreedom freedom_of(const JsonDocument& document, const JsonValue& at, float 
   freedom.kind = is_limited ? AxisFreedom::Kind::limited : AxisFreedom::Kind::free;
   set_motor(document, at, "motor", unit, freedom.motor);
   set(at, "friction", freedom.friction);
+  set_spring(at, "spring", unit, freedom.spring);
   return freedom;
 }
 

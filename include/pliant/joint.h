@@ -13,6 +13,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pliant/scene.h"
 
@@ -37,14 +38,24 @@ struct JointRange {
 };
 
 /// Drives an angle or a displacement. `speed`: at the speed `target` [rad/s or m/s]. `position`: towards `target` [rad or m],
-/// at the remaining distance times `rate`, at most `most_speed`.
+/// at the remaining distance times `rate`, at most `most_speed`. `torque`: by the torque or force `target` [N m or N].
 struct JointMotor {
-  enum class Kind { speed, position };
+  enum class Kind { speed, position, torque };
   Kind kind = Kind::speed;
   float target = 0;
-  float most = 1;                ///< greatest torque [N m] or force [N], > 0
+  float most = 1;                ///< greatest torque [N m] or force [N], > 0; no meaning for `torque`
   float rate = 10;               ///< of `position`, > 0 [1/s]
   float most_speed = unlimited;  ///< of `position`, > 0 [rad/s or m/s]
+  /// The target by time instead of `target`: linear between keyframes, constant outside, until set_motor gives another. A
+  /// frame has the target of its end.
+  std::vector<MotorKeyframe> keyframes{};
+};
+
+/// Pulls an angle or a displacement towards `rest`, with a damper beside it.
+struct JointSpring {
+  float rest = 0;       ///< [rad or m]; angles within half a turn
+  float stiffness = 1;  ///< torque over angle [N m/rad] or force over displacement [N/m], > 0
+  float damping = 0;    ///< torque over angular velocity [N m s/rad] or force over speed [N s/m], >= 0
 };
 
 /// The two bodies share a point. `axis` is fixed in both: its angle between them is the swing, the turn about it the twist.
@@ -75,6 +86,7 @@ struct HingeJoint {
   float friction = 0;  ///< greatest torque [N m]
   JointOptions options{};
   float damping = 0;  ///< torque over angular velocity, >= 0 [N m s/rad]
+  std::optional<JointSpring> spring{};
 };
 
 /// One axis along which b slides; b does not rotate against a.
@@ -87,6 +99,7 @@ struct SliderJoint {
   float friction = 0;  ///< greatest force [N]
   JointOptions options{};
   float damping = 0;  ///< force over speed, >= 0 [N s/m]
+  std::optional<JointSpring> spring{};
 };
 
 /// One axis along which b slides and about which it rotates.
@@ -98,6 +111,7 @@ struct CylindricalJoint {
   std::optional<JointMotor> slide_motor{}, turn_motor{};
   float slide_friction = 0, turn_friction = 0;  ///< greatest force [N], greatest torque [N m]
   JointOptions options{};
+  std::optional<JointSpring> slide_spring{}, turn_spring{};
 };
 
 /// Two axes that stay perpendicular and cross at the anchor: one fixed in a, one in b. The angle about each is that of the cross
@@ -110,6 +124,7 @@ struct UniversalJoint {
   std::optional<JointMotor> motor_a{}, motor_b{};
   float friction_a = 0, friction_b = 0;  ///< greatest torque about each axis [N m]
   JointOptions options{};
+  std::optional<JointSpring> spring_a{}, spring_b{};
 };
 
 /// b slides in a plane fixed in a, and rotates about its normal.
@@ -123,6 +138,7 @@ struct PlanarJoint {
   std::optional<JointMotor> x_motor{}, y_motor{}, turn_motor{};
   float slide_friction = 0, turn_friction = 0;  ///< greatest force along x and along y [N], greatest torque [N m]
   JointOptions options{};
+  std::optional<JointSpring> x_spring{}, y_spring{}, turn_spring{};
 };
 
 /// Two anchors keep their distance, or stay between two distances, as a rod or a rope does.
@@ -182,6 +198,7 @@ struct AxisFreedom {
   JointRange limit{};  ///< of a limited axis [m or rad]
   std::optional<JointMotor> motor{};
   float friction = 0;  ///< greatest force [N] or torque [N m]
+  std::optional<JointSpring> spring{};
 };
 
 /// Six freedoms: displacements along three axes fixed in a, and rotations about them (the twist of b about each).

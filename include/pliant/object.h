@@ -164,11 +164,19 @@ struct ObjectBody {
   Vec3f surface_velocity{};
 };
 
+/// The target of a motor at a time.
+struct MotorKeyframe {
+  float time = 0;    ///< increases from keyframe to keyframe [s]
+  float target = 0;  ///< as the motor's kind says [rad, m, rad/s, m/s, N m or N]
+};
+
 /// A motor of a joint: one of its constraints, which ObjectHandle::set_motor can give another target.
 struct ObjectJointMotor {
   std::string name;    ///< the member of the joint that describes it, as "motor" or "turn_motor"; of six axes "linear_x"
   int constraint = 0;  ///< index in ObjectJoint::constraints
-  bool to_position = false;  ///< its target is an angle or a displacement; false: a speed
+  bool to_position = false;  ///< its target is an angle or a displacement; false: a speed, or a torque or force
+  bool is_torque = false;    ///< its target is a torque or a force
+  std::vector<MotorKeyframe> keyframes{};  ///< the target by time: linear between them, constant outside
 };
 
 /// A joint between two bodies of an object: a name for some of its constraints (add_joint of pliant/joint.h makes both).

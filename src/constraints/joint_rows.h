@@ -22,6 +22,8 @@ using Bodies = Slots<Point, Frame, Point, Frame>;
 
 /// "No limit" for a force or a speed in rest data, which are finite.
 inline constexpr float no_limit = 1e30f;
+/// A motor of a given torque or force is one of a speed that nothing reaches [rad/s or m/s], whose greatest torque acts.
+inline constexpr float speed_of_torque = 1e6f, least_torque = 1e-30f;
 
 /// Where a joint is fixed in its two bodies. Numbers are relative to each body's centre and principal axes.
 template <class R>

@@ -23,8 +23,8 @@ void set_axis(JointDraft& draft, const Vec3f& anchor, const Vec3f& axis, const c
 /// The joint frame of a planar joint: x is the normal, y is axis_x.
 void set_plane(JointDraft& draft, const PlanarJoint& joint) {
   if (!joint.axis_x) {
-    if (joint.x_limit || joint.y_limit || joint.x_motor || joint.y_motor)
-      draft.refuse("has limits or motors in its plane, but no axis_x", "give the direction of x");
+    if (joint.x_limit || joint.y_limit || joint.x_motor || joint.y_motor || joint.x_spring || joint.y_spring)
+      draft.refuse("has limits, motors or springs in its plane, but no axis_x", "give the direction of x");
     set_axis(draft, joint.anchor, joint.normal, "normal");
     return;
   }
@@ -84,6 +84,7 @@ int add_joint(Object& object, const HingeJoint& joint) {
   if (joint.limit) draft.limit_angle(0, *joint.limit);
   draft.drive_angle(0, joint.motor, joint.friction);
   draft.damp_angle(0, joint.damping);
+  draft.spring_angle(0, joint.spring);
   return draft.finish();
 }
 
@@ -94,6 +95,7 @@ int add_joint(Object& object, const SliderJoint& joint) {
   if (joint.limit) draft.limit_offset(0, *joint.limit);
   draft.drive_offset(0, joint.motor, joint.friction);
   draft.damp_offset(0, joint.damping);
+  draft.spring_offset(0, joint.spring);
   return draft.finish();
 }
 
@@ -105,6 +107,8 @@ int add_joint(Object& object, const CylindricalJoint& joint) {
   if (joint.turn_limit) draft.limit_angle(0, *joint.turn_limit);
   draft.drive_offset(0, joint.slide_motor, joint.slide_friction, "slide_motor");
   draft.drive_angle(0, joint.turn_motor, joint.turn_friction, "turn_motor");
+  draft.spring_offset(0, joint.slide_spring);
+  draft.spring_angle(0, joint.turn_spring);
   return draft.finish();
 }
 
@@ -120,6 +124,8 @@ int add_joint(Object& object, const UniversalJoint& joint) {
   if (joint.limit_b) draft.limit_angle(1, *joint.limit_b);
   draft.drive_angle(0, joint.motor_a, joint.friction_a, "motor_a");
   draft.drive_angle(1, joint.motor_b, joint.friction_b, "motor_b");
+  draft.spring_angle(0, joint.spring_a);
+  draft.spring_angle(1, joint.spring_b);
   return draft.finish();
 }
 
@@ -133,6 +139,9 @@ int add_joint(Object& object, const PlanarJoint& joint) {
   draft.drive_offset(1, joint.x_motor, joint.slide_friction, "x_motor");
   draft.drive_offset(2, joint.y_motor, joint.slide_friction, "y_motor");
   draft.drive_angle(0, joint.turn_motor, joint.turn_friction, "turn_motor");
+  draft.spring_offset(1, joint.x_spring);
+  draft.spring_offset(2, joint.y_spring);
+  draft.spring_angle(0, joint.turn_spring);
   return draft.finish();
 }
 
@@ -250,6 +259,8 @@ int add_joint(Object& object, const SixAxisJoint& joint) {
       draft.limit_angle(axis, range_of(about, joint.options));
     draft.drive_offset(axis, along.motor, along.friction, linear_motors[axis]);
     draft.drive_angle(axis, about.motor, about.friction, angular_motors[axis]);
+    draft.spring_offset(axis, along.spring);
+    draft.spring_angle(axis, about.spring);
   }
   return draft.finish();
 }

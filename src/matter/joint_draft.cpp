@@ -237,16 +237,50 @@ void JointDraft::limit_offset(int axis, const JointRange& range) {
   add("joint_offset", axis, {range.low, range.high, joint::no_limit}, range.compliance);
 }
 
+void JointDraft::require_spring(const JointSpring& spring) const {
+  require(spring.rest, "rest of its spring", -joint::no_limit, joint::no_limit);
+  require(spring.stiffness, "stiffness of its spring", 1e-20f, 1e20f);
+  require(spring.damping, "damping of its spring", 0, 1e30f);
+}
+
+void JointDraft::spring_angle(int axis, const std::optional<JointSpring>& spring) {
+  if (!spring) return;
+  require_spring(*spring);
+  const auto rest = static_cast<float>(principal_angle(static_cast<double>(spring->rest)));
+  add("joint_angle", axis, {rest, 0, joint::no_limit}, 1 / spring->stiffness, spring->damping);
+}
+
+void JointDraft::spring_offset(int axis, const std::optional<JointSpring>& spring) {
+  if (!spring) return;
+  require_spring(*spring);
+  add("joint_offset", axis, {spring->rest, spring->rest, joint::no_limit}, 1 / spring->stiffness, spring->damping);
+}
+
+void JointDraft::require_keyframes(const JointMotor& motor) const {
+  for (std::size_t k = 0; k < motor.keyframes.size(); ++k) {
+    const MotorKeyframe& key = motor.keyframes[k];
+    require(key.time, "time of a motor's keyframe", -joint::no_limit, joint::no_limit);
+    require(key.target, "target of a motor's keyframe", -joint::no_limit, joint::no_limit);
+    if (k > 0 && !(key.time > motor.keyframes[k - 1].time))
+      refuse("has a motor whose keyframe " + std::to_string(k) + " is not after the one before", "times must increase");
+  }
+}
+
 void JointDraft::add_motor(const char* type, int axis, const JointMotor& motor, const char* name, bool is_angle) {
   const bool to_position = motor.kind == JointMotor::Kind::position;
   require(motor.target, "motor target", -joint::no_limit, joint::no_limit);
   require(motor.most, "greatest motor torque or force", above_zero, unlimited, true);
   require(motor.rate, "motor rate", 0);
   require(motor.most_speed, "greatest motor speed", 0, unlimited, true);
-  const float target = is_angle ? static_cast<float>(principal_angle(static_cast<double>(motor.target))) : motor.target;
-  motors_.push_back({name, static_cast<int>(parts_.size()), to_position});
+  require_keyframes(motor);
+  const float first = motor.keyframes.empty() ? motor.target : motor.keyframes.front().target;
+  const float target = is_angle ? static_cast<float>(principal_angle(static_cast<double>(first))) : first;
+  const bool is_torque = motor.kind == JointMotor::Kind::torque;
+  const float speed = is_torque ? std::copysign(joint::speed_of_torque, first) : first;
+  const float most = is_torque ? std::max(std::fabs(first), joint::least_torque) : limited(motor.most);
+  motors_.push_back({name, static_cast<int>(parts_.size()), to_position, is_torque, motor.keyframes});
   std::vector<float> rest{to_position ? target : 0, to_position ? motor.rate : 0,
-                          to_position ? limited(motor.most_speed) : 0, to_position ? 0 : motor.target, limited(motor.most)};
+                          to_position ? limited(motor.most_speed) : 0, to_position ? 0 : speed, most};
   if (is_angle) rest.push_back(middles_[static_cast<std::size_t>(axis)]);
   add(type, axis, rest, 0);
 }

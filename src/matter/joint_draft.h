@@ -61,6 +61,9 @@ class JointDraft {
   /// A motor and friction. `name` is that of the motor, by which users set its target.
   void drive_angle(int axis, const std::optional<JointMotor>& motor, float friction, const char* name = "motor");
   void drive_offset(int axis, const std::optional<JointMotor>& motor, float friction, const char* name = "motor");
+  /// A spring with a damper, if there is one.
+  void spring_angle(int axis, const std::optional<JointSpring>& spring);
+  void spring_offset(int axis, const std::optional<JointSpring>& spring);
   /// A viscous damper [N m s/rad; N s/m].
   void damp_angle(int axis, float damping) { add_damper("joint_angle_motor", axis, damping, true); }
   void damp_offset(int axis, float damping) { add_damper("joint_offset_motor", axis, damping, false); }
@@ -80,6 +83,8 @@ class JointDraft {
   JointBody find(int body) const;
   JointBody world() const;
   void add_world();
+  void require_spring(const JointSpring& spring) const;
+  void require_keyframes(const JointMotor& motor) const;
   void require_range(const JointRange& range, bool is_angle) const;
   void add_motor(const char* type, int axis, const JointMotor& motor, const char* name, bool is_angle);
   void add_friction(const char* type, int axis, float friction, bool is_angle);

@@ -1,6 +1,7 @@
 #include "model/compiled_joints.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -73,13 +74,15 @@ CompiledJoint::Motor motor_of(const Object& object, const CompiledObject& compil
   const bool is_angle = is_motor(pool, "joint_angle_motor");
   if (!is_angle && !is_motor(pool, "joint_offset_motor"))
     refuse(object, joint, "has a motor whose constraint is of another type");
+  for (std::size_t k = 1; k < motor.keyframes.size(); ++k)
+    if (!(motor.keyframes[k].time > motor.keyframes[k - 1].time))
+      refuse(object, joint, "has a motor whose keyframe " + std::to_string(k) + " is not after the one before");
   const auto value = [&](int field) { return pool.blocks[place_of(pool, part, field)]; };
-  return {motor.name,
-          index,
-          is_angle,
-          motor.to_position,
-          value(motor.to_position ? joint::motor_target : joint::motor_speed),
-          value(joint::motor_most)};
+  const float most = value(joint::motor_most), speed = value(joint::motor_speed);
+  const float target = motor.is_torque     ? (speed < 0 ? -most : most)
+                       : motor.to_position ? value(joint::motor_target)
+                                           : speed;
+  return {motor.name, index, is_angle, motor.to_position, motor.is_torque, target, most, motor.keyframes};
 }
 
 CompiledJoint::Side side_of(const Object& object, const CompiledObject& compiled, int number, const Vec3f& anchor,
@@ -129,6 +132,10 @@ void set_motor(CompiledObject& object, const CompiledJoint& joint, const Compile
                float most) {
   const CompiledJoint::Part& part = joint.parts[motor.part];
   Pool& pool = object.pools[static_cast<std::size_t>(part.pool)];
+  if (motor.is_torque) {
+    most = std::max(std::fabs(target), joint::least_torque);
+    target = std::copysign(joint::speed_of_torque, target);
+  }
   if (motor.is_angle && motor.to_position) target = joint::wrap_turns(target);
   pool.blocks[place_of(pool, part, motor.to_position ? joint::motor_target : joint::motor_speed)] = target;
   pool.blocks[place_of(pool, part, joint::motor_most)] = std::min(most, joint::no_limit);

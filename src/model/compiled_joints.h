@@ -23,8 +23,9 @@ struct CompiledJoint {
   struct Motor {
     std::string name;
     std::size_t part = 0;  ///< index in `parts`
-    bool is_angle = false, to_position = false;
-    float target = 0, most = 0;  ///< as described: [rad, m, rad/s or m/s], [N m or N]
+    bool is_angle = false, to_position = false, is_torque = false;
+    float target = 0, most = 0;  ///< as described: [rad, m, rad/s, m/s, N m or N], [N m or N]
+    std::vector<MotorKeyframe> keyframes;
   };
   /// How the joint is fixed in one of its bodies.
   struct Side {

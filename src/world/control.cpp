@@ -151,34 +151,6 @@ void stop_fixed(WorldData& world) {
   }
 }
 
-struct MotorPlace {
-  std::size_t joint = 0, motor = 0;
-};
-
-/// The names of things, for messages.
-template <class Named>
-std::string names_of(const std::vector<Named>& things) {
-  std::string names;
-  for (const Named& one : things) names += (names.empty() ? "'" : ", '") + one.name + "'";
-  return names;
-}
-
-/// The motor of that name of a joint; without a name its only one.
-MotorPlace find_motor(const CompiledObject& of, const std::string& joint, const std::string& name) {
-  const auto found =
-      std::find_if(of.joints.begin(), of.joints.end(), [&](const CompiledJoint& one) { return one.name == joint; });
-  if (found == of.joints.end())
-    refuse(of.name, "joint '" + joint + "'", "does not exist", "give the name of a joint of the object");
-  const std::vector<CompiledJoint::Motor>& motors = found->motors;
-  const auto index = static_cast<std::size_t>(found - of.joints.begin());
-  if (motors.empty()) refuse(of.name, "joint '" + joint + "'", "has no motor", "describe one when you add the joint");
-  if (name.empty() && motors.size() == 1) return {index, 0};
-  for (std::size_t m = 0; m < motors.size(); ++m)
-    if (motors[m].name == name) return {index, m};
-  refuse(of.name, "joint '" + joint + "'", name.empty() ? "has several motors" : "has no motor '" + name + "'",
-         "name one of " + names_of(motors));
-}
-
 }  // namespace
 
 void hold_pose(std::vector<HeldPose>& poses, const HeldPose& pose) {
@@ -343,35 +315,6 @@ void ObjectHandle::set_forces(std::span<const Vec3f> forces) {
   std::vector<Vec3f>& in_storage = world_->workspace.control.objects[number].forces;
   in_storage.assign(of.particles, Vec3f{});
   for (int user = 0; user < of.user_particles; ++user) in_storage[of.place[user]] = forces[user];
-}
-
-bool is_earlier(const MotorSetting& a, const MotorSetting& b) {
-  return std::tie(a.block, a.joint, a.motor) < std::tie(b.block, b.joint, b.motor);
-}
-
-void ObjectHandle::set_motor(const std::string& joint, const MotorCommand& command) {
-  const int number = world_->number(id());
-  CompiledObject& of = world_->model.objects[static_cast<std::size_t>(number)];
-  const MotorPlace place = find_motor(of, joint, command.motor);
-  const CompiledJoint& its = of.joints[place.joint];
-  const CompiledJoint::Motor& motor = its.motors[place.motor];
-  const std::string element = "motor '" + motor.name + "' of joint '" + joint + "'";
-  if (!std::isfinite(command.target) || std::fabs(command.target) > joint::no_limit)
-    refuse(of.name, element, "its target is not finite", "give a finite number");
-  if (command.most && !(*command.most > 0))
-    refuse(of.name, element, "its greatest torque or force is " + std::to_string(*command.most), "give a number above 0");
-  MotorSetting setting{number, static_cast<int>(place.joint), static_cast<int>(place.motor), command.target, motor.most};
-  std::vector<MotorSetting>& all = world_->state.motors;
-  const auto at = std::lower_bound(all.begin(), all.end(), setting, is_earlier);
-  const bool is_known = at != all.end() && !is_earlier(setting, *at);
-  if (is_known) setting.most = at->most;
-  setting.most = command.most.value_or(setting.most);
-  pliant::set_motor(of, its, motor, setting.target, setting.most);
-  wake_bodies(*world_, number);
-  if (is_known)
-    *at = setting;
-  else
-    all.insert(at, setting);
 }
 
 void ColliderHandle::set_pose(const RigidPose& pose) {

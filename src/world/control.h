@@ -20,6 +20,9 @@ void end_control(WorldData& world, bool was_stopped);
 /// True if a setting of a motor comes before another in State::motors.
 bool is_earlier(const MotorSetting& a, const MotorSetting& b);
 
+/// Gives the motors with keyframes their targets at `time`, unless set_motor gave them others.
+void follow_motors(WorldData& world, double time);
+
 /// Wakes the bodies of an object, so that what is set acts in the next step.
 void wake_bodies(WorldData& world, int number);
 

@@ -151,6 +151,7 @@ Report World::step(float dt) {
   const double start = data_->state.time;
   let_flow(*data_, static_cast<double>(dt), report.flow);
   follow_rest_factors(*data_, data_->state.time + static_cast<double>(dt));
+  follow_motors(*data_, data_->state.time + static_cast<double>(dt));
   begin_control(*data_, dt);
   place_what_jumps(*data_, static_cast<double>(dt), report.warnings);
   const Resting resting = begin_rest(*data_, static_cast<double>(dt));

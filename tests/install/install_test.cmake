@@ -12,6 +12,7 @@ must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./save_and_load)
 must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./own_constraint)
 must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./run_time)
 must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./bodies)
+must(${CMAKE_COMMAND} -E chdir ${WORK}/build ./game_loop)
 
 file(READ ${WORK}/build/draped.ply draped)
 if(NOT draped MATCHES "element vertex 1600")

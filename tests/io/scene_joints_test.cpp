@@ -36,7 +36,15 @@ class Rig : public testing::Test {
     EXPECT_EQ(found.break_force, expected.break_force);
     EXPECT_EQ(found.break_torque, expected.break_torque);
     ASSERT_EQ(found.motors.size(), expected.motors.size());
-    for (std::size_t m = 0; m < found.motors.size(); ++m) EXPECT_EQ(found.motors[m].name, expected.motors[m].name);
+    for (std::size_t m = 0; m < found.motors.size(); ++m) {
+      EXPECT_EQ(found.motors[m].name, expected.motors[m].name);
+      EXPECT_EQ(found.motors[m].is_torque, expected.motors[m].is_torque);
+      ASSERT_EQ(found.motors[m].keyframes.size(), expected.motors[m].keyframes.size());
+      for (std::size_t k = 0; k < found.motors[m].keyframes.size(); ++k) {
+        EXPECT_EQ(found.motors[m].keyframes[k].time, expected.motors[m].keyframes[k].time);
+        EXPECT_EQ(found.motors[m].keyframes[k].target, expected.motors[m].keyframes[k].target);
+      }
+    }
     ASSERT_EQ(found.constraints.size(), expected.constraints.size());
     for (std::size_t c = 0; c < found.constraints.size(); ++c)
       EXPECT_EQ(described(rig, found.constraints[c]), described(same, expected.constraints[c])) << found.name << " " << c;
@@ -75,10 +83,20 @@ TEST_F(Rig, HasTheJointsThatCodeMakes) {
   add_joint(same, FixedJoint{-1, 0, {0, 0, 1}, {}});
   expect_same(1);
   const JointMotor servo{JointMotor::Kind::position, 45 * degree, 3, 4, 180 * degree};
-  add_joint(same, HingeJoint{1, 2, {3, 0, 0}, {0, 1, 0}, JointRange{-90 * degree, 90 * degree}, servo, 0.125f, {}, 0.25f});
+  add_joint(same, HingeJoint{1,
+                             2,
+                             {3, 0, 0},
+                             {0, 1, 0},
+                             JointRange{-90 * degree, 90 * degree},
+                             servo,
+                             0.125f,
+                             {},
+                             0.25f,
+                             JointSpring{30 * degree, 12, 0.5f}});
   expect_same(2);
   const JointMotor drive{JointMotor::Kind::speed, 0.25f, 7};
-  add_joint(same, SliderJoint{2, 3, {5, 0, 0}, {0, 1, 0}, JointRange{-1, 2, 0.5f}, drive, 0.5f, {}, 4});
+  add_joint(same, SliderJoint{
+                      2, 3, {5, 0, 0}, {0, 1, 0}, JointRange{-1, 2, 0.5f}, drive, 0.5f, {}, 4, JointSpring{0.125f, 80, 2}});
   expect_same(3);
   CylindricalJoint both{3, 4, {7, 0, 0}, {0, 1, 0}};
   both.slide_limit = JointRange{-1, 1};
@@ -86,23 +104,26 @@ TEST_F(Rig, HasTheJointsThatCodeMakes) {
   both.slide_motor = JointMotor{JointMotor::Kind::position, 0.5f, 1, 10, 2};
   both.turn_motor = JointMotor{JointMotor::Kind::speed, 90 * degree};
   both.slide_friction = 0.5f, both.turn_friction = 0.25f;
+  both.slide_spring = JointSpring{0, 40}, both.turn_spring = JointSpring{0, 20};
   add_joint(same, both);
   expect_same(4);
   UniversalJoint cross{4, 5, {9, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   cross.limit_a = JointRange{-30 * degree, 60 * degree}, cross.limit_b = JointRange{-20 * degree, 20 * degree};
-  cross.motor_a = JointMotor{JointMotor::Kind::speed, 45 * degree};
+  cross.motor_a = JointMotor{.kind = JointMotor::Kind::torque, .target = -1.5f, .keyframes = {{0, -1}, {2, 3}}};
   cross.motor_b = JointMotor{JointMotor::Kind::position, 10 * degree};
   cross.friction_a = 0.5f, cross.friction_b = 0.25f;
+  cross.spring_a = JointSpring{0, 3}, cross.spring_b = JointSpring{15 * degree, 4};
   add_joint(same, cross);
   expect_same(5);
   PlanarJoint plane{5, 6, {11, 0, 0}, {0, 0, 1}};
   plane.axis_x = Vec3f{0, 1, 0};
   plane.x_limit = JointRange{-1, 2}, plane.y_limit = JointRange{-3, 4};
   plane.turn_limit = JointRange{-90 * degree, 45 * degree};
-  plane.x_motor = JointMotor{JointMotor::Kind::speed, 0.5f};
+  plane.x_motor = JointMotor{.kind = JointMotor::Kind::torque, .target = 2, .keyframes = {{0, 2}, {1, 5}}};
   plane.y_motor = JointMotor{JointMotor::Kind::position, 0.25f};
   plane.turn_motor = JointMotor{JointMotor::Kind::speed, 30 * degree};
   plane.slide_friction = 0.5f, plane.turn_friction = 0.125f;
+  plane.x_spring = JointSpring{0, 5}, plane.y_spring = JointSpring{0, 6}, plane.turn_spring = JointSpring{0, 7};
   add_joint(same, plane);
   expect_same(6);
 }
@@ -121,9 +142,12 @@ TEST_F(Rig, HasTheOtherJointsThatCodeMakes) {
   expect_same(11);
   SixAxisJoint six{11, 12, {23, 0, 0}, rotation({0, 1, 0}, 90)};
   six.linear[1].kind = six.angular[1].kind = AxisFreedom::Kind::free;
-  six.linear[2] = {AxisFreedom::Kind::limited, {-1, 1}, JointMotor{JointMotor::Kind::speed, 0.5f}, 0.5f};
-  six.angular[2] = {
-      AxisFreedom::Kind::limited, {-20 * degree, 20 * degree}, JointMotor{JointMotor::Kind::position, 10 * degree}, 0.25f};
+  six.linear[2] = {AxisFreedom::Kind::limited, {-1, 1}, JointMotor{JointMotor::Kind::speed, 0.5f}, 0.5f, JointSpring{0, 8}};
+  six.angular[2] = {AxisFreedom::Kind::limited,
+                    {-20 * degree, 20 * degree},
+                    JointMotor{JointMotor::Kind::position, 10 * degree},
+                    0.25f,
+                    JointSpring{0, 9}};
   add_joint(same, six);
   expect_same(12);
 }
@@ -154,6 +178,11 @@ TEST(SceneJoints, AreNamedInErrors) {
        "a spring joint has its own stiffness and damping"},
       {R"({"between": ["arm_1", "arm_2"], "hinge": {"anchor": [0, 0, 0], "motor": {"speed": 3, "rate": 2}}})",
        "/objects/0/joints/0/hinge/motor/rate: a motor that keeps a speed has no rate"},
+      {R"({"between": ["arm_1", "arm_2"], "hinge": {"anchor": [0, 0, 0], "motor": {"torque": 3, "most": 2}}})",
+       "/objects/0/joints/0/hinge/motor/most: a motor of a given torque or force has no other greatest one"},
+      {R"({"between": ["arm_1", "arm_2"], "hinge": {"anchor": [0, 0, 0], "motor": {"speed": 3, "keyframes": [
+         {"time": 1, "target": 2}, {"time": 1, "target": 3}]}}})",
+       "has a motor whose keyframe 1 is not after the one before"},
       {R"({"between": ["arm_1", "arm_2"], "hinge": {"anchor": [0, 0, 0], "axis": [0, 0, 0]}})",
        "x.json:3:1: object 'bodies', /objects/0/joints/0"},
       {R"({"between": ["arm_1", "arm_1"], "fixed": {"anchor": [0, 0, 0]}})",

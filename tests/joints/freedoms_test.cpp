@@ -371,7 +371,7 @@ TEST(JointFreedoms, WrongRangesAndAxesAreNamed) {
 TEST(JointFreedoms, APlaneNeedsItsXForLimits) {
   Cube m;
   const auto refusal = [&](const PlanarJoint& joint) { return problem_of(m.object, joint); };
-  EXPECT_EQ(refusal({.b = m.body, .x_limit = joint_range}), "has limits or motors in its plane, but no axis_x");
+  EXPECT_EQ(refusal({.b = m.body, .x_limit = joint_range}), "has limits, motors or springs in its plane, but no axis_x");
   EXPECT_EQ(refusal({.b = m.body, .axis_x = Vec3f{1, 1, 0}}), "has an axis_x that is not in its plane");
   EXPECT_EQ(refusal({.b = m.body, .turn_limit = joint_range}), "");
 }
