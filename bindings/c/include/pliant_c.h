@@ -31,7 +31,7 @@
  * relative to the working directory.
  *
  * Threads. A World, a scene, a state and a writer each belong to one thread at a time; different ones may be used at the same time.
- * pliant_world_stop may be called by any thread, and by signal handlers.
+ * While a World steps, other calls with it give PLIANT_BUSY, but pliant_world_stop, which any thread and signal handlers may call.
  *
  * Until Pliant 1.0 a minor version may change this interface; the library's SOVERSION then grows. */
 #ifndef PLIANT_C_H
@@ -64,7 +64,8 @@ enum {
   PLIANT_STOPPED = 6,    /* pliant_world_stop ended the step */
   PLIANT_NOT_FINITE = 7, /* the step met a value that is not finite */
   PLIANT_NO_MEMORY = 8,
-  PLIANT_INTERNAL = 9 /* a fault of the library: please report it */
+  PLIANT_INTERNAL = 9, /* a fault of the library: please report it */
+  PLIANT_BUSY = 10     /* the World is in a step: called by its own force, or by another thread */
 };
 
 /* What an id refers to. */
@@ -280,7 +281,7 @@ PLIANT_API pliant_status pliant_scene_describe(const pliant_scene* scene, char* 
  * it names a number. Refused if the scene cannot be simulated; pliant_scene_check says so, too. */
 PLIANT_API pliant_status pliant_world_create(const pliant_scene* scene, int32_t threads, pliant_world** world);
 
-/* Frees a World. Its writers and states stay. NULL is accepted. */
+/* Frees a World. Its writers and states stay. A step under way ends first. NULL is accepted. */
 PLIANT_API pliant_status pliant_world_free(pliant_world* world);
 
 /* Advances by `dt` seconds, > 0; 0: by the frame time of its scene. Keep it constant. Refused if it is negative, not finite or too short. PLIANT_NOT_FINITE if the step met a value that is not

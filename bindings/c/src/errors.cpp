@@ -112,6 +112,8 @@ const char* pliant_status_name(pliant_status status) {
       return "PLIANT_NOT_FINITE";
     case PLIANT_NO_MEMORY:
       return "PLIANT_NO_MEMORY";
+    case PLIANT_BUSY:
+      return "PLIANT_BUSY";
     case PLIANT_INTERNAL:
       return "PLIANT_INTERNAL";
     default:

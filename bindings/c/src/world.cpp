@@ -24,8 +24,23 @@ void give_world(std::shared_ptr<WorldHandle> made, pliant_world** into) {
   *into = handle;
 }
 
+/// Marks a World as being in a step.
+class Stepping {
+ public:
+  explicit Stepping(WorldHandle& world) : world_(world) {
+    if (world.is_stepping.exchange(true)) throw StatusError(PLIANT_BUSY, "the World is in a step", "call again after it");
+  }
+  ~Stepping() { world_.is_stepping.store(false); }
+  Stepping(const Stepping&) = delete;
+  Stepping& operator=(const Stepping&) = delete;
+
+ private:
+  WorldHandle& world_;
+};
+
 /// Steps. Throws a StatusError if the step did not complete its frame.
 void step(WorldHandle& world, float dt) {
+  const Stepping stepping(world);
   const std::int64_t frame = world.world.state().frame;
   world.report = world.world.step(dt);
   if (!world.report.ok())

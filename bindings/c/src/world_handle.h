@@ -1,7 +1,7 @@
 // What a World's handle refers to.
 #pragma once
 
-#include <string>
+#include <atomic>
 
 #include "handles.h"
 #include "pliant/world.h"
@@ -15,7 +15,15 @@ struct WorldHandle {
   float frame_time;  ///< [s]
   int frames;
   Report report{};
+  std::atomic<bool> is_stepping{false};
 };
+
+/// The World of a handle, which is not in a step. Throws a StatusError if it is, or if the handle is stale.
+inline std::shared_ptr<WorldHandle> at(const pliant_world* handle) {
+  auto world = at<pliant_world>(handle);
+  if (world->is_stepping.load()) throw StatusError(PLIANT_BUSY, "the World is in a step", "call again after it");
+  return world;
+}
 
 /// A number by its name.
 template <class... Of>

@@ -187,6 +187,7 @@ void test_reports(void) {
 }
 
 void test_files(const char* folder) {
+  const pliant_array array = sheet_array();
   pliant_world* world = sheet_world();
   pliant_writer *writer = NULL, *dropped = NULL;
   FILE* file;
@@ -204,6 +205,10 @@ void test_files(const char* folder) {
     CHECK(fread(text, 1, 4, file) == 4 && memcmp(text, "glTF", 4) == 0);
     fclose(file);
   }
+  /* The ids of what was added later are not those of a scene. */
+  OK(pliant_world_add_object(world, "{\"name\": \"late\", \"cloth\": {\"mesh\": {\"array\": \"sheet\"}}}", &array, 1,
+                             NULL));
+  OK(pliant_world_remove(world, object_at(0)));
   OK(pliant_writer_open(world, path_in(folder, "never.glb"), &dropped));
   OK(pliant_writer_add(dropped, world));
   OK(pliant_writer_free(dropped));
