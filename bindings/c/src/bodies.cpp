@@ -64,12 +64,12 @@ pliant_status pliant_object_set_body_surface_velocity(pliant_world* world, plian
   });
 }
 
-pliant_status pliant_object_body_asleep(const pliant_world* world, pliant_id object, int32_t body, int32_t* asleep) {
+pliant_status pliant_object_body_asleep(const pliant_world* world, pliant_id object, int32_t body, int32_t* is_asleep) {
   return guarded([&] {
     const ObjectUse use(world, object);
-    require(asleep, "asleep");
+    require(is_asleep, "asleep");
     require_index(use.object().description().bodies, body, "body");
-    *asleep = use.object().body_is_asleep(body) ? 1 : 0;
+    *is_asleep = use.object().body_is_asleep(body) ? 1 : 0;
   });
 }
 
