@@ -1,4 +1,4 @@
-# Install rules, and what find_package(pliant) finds: pliant::pliant, the core and the files, as static libraries. Only the
+# Install rules, and what find_package(pliant) finds: pliant::pliant, the core and the files, as static libraries; pliant::c. Only the
 # public headers are installed; the folders' own libraries are there because a static library can't be merged portably.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -23,6 +23,15 @@ add_library(pliant::pliant ALIAS pliant_pliant)
 
 install(TARGETS ${PLIANT_INSTALLED_LIBRARIES} pliant_pliant EXPORT pliant-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+# The C library, which needs none of the others: `cmake --install FOLDER --component c` installs it alone.
+if(TARGET pliant_c)
+  install(TARGETS pliant_c EXPORT pliant-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT c NAMELINK_COMPONENT c)
+  install(FILES ${PROJECT_SOURCE_DIR}/bindings/c/include/pliant_c.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT c)
+  file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+  string(REGEX REPLACE "/$" "" up "${up}")
+  configure_file(${PROJECT_SOURCE_DIR}/bindings/c/pliant_c.pc.in ${PROJECT_BINARY_DIR}/pliant_c.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/pliant_c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT c)
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/pliant DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/pliant)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

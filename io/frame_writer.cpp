@@ -172,9 +172,10 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
                                                const FrameWriterOptions& options) {
   if (world.object_count() != static_cast<int>(scene.objects.size()))
     refuse(path, "", "", "the scene has another number of objects than the World");
-  for (int o = 0; o < world.object_count(); ++o)
-    require_fitting(path, scene.objects[static_cast<std::size_t>(o)], world.object(o).info().particles,
-                    static_cast<int>(world.object(o).orientations().size()));
+  const std::vector<ObjectId> ids = world.objects();
+  for (std::size_t o = 0; o < ids.size(); ++o)
+    require_fitting(path, scene.objects[o], world.object(ids[o]).particle_count(),
+                    static_cast<int>(world.object(ids[o]).orientations().size()));
   output::Objects objects = output::describe(scene);
   for (std::size_t o = 0; o < objects.size(); ++o) {
     objects[o].is_remeshed =
@@ -188,7 +189,7 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
   const auto parts = output::split_path(path);
   const bool has_all_points = parts.suffix == ".glb" || parts.suffix == ".pc2";
   for (std::size_t o = 0; o < objects.size() && !has_all_points; ++o)
-    objects[o].varies = !objects[o].is_remeshed && world.object(static_cast<int>(o)).flows();
+    objects[o].varies = !objects[o].is_remeshed && world.object(ids[o]).flows();
   return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time), scene, world.objects(),
                                        options, has_all_points);
 }

@@ -8,9 +8,10 @@ foreach(document ${documents})
   # Square brackets and semicolons mean something to CMake's lists.
   string(REPLACE "](" "<link>" text "${text}")
   string(REGEX REPLACE "[][;]" "" text "${text}")
-  string(REGEX MATCHALL "<link>[^)#: ]+" links "${text}")
+  # A blank ends none: "[](const int& i)" is code.
+  string(REGEX MATCHALL "<link>[^)#: ]+[)#:]" links "${text}")
   foreach(link ${links})
-    string(SUBSTRING "${link}" 6 -1 target)
+    string(REGEX REPLACE "^<link>(.*).$" "\\1" target "${link}")
     if(target MATCHES "^(https?|mailto)$")
       continue()
     endif()

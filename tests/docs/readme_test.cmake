@@ -1,8 +1,11 @@
-# Run by ctest: the C++ block of README.md is the program that the outside project builds and runs.
+# Run by ctest: a block of a document in a language (cpp unless said) is the program that the outside project builds and runs.
+if(NOT LANGUAGE)
+  set(LANGUAGE cpp)
+endif()
 file(READ ${README} readme)
 file(READ ${EXAMPLE} example)
 string(REGEX REPLACE "^//[^\n]*\n" "" example "${example}")
-string(FIND "${readme}" "```cpp\n${example}```" place)
+string(FIND "${readme}" "```${LANGUAGE}\n${example}```" place)
 if(place EQUAL -1)
-  message(FATAL_ERROR "README.md holds no ```cpp block that equals ${EXAMPLE} without its first line")
+  message(FATAL_ERROR "${README} holds no ```${LANGUAGE} block that equals ${EXAMPLE} without its first line")
 endif()

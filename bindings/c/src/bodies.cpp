@@ -1,0 +1,111 @@
+// Rigid bodies and joints of objects.
+#include "memory.h"
+#include "object_use.h"
+
+namespace pliant::c {
+
+namespace {
+
+/// The index of what has that name in a list. Throws a StatusError if nothing has.
+template <class Named>
+std::int32_t index_of(const std::vector<Named>& list, const char* name, const char* what) {
+  for (size_t i = 0; i < list.size(); ++i)
+    if (list[i].name == name) return static_cast<std::int32_t>(i);
+  throw StatusError(PLIANT_NOT_FOUND, std::string("the object has no ") + what + " '" + name + "'",
+                    "it has " + std::to_string(list.size()));
+}
+
+/// Throws a StatusError unless an index is one of a list.
+template <class Named>
+void require_index(const std::vector<Named>& list, std::int32_t index, const char* what) {
+  if (index < 0 || static_cast<size_t>(index) >= list.size())
+    throw StatusError(PLIANT_NOT_FOUND, std::string("the object has no ") + what + " " + std::to_string(index),
+                      "it has " + std::to_string(list.size()) + ", counted from 0");
+}
+
+}  // namespace
+
+}  // namespace pliant::c
+
+using namespace pliant;
+using namespace pliant::c;
+
+pliant_status pliant_object_find_body(const pliant_world* world, pliant_id object, const char* name, int32_t* body) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require(name, "name");
+    require(body, "body");
+    *body = index_of(use.object().description().bodies, name, "body");
+  });
+}
+
+pliant_status pliant_object_body_pose(const pliant_world* world, pliant_id object, int32_t body, pliant_pose* pose) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require_index(use.object().description().bodies, body, "body");
+    give_pose(use.object().pose(body), pose);
+  });
+}
+
+pliant_status pliant_object_set_body_pose(pliant_world* world, pliant_id object, int32_t body, const pliant_pose* pose) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require_index(use.object().description().bodies, body, "body");
+    use.object().set_pose(body, c::pose_of(pose, "pose"));
+  });
+}
+
+pliant_status pliant_object_set_body_surface_velocity(pliant_world* world, pliant_id object, int32_t body,
+                                                      const float* velocity) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require_index(use.object().description().bodies, body, "body");
+    use.object().set_surface_velocity(body, vector_of(velocity, "velocity"));
+  });
+}
+
+pliant_status pliant_object_body_asleep(const pliant_world* world, pliant_id object, int32_t body, int32_t* is_asleep) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require(is_asleep, "asleep");
+    require_index(use.object().description().bodies, body, "body");
+    *is_asleep = use.object().body_is_asleep(body) ? 1 : 0;
+  });
+}
+
+pliant_status pliant_object_find_joint(const pliant_world* world, pliant_id object, const char* name, int32_t* joint) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require(name, "name");
+    require(joint, "joint");
+    *joint = index_of(use.object().description().joints, name, "joint");
+  });
+}
+
+pliant_status pliant_object_joint_load(const pliant_world* world, pliant_id object, int32_t joint, float* force,
+                                       float* torque, int32_t* broken) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require(force, "force");
+    require(torque, "torque");
+    require_index(use.object().description().joints, joint, "joint");
+    const JointLoad load = use.object().joint_load(joint);
+    const bool is_broken = use.object().joint_is_broken(joint);
+    force[0] = load.force.x, force[1] = load.force.y, force[2] = load.force.z;
+    torque[0] = load.torque.x, torque[1] = load.torque.y, torque[2] = load.torque.z;
+    if (broken != nullptr) *broken = is_broken ? 1 : 0;
+  });
+}
+
+pliant_status pliant_object_set_motor(pliant_world* world, pliant_id object, const char* joint, const char* motor,
+                                      float target, float most) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require(joint, "joint");
+    MotorCommand command;
+    command.target = target;
+    if (most != 0) command.most = most;
+    if (motor != nullptr) command.motor = motor;
+    use.object().set_motor(joint, command);
+  });
+}

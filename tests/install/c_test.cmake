@@ -1,0 +1,20 @@
+# Part of install_test.cmake: a program in C by one line with pkg-config, as docs/guide/c.md says it, and by CMake.
+file(GLOB_RECURSE pkg_config ${WORK}/prefix/*/pliant_c.pc)
+get_filename_component(pkg_config "${pkg_config}" DIRECTORY)
+get_filename_component(libraries "${pkg_config}" DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} ${pkg_config})
+set(ENV{LD_LIBRARY_PATH} ${libraries}:$ENV{LD_LIBRARY_PATH})
+must(sh -c "cc -std=c99 -pedantic -Wall -Wextra -Werror -O2 ${FLAGS} drape.c $(pkg-config --cflags --libs pliant_c) -o ${WORK}/build/drape"
+  WORKING_DIRECTORY ${CONSUMER})
+must(./drape WORKING_DIRECTORY ${WORK}/build)
+# The ball's lowest place is at 0.2 m, and the sheet, 0.4 m from its middle to its edge, hangs down beside it.
+if(NOT output MATCHES "hangs down to 0.[345]")
+  message(FATAL_ERROR "the program in C printed: ${output}")
+endif()
+if(NOT EXISTS ${WORK}/build/draped.glb)
+  message(FATAL_ERROR "the program in C wrote no draped.glb")
+endif()
+
+must(${CMAKE_COMMAND} -S ${CONSUMER}/c -B ${WORK}/build_c -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${WORK}/prefix "-DCMAKE_C_FLAGS=${FLAGS}")
+must(${CMAKE_COMMAND} --build ${WORK}/build_c)
+must(./drape WORKING_DIRECTORY ${WORK}/build_c)
