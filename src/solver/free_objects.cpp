@@ -89,13 +89,16 @@ float height(const PointBounds& box, const Pose<float>& pose) {
   return lowest;
 }
 
-/// The least distance of a box from a solid in the substep [m]; infinite where they do not meet.
-float distance(const CompiledObject& object, const PointBounds& box, const MovingCollider& solid) {
+}  // namespace
+
+float distance_from_solid(const CompiledObject& object, const PointBounds& box, const MovingCollider& solid) {
   if (solid.field != nullptr && ((object.groups & solid.mask) == 0 || (solid.groups & object.mask) == 0)) return 1e30f;
   if (solid.field == nullptr && solid.shape.kind == ShapeKind::plane)
     return min(height(box, solid.before), height(box, solid.after)) - solid.thickness;
   return distance(box, solid.swept);
 }
+
+namespace {
 
 /// Calls near(solid, group, room) for the solids of rigid bodies of other groups than that of a tile's free object.
 /// `group`: that of the solid, -1 if something fixed acts on it. `room`: its distance from the surfaces of the
@@ -110,7 +113,7 @@ void for_solids_of_others(const Substep& s, int task, const FreeBodies& free, co
     const FreeBody& other = free[at(solids.bodies()[at(solids.body_of_solid()[i])].object)];
     const MovingCollider& solid = solids.moving()[i];
     if (other.group != group)
-      near(solid, other.group, distance(object, s.work.tiles[at(task)].bounds, solid) - object.thickness);
+      near(solid, other.group, distance_from_solid(object, s.work.tiles[at(task)].bounds, solid) - object.thickness);
   }
 }
 
@@ -143,7 +146,7 @@ void take_room(const Substep& s, int task, FreeBodies& free) {
   const CompiledObject& object = object_of(s, task);
   FreeBody& of = free[at(s.model.tiles()[at(task)].object)];
   for (const MovingCollider& collider : s.own->colliders)
-    of.room = min(of.room, distance(object, box, collider) - object.thickness);
+    of.room = min(of.room, distance_from_solid(object, box, collider) - object.thickness);
   for_solids_of_others(s, task, free, [&](const MovingCollider&, int, float room) { of.room = min(of.room, room); });
 }
 

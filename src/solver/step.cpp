@@ -11,7 +11,7 @@
 //     solve again   chains and contacts in turn, where surfaces press on one another; contacts yield a little
 //     limit         the few distances that are still far too long are shortened
 //     close         rigid stitches and chains in turn, where chains have pulled stitches open
-//     filter        steps that would make surfaces cross are truncated; of what is free, velocities are not
+//     filter        steps that would make surfaces cross are truncated; of what is free, velocities are not, and its centre of mass goes on
 //     guard         where the substep has become shorter, corrections may not increase energy
 //     yield         what is deformed too far keeps some of it (Plasticity)
 //     update        v from the corrections, x += displacement; restitution at colliders; joints of fast wheels
@@ -27,7 +27,6 @@
 
 #include "solver/bodies/body_solver.h"
 #include "solver/bodies/tie_gaps.h"
-#include "solver/free_objects.h"
 #include "solver/sheets/sheet_solver.h"
 #include "solver/stages/solve_again.h"
 #include "solver/stages/stages.h"
@@ -71,8 +70,7 @@ bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   if (s.bodies != nullptr) s.bodies->stop_passing(s);
   if (stops()) s.substeps = s.number + 1;
   filter(s);
-  if (s.bodies != nullptr) s.bodies->hold_bodies(s);
-  take_from_velocities(s);
+  end_filter(s);
   if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
   guard_energy(s);
   guard_bodies(s);

@@ -88,7 +88,8 @@ PairModel strip() {
 }
 
 /// One half is folded over the other by 0.4 degrees a substep. Pairs that are clear at first must be found in time.
-TEST(Pairs, OfASheetThatFoldsAreFoundInTime) {
+/// `share`: that of the motion of a substep which the filter is told of.
+void expect_folded_in_time(float share) {
   const PairModel model = strip();
   std::vector<Record> positions = model.shared->rest, remainders(positions.size()), displacements(positions.size());
   const PairParticles particles{positions.data(), remainders.data(), displacements.data(), 1e-3f};
@@ -110,10 +111,14 @@ TEST(Pairs, OfASheetThatFoldsAreFoundInTime) {
     for (std::size_t i = 0; i < fresh.contacts().size(); ++i)
       ASSERT_EQ(system.contacts()[i].point, fresh.contacts()[i].point) << "substep " << substep;
     most = std::max(most, fresh.contacts().size());
+    const std::vector<Record> whole = displacements;
+    for (Record& d : displacements) d = {share * d.x, share * d.y, 0, 0};
     system.filter(executor, particles, []() -> const FreeBodies& {
       static const FreeBodies none;
       return none;
     });
+    displacements = whole;
+    system.end_substep(executor, particles, share < 1);
     for (std::size_t i = 0; i < positions.size(); ++i) {
       positions[i].x += displacements[i].x;
       positions[i].y += displacements[i].y;
@@ -121,6 +126,10 @@ TEST(Pairs, OfASheetThatFoldsAreFoundInTime) {
   }
   EXPECT_GT(most, 100u);
 }
+
+TEST(Pairs, OfASheetThatFoldsAreFoundInTime) { expect_folded_in_time(1); }
+
+TEST(Pairs, AreFoundInTimeWhereMotionIsAddedAfterTheFilter) { expect_folded_in_time(0.1f); }
 
 }  // namespace
 }  // namespace pliant

@@ -147,6 +147,7 @@ class Soup {
       if (positions_[i].w > 0 && random() % 4 == 0) disturb(displacements_[i], random_place(random, 4 * jitter * h));
     const std::vector<Record> solved = displacements_;
     system_.filter(executor_, particles, find_free_);
+    system_.end_substep(executor_, particles, false);
     check_against_a_new_system(predicted, solved);
     check_distances();
     if (std::none_of(bodies_.begin(), bodies_.end(), [](const Body& body) { return !body.movable; }))
@@ -450,6 +451,7 @@ TEST(Pairs, AreLookedForAnewFarFromWhereTheyWere) {
       system.detect(executor, particles);
       for (Contact& contact : system.contacts()) project_contact(contact, particles.displacements);
       system.filter(executor, particles, none_free);
+      system.end_substep(executor, particles, false);
       return system.counts().truncated;
     };
     SurfaceContact system(model);
@@ -498,6 +500,7 @@ TEST(Pairs, OutliveWhatIsNotFinite) {
       system.detect(executor, particles);
       for (Contact& contact : system.contacts()) project_contact(contact, particles.displacements);
       system.filter(executor, particles, none_free);
+      system.end_substep(executor, particles, false);
       if (!spoilt) {
         for (const Record& d : displacements) ASSERT_TRUE(std::isfinite(d.y));
       }

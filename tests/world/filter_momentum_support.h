@@ -101,7 +101,7 @@ struct Outcome {
   double exchanged = 0;     ///< change of the second object's momentum [kg m/s]
   double linear = 0;        ///< change of the sum, over `exchanged`
   double angular = 0;       ///< the same of angular momentum about the centre of mass, over `exchanged` times 1 m
-  double about_origin = 0;  ///< the same about the origin: the lag of the centre of mass times the momentum is in it
+  double about_origin = 0;  ///< the same about the origin: a lag of the centre of mass times the momentum would be in it
   double lag = 0;           ///< how far the centre of mass is from where its velocity at the start takes it [m]
   std::int64_t filtered = 0;
   std::size_t crossings = 0;
@@ -166,6 +166,7 @@ inline void expect_kept(const Outcome& outcome, double rounded = 1e-4) {
   EXPECT_GT(outcome.exchanged, 0.01) << "they have not met";
   EXPECT_LT(outcome.linear, rounded);
   EXPECT_LT(outcome.angular, 1e-2);
+  EXPECT_LT(outcome.about_origin, 1e-2);
   EXPECT_LT(outcome.energy_after, outcome.energy_before * (1 + 1e-5)) << "a collision adds no energy";
   EXPECT_EQ(outcome.crossings, 0u);
   for (const std::string& warning : outcome.warnings)

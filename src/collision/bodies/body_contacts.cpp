@@ -144,10 +144,19 @@ struct BodyContacts::Task {
     find(pair, contacts.find(of.parts_[at(parts.first)].id, of.parts_[at(parts.second)].id), found);
   }
 
-  /// Finds the contacts of those pairs again of which a body touches a third one first.
+  /// True if the contacts of a pair are found again, because one of its bodies touches a third one first.
+  bool is_found_again(const Found& found, const Mark& mark) const {
+    const Piece& piece = found.pieces[mark.pieces];
+    return paths->first_turn(piece.a, piece.b, mark.pair) < mark.time &&
+           (mark.is_stopped || stops(found.made[mark.made], piece, mark.pair));
+  }
+
   void run_on_paths(Found& found) const {
+    const auto is_due = [&](const Mark& mark) { return is_found_again(found, mark); };
+    auto due = std::find_if(found.marks.begin(), found.marks.end(), is_due);
+    if (due == found.marks.end()) return;
     ContactsBefore contacts(before);
-    Found next;
+    thread_local Found next;  // to allocate nothing
     next.clear();
     next.deepest = found.deepest;
     Mark to;
@@ -156,19 +165,16 @@ struct BodyContacts::Task {
                          found.pieces.begin() + offset(piece));
       next.made.insert(next.made.end(), found.made.begin() + offset(to.made_end), found.made.begin() + offset(made));
     };
-    for (const Mark& mark : found.marks) {
-      const Piece& piece = found.pieces[mark.pieces];
-      if (!(paths->first_turn(piece.a, piece.b, mark.pair) < mark.time)) continue;
-      if (!mark.is_stopped && !stops(found.made[mark.made], piece, mark.pair)) continue;
-      copy_until(mark.pieces, mark.made);
-      next.start = mark.start >= 0 ? &found.starts[at(mark.start)] : nullptr;
-      find(mark.pair, contacts, next);
-      to = mark;
+    for (; due != found.marks.end(); due = std::find_if(due + 1, found.marks.end(), is_due)) {
+      copy_until(due->pieces, due->made);
+      next.start = due->start >= 0 ? &found.starts[at(due->start)] : nullptr;
+      find(due->pair, contacts, next);
+      to = *due;
     }
     copy_until(found.pieces.size(), found.made.size());
     next.count = 0;
     for (const Piece& piece : next.pieces) next.count += piece.stays.empty() ? 1 : piece.stays.size();
-    found = std::move(next);
+    std::swap(found, next);
   }
   /// True if a contact that was found at the start of the frame stops bodies on paths that turn.
   bool stops(const BodyContact& contact, const Piece& parties, int pair) const {
@@ -207,6 +213,15 @@ struct BodyContacts::Task {
   double reach_of(const Pair& pair, float approach) const {
     const float fast = approach + of.pairs_.turning(pair.first) + of.pairs_.turning(pair.second);
     return static_cast<double>(BodyPairs::margin_share) * size_of(pair) + static_cast<double>(dt * fast);
+  }
+
+  /// True if touch would find nothing. `relative`: of the body of the second part in the frame of that of the first.
+  bool are_surely_apart(const Pair& pair, const BodyPart& one, const BodyPart& other, const Posed& relative) const {
+    if (!one.is_convex() || !other.is_convex()) return false;
+    const PartBall &of_one = of.balls_[at(pair.first)], &of_other = of.balls_[at(pair.second)];
+    const double reach = reach_of(pair, length(bodies[at(one.body)].velocity - bodies[at(other.body)].velocity));
+    return is_beyond(one, to_world(relative, of_other.centre), of_other.radius, reach) ||
+           is_beyond(other, to_local(relative, of_one.centre), of_one.radius, reach);
   }
 
   bool is_renewed(int body) const { return renewed == nullptr || (*renewed)[at(body)] != 0; }
@@ -287,6 +302,7 @@ struct BodyContacts::Task {
     const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
     const bool stays_anyway = !is_renewed(one.body) && !is_renewed(other.body) && (far >= unlimited || !one.is_convex());
     Posed relative = stays_anyway ? Posed{} : relative_to(a.pose, b.pose);
+    if (old.empty() && are_surely_apart(pair, one, other, relative)) return;
     if (stays_anyway || stay(pair, old, a, b, relative)) {
       found.pieces.push_back({old, one.body, other.body});
       found.count += old.size();
@@ -296,8 +312,9 @@ struct BodyContacts::Task {
     relative.rotation = normalise(relative.rotation);
     const Meeting meeting = meeting_of(number, old, relative);
     const std::size_t first = found.made.size();
+    found.is_apart = false;
     one.mesh != nullptr ? meet_mesh(meeting, found) : meet(meeting, found);
-    if (!meeting.may_tumble()) return;
+    if (!meeting.may_tumble() || found.is_apart) return;
     meet_balls(meeting, found);
     std::sort(found.made.begin() + offset(first), found.made.end(), in_order);
   }
@@ -353,6 +370,8 @@ struct BodyContacts::Task {
     const Reach within{m.reach, m.turning, rocking_of(m.a, m.b, dt, faster)};
     const Posed placed = apart(m.relative, m.one.body, m.other.body, m.size);
     const Touch now = found.start != nullptr ? *found.start : touch_of(m.one, m.other, placed, within);
+    found.is_apart = now.count == 0 && m.old.empty();
+    if (found.is_apart) return;
     if (m.one.is_half_space) {
       if (m.is_fast) note_first(first_on_plane(now, m.on), m, found);
       return add(m, now, {}, 0, found);
@@ -442,7 +461,9 @@ bool in_order(const BodyContact& a, const BodyContact& b) {
 }
 
 BodyContacts::BodyContacts(std::vector<BodyPart> parts) : parts_(std::move(parts)), pairs_(parts_) {
+  balls_.resize(parts_.size());
   for (std::size_t i = 0; i < parts_.size(); ++i) {
+    if (parts_[i].is_convex()) balls_[i] = ball_around(parts_[i]);
     const std::size_t body = at(parts_[i].body);
     if (size_.size() <= body) size_.resize(body + 1, 1e30f);
     size_[body] = std::min(size_[body], pairs_.size(static_cast<int>(i)));

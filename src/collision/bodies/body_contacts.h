@@ -12,6 +12,7 @@
 
 #include "collision/bodies/body_pairs.h"
 #include "collision/bodies/body_paths.h"
+#include "collision/bodies/part_gap.h"
 #include "geometry/touch.h"
 #include "parallel/executor.h"
 #include "pliant/state.h"
@@ -84,6 +85,7 @@ class BodyContacts {
     const Touch* start = nullptr;  ///< that of the pair searched again; null: it is not kept
     std::size_t count = 0;         ///< of contacts
     bool any_stopped = false;      ///< of the last pair (Mark::is_stopped)
+    bool is_apart = false;         ///< the solids of the last pair touch nowhere, and did not
     BodyOverlap deepest{};
 
     void clear() {
@@ -104,7 +106,8 @@ class BodyContacts {
   bool all_stay(const std::vector<BodyContact>& before) const;
 
   std::vector<BodyPart> parts_;
-  std::vector<float> size_;  ///< [body]
+  std::vector<float> size_;      ///< [body]
+  std::vector<PartBall> balls_;  ///< [part] of convex ones
   BodyPairs pairs_;
   std::vector<Found> found_;         ///< [task]
   std::vector<FirstTouch> touches_;  ///< in the order of pairs

@@ -6,19 +6,12 @@
 
 namespace pliant {
 
-namespace {
-
-/// A displacement rounded to multiples of what the largest coordinates of an extent are rounded to, so that positions
-/// keep their differences where it is added to them: else particles that go with a frame at a small gap pass one
-/// another.
-Vec3f rounded(const Vec3f& displacement, float extent) {
+Vec3f rounded_as_positions(const Vec3f& displacement, float extent) {
   float power = 1.f / (1 << 20);
   while (power < 1e30f && power < extent + 2 * length(displacement)) power *= 2;
   const auto round = [base = 1.5f * power](float x) { return (base + x) - base; };
   return {round(displacement.x), round(displacement.y), round(displacement.z)};
 }
-
-}  // namespace
 
 void FilterFrames::begin() {
   root_.clear();
@@ -56,7 +49,7 @@ void FilterFrames::find_roots() {
     const auto root = static_cast<std::size_t>(root_[body]);
     if (is_held[root] != 0) root_[body] = -1;
     if (root != body || is_held[root] != 0 || are_stopped_ || !(sums[root].weight > 0)) continue;
-    const Vec3f mean = rounded(convert<float>(sums[root].moved * (1 / sums[root].weight)), sums[root].extent);
+    const Vec3f mean = rounded_as_positions(convert<float>(sums[root].moved * (1 / sums[root].weight)), sums[root].extent);
     if (length(mean) < room[root]) displacement_[root] = mean;
   }
 }

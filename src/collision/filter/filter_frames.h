@@ -23,6 +23,11 @@ struct FreeBody {
 /// [body] Empty: something fixed acts on all.
 using FreeBodies = std::vector<FreeBody>;
 
+/// A displacement rounded to multiples of what the largest coordinates of an extent [m] are rounded to, so that positions
+/// keep their differences where it is added to them: else particles that go with a frame at a small gap pass one
+/// another.
+Vec3f rounded_as_positions(const Vec3f& displacement, float extent);
+
 class FilterFrames {
  public:
   explicit FilterFrames(const PairModel& model) : model_(model) {}
@@ -54,6 +59,8 @@ class FilterFrames {
   int root_of(int vertex) const {
     return root_.empty() ? -1 : root_of_body(model_.shared->vertex_body[static_cast<std::size_t>(vertex)]);
   }
+  /// The first body of the group of a body; -1 if something fixed acts on it. `otherwise` where groups are not known.
+  int group_of_body(int body, int otherwise) const { return root_.empty() ? otherwise : root_of_body(body); }
   /// True if the two bodies of a pair have one frame.
   bool share_one(const PairStencil& pair) const { return root_of(pair.vertex[0]) == root_of(pair.vertex[3]); }
   bool is_free(int vertex) const { return root_of(vertex) >= 0; }

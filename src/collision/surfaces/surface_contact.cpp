@@ -193,6 +193,21 @@ void SurfaceContact::filter(Executor& executor, const PairParticles& particles,
   const auto exempt = [&](const PairStencil& pair) { return is_exempt(pair); };
   is_bounded_ =
       model_.filter ? filter_.apply(executor, lists_, particles, find_free, exempt) : lists_.measure(executor, particles);
+}
+
+bool SurfaceContact::comes_near(int body, const BoxBounds& box, float reach) const {
+  const BoxBounds grown = box.grown(reach);
+  const Block clusters = model_.bodies.at(body).clusters;
+  for (int c = clusters.first; c < clusters.end(); ++c) {
+    const ClusterMotion& motion = lists_.neighbourhood().motions[c];
+    if (overlap(grown, {min(motion.low[0], motion.low[1]), max(motion.high[0], motion.high[1])})) return true;
+  }
+  return false;
+}
+
+/// What counts the motion of clusters must know it as it is in the end.
+void SurfaceContact::end_substep(Executor& executor, const PairParticles& particles, bool has_moved) {
+  if (has_moved && is_bounded_) is_bounded_ = lists_.measure(executor, particles);
   if (is_bounded_) lists_.advance();
 }
 

@@ -51,14 +51,23 @@ class SurfaceContact {
   /// propagates the push. Returns false if there are none.
   bool find_overrun(const PairParticles& particles, std::vector<char>& is_overrun) const;
   /// Truncates displacements that would make surfaces cross. Of free bodies it keeps the momentum: without_velocity().
-  /// `find_free` is called if any step is truncated.
+  /// `find_free` is called if any step is truncated. Call end_substep when displacements are final.
   void filter(Executor& executor, const PairParticles& particles, FunctionRef<const FreeBodies&()> find_free);
   /// The displacement, in the last filter, of the frame in which steps of a body were truncated [m].
   const Vec3f& frame_of(int body) const { return filter_.frames().of_body(body); }
+  /// The group of bodies that moved in one frame in it, as the first of them; -1: the frame of the world. `otherwise`
+  /// where nothing was truncated.
+  int group_of(int body, int otherwise) const { return filter_.frames().group_of_body(body, otherwise); }
   /// What is not to become velocity of the displacements after the filter.
   const std::vector<VertexDisplacement>& without_velocity() const { return filter_.without_velocity(); }
   /// The momentum that the filter took from what is not free [kg m/s].
   const Vec3d& lost_momentum() const { return filter_.lost_momentum(); }
+  /// True if a body has triangles or lines that can meet others.
+  bool has_surface(int body) const { return model_.bodies.has(body) && model_.bodies.at(body).clusters.size > 0; }
+  /// True if these, on their way in the substep as the filter left it, come within `reach` [m] of a box.
+  bool comes_near(int body, const BoxBounds& box, float reach) const;
+  /// Ends the substep, of which the filter was told. `has_moved`: displacements have changed since.
+  void end_substep(Executor& executor, const PairParticles& particles, bool has_moved);
   /// Measures the remaining penetration of contacts; call it after a frame's last substep.
   void measure_overlaps(const PairParticles& particles);
   /// True if a contact of this substep is an impact (is_impact); valid after the filter.

@@ -204,6 +204,7 @@ void BodyPassing::hold_bodies(Substep& s, const Parts& parts) {
   for (int round = 0; round < most_rounds_of_holding && goes_on; ++round)
     goes_on = stop_once(s, parts, round == 0, round < rounds_of_both_sides ? Stop::bodies : Stop::bodies_back);
   end_alone(s, parts.solids);
+  if (goes_on) parts.solids.place(s);
   filter_.end_substep(!goes_on);
 }
 

@@ -35,6 +35,8 @@ class BodyPassing {
   void stop_passing(Substep& s, const Parts& parts);
   /// The same after surfaces were kept apart, by moving bodies alone.
   void hold_bodies(Substep& s, const Parts& parts);
+  /// After that: bodies and surfaces have been moved on by at most so far [m].
+  void note_shift(float farthest) { filter_.note_shift(farthest); }
   /// Adds a warning for each body that surfaces overlap at a substep's end, after hold_bodies.
   void warn_of_overlaps(const Substep& s, const BodySolids& solids, const std::vector<Contact>& contacts,
                         std::vector<std::string>& warnings) const;

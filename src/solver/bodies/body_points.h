@@ -51,6 +51,7 @@ class BodyPoints {
   /// See BodyPassing.
   void stop_passing(Substep& s, const std::vector<BodyMotion>& motions);
   void hold_bodies(Substep& s, const std::vector<BodyMotion>& motions);
+  void note_shift(float farthest) { passing_.note_shift(farthest); }
   void warn_of_overlaps(const Substep& s, std::vector<std::string>& warnings) const {
     passing_.warn_of_overlaps(s, solids_, impulses_.contacts(), warnings);
   }

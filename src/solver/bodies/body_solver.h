@@ -56,6 +56,8 @@ class BodySolver {
   void stop_passing(Substep& s) { points_.stop_passing(s, motions_.present()); }
   /// The same after the filter of surfaces, which may have truncated steps of cloth in front of a body.
   void hold_bodies(Substep& s);
+  /// After that: bodies and surfaces have been moved on by at most so far [m].
+  void note_shift(float farthest) { points_.note_shift(farthest); }
   /// Finds the particles that carry bodies, for the next solve of chains.
   void find_loads(const Substep& s) {
     if (points_.has_any()) points_.find_loads(s, motions_.present(), false);

@@ -370,6 +370,14 @@ void PassingFilter::end_substep(bool is_final) {
   }
 }
 
+void PassingFilter::note_shift(float farthest) {
+  for (Solid& solid : solids_) {
+    take_motion(solid);
+    solid.spent += 2 * farthest;
+    for (Pair& pair : solid.pairs) pair.bound -= 2 * farthest;
+  }
+}
+
 std::vector<PassingFilter::Overlap> PassingFilter::overlaps() const {
   std::vector<Overlap> out;
   for (std::size_t i = 0; i < solids_.size(); ++i)

@@ -42,6 +42,9 @@ class PassingFilter {
   /// After the last find of a substep. `is_final`: nothing has moved since.
   void end_substep(bool is_final);
 
+  /// After that: triangles, solids, or both, have been moved on by at most so far [m].
+  void note_shift(float farthest);
+
   /// A triangle and a solid that overlap at the end of the last substep, or passed one another in it.
   struct Overlap {
     int object = 0, vertex = 0;  ///< of the triangle; its first vertex in the State

@@ -1,6 +1,8 @@
 #include "math/vector.h"
+#include "solver/bodies/body_solver.h"
 #include "solver/drivers/contacts.h"
 #include "solver/free_objects.h"
+#include "solver/group_lag.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -27,6 +29,13 @@ void filter(Substep& s) {
   s.own->without_velocity.insert(s.own->without_velocity.end(), pairs.without_velocity().begin(),
                                  pairs.without_velocity().end());
   if (s.is_last() || ends_quarter(s)) pairs.measure_overlaps(all_particles(s));
+}
+
+void end_filter(Substep& s) {
+  if (s.bodies != nullptr) s.bodies->hold_bodies(s);
+  const bool has_moved = move_by_lag(s);
+  take_from_velocities(s);
+  if (s.has_pairs()) s.pairs->end_substep(s.context.executor, all_particles(s), has_moved);
 }
 
 }  // namespace pliant

@@ -37,6 +37,10 @@ void limit(Substep& s);
 /// Truncates displacements that would make surfaces cross.
 void filter(Substep& s);
 
+/// After the filter: holds bodies that its result leaves in the way, moves free groups by what their centre of mass lags
+/// (group_lag.h), and takes out of velocities what is not to become velocity.
+void end_filter(Substep& s);
+
 /// Where a quarter of a frame has more substeps than the last one, limits the share of corrections that becomes velocity so
 /// that the substep does not increase energy (stages/guard_energy.cpp).
 void guard_energy(Substep& s);
