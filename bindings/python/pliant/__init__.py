@@ -16,6 +16,8 @@ True
 from . import _errors, _types  # noqa: F401  (the compiled part looks for them)
 from ._errors import Error
 from ._pliant import (
+    Batch,
+    BatchObject,
     Collider,
     MeshCollider,
     Object,
@@ -36,6 +38,8 @@ from ._types import ContactEvent, Finding, ForceArrays, Load, Pose
 __version__ = version()
 
 __all__ = [
+    "Batch",
+    "BatchObject",
     "Collider",
     "ContactEvent",
     "Error",

@@ -639,3 +639,99 @@ class Writer:
 
     def __exit__(self, type: type[BaseException] | None, value: BaseException | None, trace: types.TracebackType | None) -> None:
         """Completes the files, unless an exception ended the block."""
+
+class BatchObject:
+    """
+    The objects of one name in all worlds of a Batch: batch["name"]. Arrays have the shape (worlds, n, 3).
+    """
+
+    @property
+    def name(self) -> str:
+        """Their name."""
+
+    @property
+    def particles(self) -> int:
+        """Number of particles of each."""
+
+    def __len__(self) -> int:
+        """Number of worlds."""
+
+    def positions(self, out: pliant._types.FloatArray | None = None) -> pliant._types.FloatArray:
+        """
+        Positions in all worlds [m], shape (worlds, particles, 3). `out`: a C-contiguous float32 array to fill.
+        """
+
+    def velocities(self, out: pliant._types.FloatArray | None = None) -> pliant._types.FloatArray:
+        """Velocities in all worlds [m/s], shape (worlds, particles, 3)."""
+
+    def poses(self, body: int | str = 0) -> tuple[pliant._types.FloatArray, pliant._types.FloatArray]:
+        """
+        Poses of a rigid body: positions [m], shape (worlds, 3), and rotations (x, y, z, w), shape (worlds, 4).
+        """
+
+    def set_velocities(self, velocities: pliant._types.AnyArray) -> None:
+        """As Object.set_velocities() [m/s]."""
+
+    def add_impulses(self, impulses: pliant._types.AnyArray) -> None:
+        """As Object.add_impulses() [N s]."""
+
+    def set_forces(self, forces: pliant._types.AnyArray) -> None:
+        """As Object.set_forces() [N]."""
+
+    def set_targets(self, particles: pliant._types.IntsLike, positions: pliant._types.AnyArray) -> None:
+        """
+        As Object.set_targets(): the same particles in all worlds, positions of shape (worlds, n, 3) [m].
+        """
+
+    def set_attachment_targets(self, attachments: pliant._types.IntsLike, positions: pliant._types.AnyArray) -> None:
+        """
+        As Object.set_attachment_targets(), positions of shape (worlds, n, 3) [m].
+        """
+
+    def set_motor(self, joint: str, targets: Any, most: float | None = None, motor: str = '') -> None:
+        """As Object.set_motor(), with a target for each world."""
+
+    def __repr__(self) -> str: ...
+
+class Batch:
+    """
+    Many worlds of a scene that step side by side, each on one thread, with the bits that it has alone.
+
+    Batch(scene, n) makes n equal worlds. `vary`: values of members that differ, {JSON pointer: n values}, or a function (scene, i) that changes a copy of the scene for world i. `threads`: how many worlds step at once; 0: as many as the machine has threads.
+    """
+
+    def __init__(self, scene: pliant._scene.SceneLike, n: int, vary: pliant._scene.Vary | None = None, threads: int = 0) -> None:
+        """Makes the worlds, side by side."""
+
+    def step(self, dt: float | None = None) -> list[Report]:
+        """
+        Advances all worlds by one frame of `dt` seconds; None: the scene's. Returns the Report of each.
+        """
+
+    def run(self, frames: int | None = None) -> list[Report]:
+        """
+        Runs frames in all worlds, the scene's own number if None, and returns the last Report of each. A world ends early where its Report is not ok.
+        """
+
+    def states(self) -> list[State]:
+        """The State of each world."""
+
+    def restore(self, state: State | list[State]) -> None:
+        """Restores one State in all worlds, or a list of one for each."""
+
+    def state_hashes(self) -> list[str]:
+        """World.state_hash() of each world."""
+
+    @property
+    def worlds(self) -> list[World]:
+        """The worlds, to read and control one by one."""
+
+    def __getitem__(self, name: str, /) -> BatchObject:
+        """
+        The objects of that name in all worlds. Raises KeyError if a world has none, Error if their numbers of particles differ.
+        """
+
+    def __len__(self) -> int:
+        """Number of worlds."""
+
+    def __repr__(self) -> str: ...

@@ -6,7 +6,7 @@ import copy
 import json
 import math
 import os
-from typing import Any, Iterable, Mapping, Union
+from typing import Any, Callable, Iterable, Mapping, Sequence, Union
 
 import numpy as np
 
@@ -16,6 +16,9 @@ from ._types import Finding
 
 SceneLike = Union["Scene", Mapping[str, Any], str, "os.PathLike[str]"]
 """What a World is made from: a Scene, a dict of the scene format, or the path of a scene file."""
+
+Vary = Union[Mapping[str, Sequence[Any]], Callable[["Scene", int], Any]]
+"""How the worlds of a Batch differ: {JSON pointer: a value for each}, or a function that changes a copy of the scene."""
 
 _KINDS = (
     "cloth", "soft_body", "rope", "rod", "liquid", "grains", "gas", "tracers", "particles", "bodies", "urdf",
@@ -395,3 +398,29 @@ def one_thing(
     else:
         named = _named(members, _SHAPES, "a collider", list(colliders))
     return Scene({list_name: [named]}).compiled()
+
+
+def _varied(scene: Scene, i: int, vary: Vary) -> Scene:
+    one = scene.copy()
+    if isinstance(vary, Mapping):
+        for pointer, values in vary.items():
+            one.assign(pointer, values[i])
+    else:
+        vary(one, i)
+    return one
+
+
+def variants(scene: SceneLike, n: int, vary: Vary | None) -> list[_pliant.Description]:
+    """What the worlds of a Batch are made from: one description for all, or one for each."""
+    if vary is None:
+        return [as_description(scene)]
+    if not isinstance(vary, Mapping) and not callable(vary):
+        raise TypeError("vary is a dict {JSON pointer: values}, or a function (scene, i)")
+    if isinstance(vary, Mapping):
+        for pointer, values in vary.items():
+            if not hasattr(values, "__len__") or isinstance(values, (str, bytes)):
+                raise TypeError(f"the values of '{pointer}' are no list")
+            if len(values) != n:
+                raise Error(f"there are {len(values)} values for {n} worlds", "give one for each", element=pointer)
+    base = as_scene(scene)
+    return [_varied(base, i, vary).compiled() for i in range(n)]
