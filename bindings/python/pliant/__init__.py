@@ -33,6 +33,7 @@ from ._pliant import (
     write_mesh,
 )
 from ._scene import Scene
+from .study import Table, study
 from ._types import ContactEvent, Finding, ForceArrays, Load, Pose
 
 __version__ = version()
@@ -52,6 +53,7 @@ __all__ = [
     "Report",
     "Scene",
     "State",
+    "Table",
     "World",
     "Writer",
     "__version__",
@@ -59,6 +61,7 @@ __all__ = [
     "grid_mesh",
     "read_mesh",
     "sphere_mesh",
+    "study",
     "version",
     "write_mesh",
 ]

@@ -61,7 +61,8 @@ nb::object converted(nb::handle given, char type, const std::string& what) {
       throw Error({}, what + " do not fit into 32 bits", "pass indices");
   }
   try {
-    return numpy_part("ascontiguousarray")(array, type == 'f' ? nb::borrow(float32()) : numpy_part("int32"));
+    // "CA": contiguous and aligned, as arrays that came over a network need not be.
+    return numpy_part("require")(array, type == 'f' ? nb::borrow(float32()) : numpy_part("int32"), "CA");
   } catch (nb::python_error&) {  // where a program makes errors of numpy's warnings
     throw Error({}, what + " do not fit into 32 bits", "pass smaller numbers");
   }

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from conftest import cloth_scene
@@ -38,7 +40,13 @@ def test_velocities_impulses_and_forces() -> None:
     np.testing.assert_allclose(dust.velocities()[:, 0], [1, 0.5, 0.25], rtol=1e-5)
 
 
-ARRAYS = [list, np.asarray, lambda a: np.asarray(a)[::-1][::-1], lambda a: np.asarray(a, np.float64)]
+def unaligned(rows: Any) -> Any:
+    """A read-only array at an odd address, as one that came over a network can be."""
+    array = np.asarray(rows, np.float32)
+    return np.frombuffer(b"0" + array.tobytes(), np.uint8)[1:].view(np.float32).reshape(array.shape)
+
+
+ARRAYS = [unaligned, list, np.asarray, lambda a: np.asarray(a)[::-1][::-1], lambda a: np.asarray(a, np.float64)]
 
 
 @pytest.mark.parametrize("make", ARRAYS)
