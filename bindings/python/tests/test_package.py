@@ -18,10 +18,10 @@ PYTHON = ROOT / "bindings" / "python"
 
 
 def test_stubs_are_those_of_the_module(tmp_path: pathlib.Path) -> None:
-    subprocess.run([sys.executable, str(PYTHON / "make_stubs.py"), str(tmp_path)], check=True)
+    subprocess.run([sys.executable, str(PYTHON / "tools" / "make_stubs.py"), str(tmp_path)], check=True)
     for made in tmp_path.iterdir():
         assert made.read_text() == (PYTHON / "pliant" / made.name).read_text(), f"{made.name}: run scripts/python stubs"
-    assert (tmp_path / "_pliant.pyi").exists()
+    assert sorted(made.name for made in tmp_path.iterdir()) == ["_pliant.pyi", "format.pyi"]
 
 
 def public(thing: object) -> dict[str, object]:
@@ -67,3 +67,45 @@ def test_what_the_module_imports() -> None:
     program = "import sys, numpy; before = set(sys.modules); import pliant; print(*sorted(set(sys.modules) - before))"
     made = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
     assert {"asyncio", "concurrent.futures", "multiprocessing", "numpy.typing", "numpy.testing"}.isdisjoint(made)
+
+
+RIGHT = """
+import numpy as np
+import pliant
+from pliant.format import Cloth, Object, Scene
+
+cloth: Cloth = {"mesh": pliant.grid_mesh(3, 3, 1, 1), "material": "silk"}
+sheet: Object = {"cloth": cloth, "pins": [{"particles": np.array([0])}], "name": "sheet"}
+scene: Scene = {"objects": [sheet], "gravity": (0, -9.81, 0), "settings": {"substeps": 5}}
+print(pliant.World(scene)["sheet"].particles)
+"""
+WRONG = {
+    '"silk"}': '"paper"}',
+    '"pins"': '"pin"',
+    '{"substeps": 5}': '{"substeps": "5"}',
+    "pliant.World(scene)": "pliant.World(3)",
+    ".particles)": ".particle)",
+}
+
+
+def mypy(text: str, folder: pathlib.Path) -> str:
+    api = pytest.importorskip("mypy.api")
+    (folder / "program.py").write_text(text)
+    out, _, _ = api.run(["--strict", "--cache-dir", str(folder.parent / "mypy"), str(folder / "program.py")])
+    return str(out)
+
+
+def test_types_of_the_format(tmp_path: pathlib.Path) -> None:
+    assert "Success" in mypy(RIGHT, tmp_path)
+    program = tmp_path / "program.py"
+    assert subprocess.run([sys.executable, program], capture_output=True, text=True, check=True).stdout == "9\n"
+    for right, wrong in WRONG.items():
+        assert RIGHT.count(right) == 1 and "error" in mypy(RIGHT.replace(right, wrong), tmp_path), wrong
+
+
+def test_types_of_the_format_are_dict_at_run_time() -> None:
+    import pliant.format
+
+    assert pliant.format.Cloth is dict
+    with pytest.raises(AttributeError):
+        getattr(pliant.format, "cloth")
