@@ -34,18 +34,20 @@ from ._pliant import (
 )
 from ._scene import Scene
 from .study import Table, study
-from ._types import ContactEvent, Finding, ForceArrays, Load, Pose
+from ._types import BodyTouch, ContactEvent, Finding, ForceArrays, JointState, Load, Pose
 
 __version__ = version()
 
 __all__ = [
     "Batch",
     "BatchObject",
+    "BodyTouch",
     "Collider",
     "ContactEvent",
     "Error",
     "Finding",
     "ForceArrays",
+    "JointState",
     "Load",
     "MeshCollider",
     "Object",

@@ -36,6 +36,9 @@ class Description:
     def objects(self) -> list[str]:
         """Names of the objects."""
 
+    def describe(self) -> str:
+        """What the scene holds, in lines."""
+
     def check(self, seconds: float = 0.0) -> list[pliant._types.Finding]:
         """Findings of the scene, and of trial runs of about `seconds` [s]."""
 
@@ -236,6 +239,11 @@ class Report:
     def explain(self) -> str:
         """Problems and warnings as text."""
 
+    def describe(self) -> str:
+        """
+        Frame, time, cost, contacts, the worst overstretch, and all that explain() says, for people to read.
+        """
+
     def as_dict(self) -> dict[str, Any]:
         """All values as a dict that JSON can hold."""
 
@@ -343,13 +351,23 @@ class Object:
     def body_is_asleep(self, body: int) -> bool:
         """True if the rigid body of this index sleeps."""
 
-    def joint_load(self, joint: int) -> pliant._types.Load:
+    def joint_state(self, joint: int | str) -> pliant._types.JointState:
         """
-        (force [N], torque [N m]) that the joint of this index carried in the last substep, in world axes; zero if it is broken.
+        Angles, displacements and speeds of a joint, by index or name, as they are now.
         """
 
-    def joint_is_broken(self, joint: int) -> bool:
-        """True if the joint of this index has broken."""
+    def joint_load(self, joint: int | str) -> pliant._types.Load:
+        """
+        (force [N], torque [N m]) that a joint carried in the last substep, in world axes; zero if it is broken. It oscillates from substep to substep: see mean_joint_load().
+        """
+
+    def mean_joint_load(self, joint: int | str) -> pliant._types.Load:
+        """
+        Its mean over the last frame. Raises Error unless World.record_joint_loads() is on.
+        """
+
+    def joint_is_broken(self, joint: int | str) -> bool:
+        """True if a joint has broken."""
 
     def set_targets(self, particles: pliant._types.IntsLike, positions: pliant._types.VectorsLike) -> None:
         """
@@ -559,6 +577,21 @@ class World:
 
     def contact_events(self) -> list[pliant._types.ContactEvent]:
         """The contact events of the last step, if they are recorded."""
+
+    def body_touches(self) -> list[pliant._types.BodyTouch]:
+        """
+        What each rigid body touched in the last step, and how hard, if contact events are recorded.
+        """
+
+    def record_joint_loads(self, on: bool = True) -> None:
+        """
+        Starts or ends the recording of mean loads of joints, for Object.mean_joint_load(); off at first.
+        """
+
+    def describe(self) -> str:
+        """
+        Time, sweep, substeps, threads and a line for each object, for people to read.
+        """
 
     @property
     def time(self) -> float:

@@ -311,6 +311,10 @@ class Scene(dict[str, Any]):
         """
         return self.compiled().check(seconds)
 
+    def describe(self) -> str:
+        """A line about the scene and one for each object and collider, for people to read."""
+        return self.compiled().describe()
+
     def to_json(self, indent: int | None = None) -> str:
         """The scene as JSON text. Arrays in it become references ``{"array": POINTER}``; see extract()."""
         return json.dumps(_plain(self, _Arrays({})), indent=indent, ensure_ascii=False, allow_nan=False)

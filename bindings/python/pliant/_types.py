@@ -44,6 +44,22 @@ class Load(NamedTuple):
     """About the joint's anchor [N m]."""
 
 
+class JointState(NamedTuple):
+    """Where the second body of a joint is against the first, in axes of the joint that are fixed in the first body.
+
+    x is along the axis of a hinge or slider. All is 0 at time 0.
+    """
+
+    displacement: Vector
+    """Of the second body's anchor from its place in the first [m]."""
+    rotation: Vector
+    """A vector along the axis whose length is the angle, up to half a turn [rad]."""
+    velocity: Vector
+    """Of the second body's anchor, as seen from the first [m/s]."""
+    angular_velocity: Vector
+    """Of the second body against the first [rad/s]."""
+
+
 class Finding(NamedTuple):
     """What a check found."""
 
@@ -74,6 +90,27 @@ class ContactEvent(NamedTuple):
     """Mean direction of the push on the first; zero if pushes cancel."""
     push: Vector
     """Sum of their normal impulses on the first [N s]."""
+
+
+class BodyTouch(NamedTuple):
+    """The contacts between a rigid body and another one, a collider or particles in a frame, without friction."""
+
+    first: str
+    """Name of an object or collider."""
+    first_body: str
+    """Name of its body; empty for a collider or particles."""
+    second: str
+    """Name of the other object or collider."""
+    second_body: str
+    """Name of its body; empty for a collider or particles."""
+    contacts: int
+    """Largest number of contacts in a substep."""
+    impulse: float
+    """Sum of the magnitudes of their normal impulses over the frame [N s]."""
+    position: Vector
+    """Mean position, weighted by impulse [m]."""
+    push: Vector
+    """Sum of their normal impulses on the first [N s]; over the duration of the frame it is the mean force."""
 
 
 class ForceArrays:

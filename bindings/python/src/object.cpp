@@ -95,9 +95,23 @@ void set_motor(const ObjectRef& self, const std::string& joint, nb::handle targe
   self.handle().set_motor(joint, command);
 }
 
-nb::object joint_load(const ObjectRef& self, int joint) {
-  const JointLoad load = self.view().joint_load(joint);
+/// The index of a joint that is given by index or name.
+int joint_of(const ObjectRef& self, nb::handle joint) {
+  if (nb::isinstance<nb::str>(joint)) return self.view().joint_index(nb::cast<std::string>(joint));
+  int index = 0;
+  if (PyBool_Check(joint.ptr()) != 0 || !nb::try_cast(joint, index))
+    throw nb::type_error("a joint is its name, or its index");
+  return index;
+}
+
+nb::object load_object(const JointLoad& load) {
   return python_part("pliant._types", "Load")(tuple_of(load.force), tuple_of(load.torque));
+}
+
+nb::object joint_state(const ObjectRef& self, nb::handle joint) {
+  const JointState state = self.view().joint_state(joint_of(self, joint));
+  return python_part("pliant._types", "JointState")(tuple_of(state.displacement), tuple_of(state.rotation),
+                                                    tuple_of(state.velocity), tuple_of(state.angular_velocity));
 }
 
 std::string object_repr(const ObjectRef& self) {
@@ -169,12 +183,25 @@ void bind_joints(nb::class_<ObjectRef>& c) {
       .def(
           "body_is_asleep", [](const ObjectRef& o, int body) { return o.view().body_is_asleep(body); }, nb::arg("body"),
           "True if the rigid body of this index sleeps.")
-      .def("joint_load", &joint_load, nb::arg("joint"), nb::sig("def joint_load(self, joint: int) -> pliant._types.Load"),
-           "(force [N], torque [N m]) that the joint of this index carried in the last substep, in world axes; zero if it "
-           "is broken.")
+      .def("joint_state", &joint_state, nb::arg("joint"),
+           nb::sig("def joint_state(self, joint: int | str) -> pliant._types.JointState"),
+           "Angles, displacements and speeds of a joint, by index or name, as they are now.")
       .def(
-          "joint_is_broken", [](const ObjectRef& o, int joint) { return o.view().joint_is_broken(joint); },
-          nb::arg("joint"), "True if the joint of this index has broken.");
+          "joint_load",
+          [](const ObjectRef& o, nb::handle joint) { return load_object(o.view().joint_load(joint_of(o, joint))); },
+          nb::arg("joint"), nb::sig("def joint_load(self, joint: int | str) -> pliant._types.Load"),
+          "(force [N], torque [N m]) that a joint carried in the last substep, in world axes; zero if it is broken. It "
+          "oscillates "
+          "from substep to substep: see mean_joint_load().")
+      .def(
+          "mean_joint_load",
+          [](const ObjectRef& o, nb::handle joint) { return load_object(o.view().mean_joint_load(joint_of(o, joint))); },
+          nb::arg("joint"), nb::sig("def mean_joint_load(self, joint: int | str) -> pliant._types.Load"),
+          "Its mean over the last frame. Raises Error unless World.record_joint_loads() is on.")
+      .def(
+          "joint_is_broken",
+          [](const ObjectRef& o, nb::handle joint) { return o.view().joint_is_broken(joint_of(o, joint)); },
+          nb::arg("joint"), nb::sig("def joint_is_broken(self, joint: int | str) -> bool"), "True if a joint has broken.");
 }
 
 void bind_control(nb::class_<ObjectRef>& c) {

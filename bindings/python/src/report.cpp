@@ -1,6 +1,7 @@
 // pliant.Report: what a step did, as attributes and as a dict.
 
 #include "bindings.h"
+#include "pliant/describe.h"
 
 namespace pliant::python {
 
@@ -266,6 +267,9 @@ void bind_report(nb::module_& m) {
           "ok", [](const NamedReport& r) { return r.report.ok(); }, "False if a value was not finite.")
       .def(
           "explain", [](const NamedReport& r) { return r.report.explain(); }, "Problems and warnings as text.")
+      .def(
+          "describe", [](const NamedReport& r) { return describe(r.report); },
+          "Frame, time, cost, contacts, the worst overstretch, and all that explain() says, for people to read.")
       .def("as_dict", &as_dict, nb::sig("def as_dict(self) -> dict[str, typing.Any]"),
            "All values as a dict that JSON can hold.")
       .def(

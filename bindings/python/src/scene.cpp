@@ -6,6 +6,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "pliant/advise.h"
+#include "pliant/describe.h"
 #include "pliant/error.h"
 #include "pliant/material.h"
 
@@ -148,6 +149,8 @@ void bind_scene(nb::module_& m) {
       .def_prop_ro(
           "left_out", [](const Description& d) { return d.file->left_out; }, "What fills left out.")
       .def_prop_ro("objects", &names_of, "Names of the objects.")
+      .def(
+          "describe", [](const Description& d) { return pliant::describe(d.scene()); }, "What the scene holds, in lines.")
       .def("check", &check, nb::arg("seconds") = 0.0,
            nb::sig("def check(self, seconds: float = 0.0) -> list[pliant._types.Finding]"),
            "Findings of the scene, and of trial runs of about `seconds` [s].");

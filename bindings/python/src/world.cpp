@@ -7,6 +7,7 @@
 #include "colliders.h"
 #include "forces.h"
 #include "object.h"
+#include "pliant/describe.h"
 #include "pliant/error.h"
 #include "pliant/save.h"
 #include "world.h"
@@ -147,6 +148,25 @@ nb::list contact_events(const WorldRef& self) {
   return list;
 }
 
+/// The name of a body, or "" where it is none.
+std::string body_name(const OwnedWorld& owned, const TouchSide& side) {
+  if (side.body < 0) return {};
+  const Object& object = owned.described({side.thing.slot, side.thing.generation});
+  const auto index = static_cast<std::size_t>(side.body);
+  return index < object.bodies.size() ? object.bodies[index].name : std::string{};
+}
+
+nb::list body_touches(const WorldRef& self) {
+  static const nb::object* type = new nb::object(python_part("pliant._types", "BodyTouch"));
+  nb::list list;
+  const Names& names = *self.world->names();
+  for (const BodyTouch& touch : self.world->idle().body_touches())
+    list.append((*type)(names.of(touch.first.thing), body_name(*self.world, touch.first), names.of(touch.second.thing),
+                        body_name(*self.world, touch.second), touch.contacts, touch.impulse, tuple_of(touch.position),
+                        nb::make_tuple(touch.push.x, touch.push.y, touch.push.z)));
+  return list;
+}
+
 std::string world_repr(const WorldRef& self) {
   const World& world = self.world->idle();
   return "<pliant.World: frame " + std::to_string(world.state().frame) + ", " + std::to_string(world.object_count()) +
@@ -246,6 +266,18 @@ void bind_contents(nb::class_<WorldRef>& c) {
           nb::arg("on") = true, "Starts or ends the recording of contact events; off at first.")
       .def("contact_events", &contact_events, nb::sig("def contact_events(self) -> list[pliant._types.ContactEvent]"),
            "The contact events of the last step, if they are recorded.");
+}
+
+void bind_recording(nb::class_<WorldRef>& c) {
+  c.def("body_touches", &body_touches, nb::sig("def body_touches(self) -> list[pliant._types.BodyTouch]"),
+        "What each rigid body touched in the last step, and how hard, if contact events are recorded.")
+      .def(
+          "record_joint_loads", [](const WorldRef& self, bool on) { self.world->idle().record_joint_loads(on); },
+          nb::arg("on") = true,
+          "Starts or ends the recording of mean loads of joints, for Object.mean_joint_load(); off at first.")
+      .def(
+          "describe", [](const WorldRef& self) { return describe(self.world->idle()); },
+          "Time, sweep, substeps, threads and a line for each object, for people to read.");
 }
 
 void bind_measures(nb::class_<WorldRef>& c) {
@@ -485,6 +517,7 @@ void bind_world(nb::module_& m) {
       "Makes a World.");
   bind_stepping(c);
   bind_contents(c);
+  bind_recording(c);
   bind_measures(c);
   bind_saving(c);
 }

@@ -103,6 +103,14 @@ def test_bodies_joints_and_motors(machine_scene: pliant.Scene) -> None:
     load = machine.joint_load(0)
     weight = 1.8 * 0.8 * 0.04 * 1000 * 9.81
     assert load.force[1] == pytest.approx(weight, rel=0.02)
+    assert machine.joint_load("hinge") == load
+    state = machine.joint_state("hinge")
+    assert state.rotation == pytest.approx((np.pi / 2, 0, 0), abs=0.02) and state.angular_velocity[0] < 0.1
+    with pytest.raises(pliant.Error, match="record_joint_loads"):
+        machine.mean_joint_load("hinge")
+    world.record_joint_loads()
+    world.step()
+    assert machine.mean_joint_load(0).force[1] == pytest.approx(weight, rel=0.02)
     assert not machine.joint_is_broken(0) and not machine.body_is_asleep(1)
     machine.set_pose("post", (0, 0.5, 0))
     world.step()

@@ -151,6 +151,25 @@ def test_contact_events() -> None:
     assert begun[0].impulse > 0 and begun[0].normal[1] > 0.5
 
 
+def test_what_bodies_touch() -> None:
+    """A cube of 1 kg at rest on a plane: its weight over the frame."""
+    scene = pliant.Scene()
+    solid = {"box": {"half_extents": [0.1, 0.1, 0.1]}}
+    scene.add(name="dice", bodies=[{"name": "die", "solids": [solid], "mass": 1, "position": [0, 0.1, 0]}])
+    scene.add_collider(name="floor", plane={})
+    world = pliant.World(scene, threads=1)
+    world.record_contact_events()
+    world.run(30)
+    (touch,) = world.body_touches()
+    assert {(touch.first, touch.first_body), (touch.second, touch.second_body)} == {("dice", "die"), ("floor", "")}
+    assert abs(touch.push[1]) / world.frame_time == pytest.approx(9.81, rel=0.02)
+
+
+def test_descriptions(world: pliant.World) -> None:
+    report = world.step()
+    assert "cloth" in cloth_scene().describe() and "cloth" in world.describe() and "frame 1" in report.describe()
+
+
 def test_energies_of_free_fall() -> None:
     scene = pliant.Scene()
     scene.add(particles={"positions": np.array([[0, 2, 0]]), "masses": [3]})
