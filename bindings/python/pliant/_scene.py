@@ -6,7 +6,7 @@ import copy
 import json
 import math
 import os
-from typing import Any, Callable, Iterable, Mapping, Sequence, Union
+from typing import Any, Callable, Iterable, Mapping, Union
 
 import numpy as np
 
@@ -17,8 +17,8 @@ from ._types import Finding
 SceneLike = Union["Scene", Mapping[str, Any], str, "os.PathLike[str]"]
 """What a World is made from: a Scene, a dict of the scene format, or the path of a scene file."""
 
-Vary = Union[Mapping[str, Sequence[Any]], Callable[["Scene", int], Any]]
-"""How the worlds of a Batch differ: {JSON pointer: a value for each}, or a function that changes a copy of the scene."""
+Vary = Union[Mapping[str, Any], Callable[["Scene", int], Any]]
+"""How the worlds of a Batch differ: {JSON pointer: a value for each}, or a function that changes a copy of a scene."""
 
 _KINDS = (
     "cloth", "soft_body", "rope", "rod", "liquid", "grains", "gas", "tracers", "particles", "bodies", "urdf",

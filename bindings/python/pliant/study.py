@@ -9,7 +9,7 @@ import itertools
 import json
 import os
 import pickle
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence, Union
 
 from . import _pliant
 from ._errors import Error
@@ -122,7 +122,7 @@ def _measures_of(measure: Measures | None) -> dict[str, Measure]:
     return named
 
 
-def _values_of(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
+def _values_of(vary: Mapping[str, Any]) -> list[dict[str, Any]]:
     if not isinstance(vary, Mapping):
         raise TypeError("what varies is a dict {JSON pointer: values}")
     for pointer, values in vary.items():
@@ -133,7 +133,7 @@ def _values_of(vary: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:
 
 def variants(
     scene: SceneLike,
-    vary: Mapping[str, Sequence[Any]] | Iterable[Mapping[str, Any]],
+    vary: Mapping[str, Any] | Sequence[Mapping[str, Any]],
     *,
     measure: Measures | None = None,
     frames: int | None = None,
@@ -183,7 +183,8 @@ class _Kept:
         try:
             line = json.dumps({"key": key, "row": row}, default=lambda value: value.tolist())
         except (TypeError, AttributeError):
-            raise TypeError("a study with `resume` keeps rows as JSON: measures return numbers, str, lists or arrays") from None
+            words = "a study with `resume` keeps rows as JSON: measures return numbers, str, lists or arrays"
+            raise TypeError(words) from None
         with open(self.path, "a", encoding="utf-8") as file:
             file.write(line + "\n")
 
@@ -201,7 +202,7 @@ def _require_pickles(measures: dict[str, Measure]) -> None:
 
 def study(
     scene: SceneLike,
-    vary: Mapping[str, Sequence[Any]] | Iterable[Mapping[str, Any]],
+    vary: Mapping[str, Any] | Sequence[Mapping[str, Any]],
     *,
     measure: Measures | None = None,
     frames: int | None = None,
@@ -214,7 +215,7 @@ def study(
     """Runs variants of a scene side by side, and returns a row for each.
 
     ``vary``: {JSON pointer: values}, of which all combinations are taken, or a list of {JSON pointer: value}.
-    ``measure``: a function of the World at the end, or a dict of functions by name. ``frames``: None for the scene's own
+    ``measure``: a function of the World at the end, or a dict of functions by name. ``frames``: None for the scene's
     number. ``workers``: number of processes, as many as the machine has threads if None; 0: this process alone.
     ``executor``: anything with ``submit`` instead, such as a ThreadPoolExecutor or a ``Client`` of dask. ``threads`` of
     each World. ``resume``: a file that keeps rows as they come: what it has of another run is not run again.
@@ -272,7 +273,8 @@ def _submit(
             except Exception as error:  # the process ended, or something does not pickle
                 variant = all_variants[i]
                 row = {**variant.values, **dict.fromkeys(variant.measures)}
-                row.update(ok=False, explain=f"{type(error).__name__}: {error}", state_hash=None, frames=0, milliseconds=0.0)
+                row.update(ok=False, explain=f"{type(error).__name__}: {error}")
+                row.update(state_hash=None, frames=0, milliseconds=0.0)
             take(i, row)
     except BaseException:
         for future in futures.values():

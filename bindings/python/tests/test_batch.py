@@ -108,7 +108,7 @@ BAD: dict[str, Callable[[pliant.Batch], Any]] = {
     "a wrong scene": lambda b: pliant.Batch({"objects": [{}]}, 3),
     "threads below zero": lambda b: pliant.Batch(cloth_scene(), 3, threads=-1),
     "values for fewer": lambda b: pliant.Batch(cloth_scene(), 3, vary={"/gravity": [[0, 0, 0]]}),
-    "values of a number": lambda b: pliant.Batch(cloth_scene(), 3, vary={"/gravity": 3}),  # type: ignore[dict-item]
+    "values of a number": lambda b: pliant.Batch(cloth_scene(), 3, vary={"/gravity": 3}),
     "values of a str": lambda b: pliant.Batch(cloth_scene(), 3, vary={"/description": "abc"}),
     "a wrong value": lambda b: pliant.Batch(cloth_scene(), 3, vary={"/gravity": [1, 2, 3]}),
     "a wrong pointer": lambda b: pliant.Batch(cloth_scene(), 1, vary={"gravity": [1]}),
