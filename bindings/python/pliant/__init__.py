@@ -1,0 +1,69 @@
+"""Pliant: position based dynamics of cloth, ropes, soft bodies, rigid bodies, liquids and grains.
+
+A Scene describes a simulation, a World runs it, and its objects give and take numpy arrays:
+
+>>> import pliant
+>>> scene = pliant.Scene()
+>>> scene.add(cloth={"mesh": pliant.grid_mesh(8, 8, 1, 1), "material": "silk"}, pins=[{"particles": [0, 7]}])
+'cloth'
+>>> world = pliant.World(scene)
+>>> world.run(10).ok
+True
+>>> world["cloth"].positions().shape
+(64, 3)
+"""
+
+from . import _errors, _types  # noqa: F401  (the compiled part looks for them)
+from ._errors import Error
+from ._pliant import (
+    Batch,
+    BatchObject,
+    Collider,
+    MeshCollider,
+    Object,
+    Report,
+    State,
+    World,
+    Writer,
+    fabrics,
+    grid_mesh,
+    read_mesh,
+    sphere_mesh,
+    version,
+    write_mesh,
+)
+from ._scene import Scene
+from .study import Table, study
+from ._types import BodyTouch, ContactEvent, Finding, ForceArrays, JointState, Load, Pose
+
+__version__ = version()
+
+__all__ = [
+    "Batch",
+    "BatchObject",
+    "BodyTouch",
+    "Collider",
+    "ContactEvent",
+    "Error",
+    "Finding",
+    "ForceArrays",
+    "JointState",
+    "Load",
+    "MeshCollider",
+    "Object",
+    "Pose",
+    "Report",
+    "Scene",
+    "State",
+    "Table",
+    "World",
+    "Writer",
+    "__version__",
+    "fabrics",
+    "grid_mesh",
+    "read_mesh",
+    "sphere_mesh",
+    "study",
+    "version",
+    "write_mesh",
+]

@@ -1,0 +1,178 @@
+// What the files of the Python module share. Every function here is called with the GIL unless it says otherwise.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pliant/io.h"
+#include "pliant/world.h"
+
+namespace pliant::python {
+
+namespace nb = nanobind;
+
+struct PythonForce;
+
+/// A scene that C++ has read: what World and Batch are made from.
+struct Description {
+  std::shared_ptr<const SceneFile> file;
+  const Scene& scene() const { return file->scene; }
+};
+
+/// Names of the objects, colliders and mesh colliders of a World by slot; shared by its Reports.
+struct Names {
+  std::map<ObjectId, std::string> objects;
+  std::map<ColliderId, std::string> colliders;
+  std::map<MeshColliderId, std::string> mesh_colliders;
+  std::string of(ObjectId id) const;
+  std::string of(const Thing& thing) const;
+};
+
+/// A World, what saving it needs, and what keeps Python from using it at the wrong time.
+class OwnedWorld {
+ public:
+  OwnedWorld(std::shared_ptr<const SceneFile> file, World made);
+  OwnedWorld(const OwnedWorld&) = delete;
+  OwnedWorld& operator=(const OwnedWorld&) = delete;
+
+  /// The World, for use between steps. Throws an Error while a step runs, in a callback or in another thread.
+  World& idle();
+  /// The same for what may move its particles in memory. Also throws an Error while views of records are alive.
+  World& changing(const char* what);
+
+  /// The id of an object of that name. Throws nb::key_error with what there is.
+  ObjectId object(const std::string& name) const;
+  ColliderId collider(const std::string& name) const;
+  MeshColliderId mesh_collider(const std::string& name) const;
+  const std::shared_ptr<const Names>& names() const { return names_; }
+
+  ObjectId add(const Object& object);
+  ColliderId add(const Collider& collider);
+  MeshColliderId add(const MeshCollider& collider);
+  void remove(ObjectId id);
+  void remove(ColliderId id);
+  void remove(MeshColliderId id);
+
+  /// The description of an object, as it was added.
+  const Object& described(ObjectId id) const;
+  /// True if an object tears, is cut or can break: then all particles can move in memory.
+  bool comes_apart() const;
+  /// The Scene that describes what is there now, for saving.
+  Scene present() const;
+
+  const SceneFile& file() const { return *file_; }
+  const std::shared_ptr<const SceneFile>& shared_file() const { return file_; }
+  float frame_time() const { return file_->scene.frame_time; }
+
+  /// Set by Ctrl-C while a step runs, and by World.stop().
+  std::atomic<bool> stop{false};
+  double last_milliseconds = 1e9;  ///< of the last step; large before the first
+  int views = 0;                   ///< of records that are alive
+  std::vector<std::shared_ptr<PythonForce>> forces;
+
+ private:
+  friend class Stepping;
+  World world_;
+  std::shared_ptr<const SceneFile> file_;
+  std::shared_ptr<const Names> names_;
+  bool is_stepping_ = false;
+  /// Descriptions whose index in the scene is not their id.
+  std::map<ObjectId, Object> objects_;
+  std::map<ColliderId, Collider> colliders_;
+  std::map<MeshColliderId, MeshCollider> mesh_colliders_;
+};
+
+using SharedWorld = std::shared_ptr<OwnedWorld>;
+
+/// Marks a World as stepping from construction to destruction; both with the GIL.
+class Stepping {
+ public:
+  explicit Stepping(OwnedWorld& owned);
+  ~Stepping() { owned_.is_stepping_ = false; }
+  Stepping(const Stepping&) = delete;
+  Stepping& operator=(const Stepping&) = delete;
+  World& world() { return owned_.world_; }
+
+ private:
+  OwnedWorld& owned_;
+};
+
+/// While it lives in the main thread, Ctrl-C also sets `flag`, so that a World ends its step within a substep.
+class StopOnInterrupt {
+ public:
+  StopOnInterrupt(std::atomic<bool>& flag, bool wanted);
+  ~StopOnInterrupt();
+  StopOnInterrupt(const StopOnInterrupt&) = delete;
+  StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
+
+ private:
+  bool installed_ = false;
+};
+
+/// A Report with the names that its ids had.
+struct NamedReport {
+  Report report;
+  std::shared_ptr<const Names> names;
+};
+
+/// Advances by one frame without the GIL. Throws nb::python_error if a signal's handler raised, as that of Ctrl-C does.
+NamedReport step(OwnedWorld& owned, float dt);
+
+/// Makes a World without the GIL. No threads: the scene's number.
+SharedWorld make_world(const std::shared_ptr<const SceneFile>& file, std::optional<int> threads);
+
+/// For Python's garbage collector: visits the force functions of a World that this is the last reference to, since such a
+/// function can refer to the World; and forgets them.
+int traverse(const SharedWorld& world, visitproc visit, void* data);
+void clear(const SharedWorld& world);
+
+/// The type slots of a class whose member `world` is a SharedWorld.
+template <class Ref>
+PyType_Slot* collected_slots() {
+  static PyType_Slot slots[] = {
+      {Py_tp_traverse, reinterpret_cast<void*>(+[](PyObject* self, visitproc visit, void* arg) -> int {
+         Py_VISIT(Py_TYPE(self));
+         if (!nb::inst_ready(self)) return 0;
+         return traverse(nb::inst_ptr<Ref>(self)->world, visit, arg);
+       })},
+      {Py_tp_clear, reinterpret_cast<void*>(+[](PyObject* self) -> int {
+         if (nb::inst_ready(self)) clear(nb::inst_ptr<Ref>(self)->world);
+         return 0;
+       })},
+      {0, nullptr}};
+  return slots;
+}
+
+/// The Description of what a caller gave as a scene: a Scene, a mapping, or a path.
+Description description_of(nb::handle scene);
+
+/// A class or function of the package's own Python modules.
+nb::object python_part(const char* module, const char* name);
+
+/// (position, rotation) as pliant.Pose.
+nb::object pose_object(const RigidPose& pose);
+RigidPose pose_from(nb::handle position, nb::handle rotation);
+nb::tuple tuple_of(const Vec3f& v);
+
+void bind_errors(nb::module_& m);
+void bind_scene(nb::module_& m);
+void bind_state(nb::module_& m);
+void bind_report(nb::module_& m);
+void bind_object(nb::module_& m);
+void bind_colliders(nb::module_& m);
+void bind_world(nb::module_& m);
+void bind_files(nb::module_& m);
+void bind_batch(nb::module_& m);
+
+}  // namespace pliant::python

@@ -1,0 +1,91 @@
+// Forces that Python computes on arrays, once a substep and object.
+#include "forces.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "arrays.h"
+#include "pliant/error.h"
+
+namespace pliant::python {
+
+namespace {
+
+/// The last copy of a force goes where nobody has the GIL.
+std::shared_ptr<PythonForce> shared(PythonForce force) {
+  return {new PythonForce(std::move(force)), [](PythonForce* last) {
+            if (Py_IsInitialized() == 0) return;  // the interpreter has taken the objects along
+            const nb::gil_scoped_acquire acquire;
+            delete last;
+          }};
+}
+
+void copy_in(std::span<const Vec3f> from, nb::handle array) {
+  const std::size_t shape[2] = {from.size(), 3};
+  const Output to(array, shape);
+  std::copy(from.begin(), from.end(), to.vectors().begin());
+}
+
+/// The arrays of an object of so many particles; made anew where an edit has changed the number.
+nb::object arrays_for(PythonForce& force, const ForceField::Arrays& given) {
+  const nb::str name(std::string(given.object).c_str());
+  const std::size_t n = given.positions.size();
+  if (force.arrays.contains(name) && nb::len(nb::object(force.arrays[name].attr("masses"))) == n) return force.arrays[name];
+  const std::size_t shape[2] = {n, 3};
+  const nb::object made = python_part("pliant._types", "ForceArrays")(
+      name, new_floats(shape), new_floats(shape), float_rows(given.masses.data(), n, 0), new_floats(shape));
+  force.arrays[name] = made;
+  return made;
+}
+
+/// Calls Python with the GIL. An exception of it passes through World::step as it is.
+void call(PythonForce& force, const ForceField::Arrays& given) {
+  const nb::gil_scoped_acquire acquire;
+  if (!force.function.is_valid()) return;
+  if (!force.only.is_none() && nb::cast<std::string>(force.only) != given.object) return;
+  const nb::object arrays = arrays_for(force, given);
+  copy_in(given.positions, arrays.attr("positions"));
+  copy_in(given.velocities, arrays.attr("velocities"));
+  copy_in(given.forces, arrays.attr("forces"));
+  arrays.attr("time") = given.time;
+  force.function(arrays);
+  const Numbers result(arrays.attr("forces"), 'f', 3, "forces");
+  if (result.rows() != given.forces.size())
+    throw Error({.object = std::string(given.object)}, "forces has another number of rows than there are particles",
+                "fill arrays.forces[:] in place");
+  const std::span<const Vec3f> all = result.vectors();
+  std::copy(all.begin(), all.end(), given.forces.begin());
+}
+
+ForceField field_of(nb::handle function, nb::handle only, PythonForces& made) {
+  if (PyCallable_Check(function.ptr()) == 0) throw nb::type_error("a force is a function of pliant.ForceArrays");
+  const std::shared_ptr<PythonForce> force = shared({nb::borrow(function), nb::borrow(only), nb::dict()});
+  made.push_back(force);
+  return ForceField::on_arrays([force](const ForceField::Arrays& arrays) { call(*force, arrays); });
+}
+
+void require_object(const Scene& scene, const std::string& name) {
+  const bool has = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& o) { return o.name == name; });
+  if (!has)
+    throw Error({}, "forces are given for '" + name + "', which is no object of the scene", "use the name of an object");
+}
+
+}  // namespace
+
+std::shared_ptr<const SceneFile> with_forces(const std::shared_ptr<const SceneFile>& file, nb::handle forces,
+                                             PythonForces& made) {
+  if (forces.is_none()) return file;
+  auto changed = std::make_shared<SceneFile>(*file);
+  if (!nb::isinstance<nb::dict>(forces)) {
+    changed->scene.forces.push_back(field_of(forces, nb::none(), made));
+    return changed;
+  }
+  for (const auto& [name, function] : nb::borrow<nb::dict>(forces)) {
+    if (!nb::isinstance<nb::str>(name)) throw nb::type_error("forces are given by names of objects");
+    require_object(changed->scene, nb::cast<std::string>(name));
+    changed->scene.forces.push_back(field_of(function, name, made));
+  }
+  return changed;
+}
+
+}  // namespace pliant::python

@@ -1,0 +1,189 @@
+"""Studies on processes, threads and alone."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import csv
+import json
+import os
+import pathlib
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import cloth_scene
+
+import pliant
+from pliant.study import Table, variants
+
+VARY: dict[str, list[Any]] = {"/objects/0/cloth/material": ["cotton", "silk"], "/settings/substeps": [5, 10]}
+
+
+def droop(world: pliant.World) -> Any:
+    return world["cloth"].positions()[:, 1].min()
+
+
+def heights(world: pliant.World) -> Any:
+    return world["cloth"].positions()[:3, 1]
+
+
+def dies(world: pliant.World) -> Any:
+    os._exit(3)
+
+
+def fails(world: pliant.World) -> Any:
+    raise RuntimeError("no measure")
+
+
+def hashes_alone() -> list[str]:
+    hashes = []
+    for material in VARY["/objects/0/cloth/material"]:
+        for substeps in VARY["/settings/substeps"]:
+            scene = cloth_scene()
+            scene["objects"][0]["cloth"]["material"] = material
+            scene["settings"] = {"substeps": substeps}
+            world = pliant.World(scene, threads=2)
+            world.run(5)
+            hashes.append(world.state_hash())
+    return hashes
+
+
+@pytest.mark.parametrize("where", ["processes", "threads", "here"])
+def test_rows_have_the_bits_of_worlds_alone(where: str) -> None:
+    scene = cloth_scene()
+    if where == "processes":
+        table = pliant.study(scene, VARY, measure={"droop": droop}, workers=2)
+    elif where == "threads":
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            table = pliant.study(scene, VARY, measure={"droop": droop}, executor=pool)
+    else:
+        table = pliant.study(scene, VARY, measure=droop, workers=0)
+    assert table.column("state_hash") == hashes_alone()
+    assert [row["/settings/substeps"] for row in table] == [5, 10, 5, 10]
+    assert all(row["ok"] and row["frames"] == 5 and isinstance(row["droop"], float) for row in table)
+    assert "settings" not in scene and not table.failures
+
+
+def test_failures_are_rows() -> None:
+    rows: list[dict[str, Any]] = [
+        {"/objects/0/cloth/material": "paper"},
+        {"/objects/0/cloth/material": "silk"},
+        {"/gravity": [0, 1e300, 0]},
+        {"/nothing/there": 3},
+    ]
+    table = pliant.study(cloth_scene(), rows, workers=0)
+    assert [row["ok"] for row in table] == [False, True, False, False]
+    assert "'paper'" in table[0]["explain"] and table[0]["state_hash"] is None
+    assert [row["explain"] for row in table.failures] == [table[i]["explain"] for i in (0, 2, 3)]
+    table = pliant.study(cloth_scene(), {"/settings/substeps": [5]}, measure=fails, workers=0)
+    assert not table[0]["ok"] and table[0]["explain"] == "RuntimeError: no measure" and table[0]["fails"] is None
+
+
+def test_a_process_that_dies_is_a_row() -> None:
+    table = pliant.study(cloth_scene(), {"/settings/substeps": [5]}, measure=dies, workers=1)
+    assert [row["ok"] for row in table] == [False] and table[0]["explain"]
+
+
+def test_resume(tmp_path: pathlib.Path) -> None:
+    kept = tmp_path / "rows.jsonl"
+    calls = []
+
+    def counted(world: pliant.World) -> float:
+        calls.append(1)
+        return float(droop(world))
+
+    first = pliant.study(cloth_scene(), {"/settings/substeps": [5]}, measure={"droop": counted}, workers=0, resume=kept)
+    with open(kept, "a", encoding="utf-8") as file:
+        file.write('{"key": "half')  # as a run that was killed leaves it
+    progress: list[tuple[int, int]] = []
+    second = pliant.study(
+        cloth_scene(), {"/settings/substeps": [5, 10]}, measure={"droop": counted}, workers=0, resume=kept,
+        progress=lambda done, of: progress.append((done, of)),
+    )  # fmt: skip
+    assert len(calls) == 2 and second[0] == first[0] and progress == [(2, 2)]
+    changed = cloth_scene()
+    changed["gravity"] = [0, -1, 0]
+    pliant.study(changed, {"/settings/substeps": [5]}, measure={"droop": counted}, workers=0, resume=kept)
+    moved = cloth_scene()
+    vertices, triangles = pliant.grid_mesh(6, 6, 2, 1)
+    moved["objects"][0]["cloth"]["mesh"] = (vertices, triangles)
+    pliant.study(moved, {"/settings/substeps": [5]}, measure={"droop": counted}, workers=0, resume=kept)
+    assert len(calls) == 4
+
+
+def test_arrays_as_measures_are_kept(tmp_path: pathlib.Path) -> None:
+    kept = tmp_path / "rows.jsonl"
+    first = pliant.study(cloth_scene(), {"/settings/substeps": [5]}, measure=heights, workers=0, resume=kept)
+    second = pliant.study(cloth_scene(), {"/settings/substeps": [5]}, measure=heights, workers=0, resume=kept)
+    np.testing.assert_array_equal(first[0]["heights"], np.asarray(second[0]["heights"], np.float32))
+    with pytest.raises(TypeError, match="as JSON"):
+        pliant.study(cloth_scene(), {"/settings/substeps": [7]}, measure=lambda w: w, workers=0, resume=kept)
+
+
+def test_variants_one_by_one() -> None:
+    """As the tasks of a Slurm array run them."""
+    rows = [variant.run() for variant in variants(cloth_scene(), VARY, measure=droop)]
+    assert [row["state_hash"] for row in rows] == hashes_alone()
+
+
+def test_a_table_writes_csv(tmp_path: pathlib.Path) -> None:
+    table = pliant.study(cloth_scene(), VARY, measure=droop, workers=0)
+    table.write(tmp_path / "table.csv")
+    with open(tmp_path / "table.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["state_hash"] for row in rows] == table.column("state_hash")
+    assert float(rows[0]["droop"]) == table[0]["droop"]
+    assert table.columns[:3] == ["/objects/0/cloth/material", "/settings/substeps", "droop"]
+    assert json.loads(json.dumps(table)) == table and isinstance(table, Table)
+
+
+class Submits:
+    """An executor such as a dask Client, which has `submit` alone."""
+
+    def submit(self, function: Any, *arguments: Any) -> Any:
+        future: concurrent.futures.Future[Any] = concurrent.futures.Future()
+        future.set_result(function(*arguments))
+        return future
+
+
+def test_any_executor_with_submit() -> None:
+    table = pliant.study(cloth_scene(), VARY, executor=Submits())
+    assert table.column("state_hash") == hashes_alone()
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_dask_cluster() -> None:
+    distributed = pytest.importorskip("distributed")
+    options = {"n_workers": 2, "threads_per_worker": 1, "processes": True, "dashboard_address": None}
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+        measures = {"droop": lambda world: float(world["cloth"].positions()[:, 1].min())}
+        table = pliant.study(cloth_scene(), VARY, measure=measures, executor=client)
+    assert table.column("state_hash") == hashes_alone() and not table.failures
+    assert table.column("droop") == pliant.study(cloth_scene(), VARY, measure=droop, workers=0).column("droop")
+
+
+untyped: Any = pliant.study  # of calls that mypy would refuse
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: untyped(cloth_scene(), 3),
+        lambda: untyped(cloth_scene(), {"/gravity": 3}),
+        lambda: untyped(cloth_scene(), {"/gravity": "abc"}),
+        lambda: untyped(cloth_scene(), {"gravity": [1]}),
+        lambda: untyped(None, VARY),
+        lambda: untyped(cloth_scene(), VARY, measure=3),
+        lambda: untyped(cloth_scene(), VARY, measure={"a": 3}),
+        lambda: untyped(cloth_scene(), VARY, frames=0),
+        lambda: untyped(cloth_scene(), VARY, frames=2.5),
+        lambda: untyped(cloth_scene(), VARY, workers=-1),
+        lambda: untyped(cloth_scene(), VARY, workers="two"),
+        lambda: untyped(cloth_scene(), VARY, executor=3),
+        lambda: untyped(cloth_scene(), VARY, measure=lambda world: 1, workers=2),
+    ],
+)
+def test_misuse(call: Any) -> None:
+    with pytest.raises((ValueError, TypeError)) as caught:
+        call()
+    assert str(caught.value)
