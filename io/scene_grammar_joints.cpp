@@ -44,7 +44,7 @@ const Record& turn_keyframe_record() {
   static const Record result{"keyframe of a rotary motor",
                              "The target of a motor at a time: linear between keyframes, constant outside.",
                              {needed("time", number("s", 0, 1e9), "Time, after that of the keyframe before."),
-                              needed("target", number("degree, degree/s or N m", -1e6, 1e6), "Target.")},
+                              needed("target", number("degree, degree/s or N m", -1e30, 1e30), "Target.")},
                              {}};
   return result;
 }
@@ -53,7 +53,7 @@ const Record& slide_keyframe_record() {
   static const Record result{"keyframe of a linear motor",
                              "The target of a motor at a time: linear between keyframes, constant outside.",
                              {needed("time", number("s", 0, 1e9), "Time, after that of the keyframe before."),
-                              needed("target", number("m, m/s or N", -1e6, 1e6), "Target.")},
+                              needed("target", number("m, m/s or N", -1e30, 1e30), "Target.")},
                              {}};
   return result;
 }

@@ -30,7 +30,10 @@ std::string scene_json(const Scene& scene) {
 }
 
 Scene scene_from_json(const std::string& text, const std::string& name) {
-  const scene_file::JsonDocument document = scene_file::parse_json(text, name, 16 * scene_file::largest_text);
+  constexpr std::size_t most = 4 * scene_file::largest_text;
+  if (text.size() > most)
+    throw Error({.file = name}, fmt::format("is longer than {} MiB", most >> 20), "save the World instead, by save()");
+  const scene_file::JsonDocument document = scene_file::parse_json(text, name, most);
   const scene_file::JsonValue& root = document.root;
   if (root.kind != scene_file::JsonValue::Kind::object || root.find(format_name.data()) == nullptr)
     document.fail(root, "is not a scene that scene_json() wrote", "read a scene file with read_scene() or parse_scene()");

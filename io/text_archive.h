@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@
 #include "io/save_archive.h"
 #include "io/scene_json.h"
 #include "io/shortest_number.h"
+#include "pliant/error.h"
 
 namespace pliant::save_file {
 
@@ -110,19 +112,18 @@ class TextOutput {
   void put(bool value) { text_ += value ? "true" : "false"; }
   template <class E>
   requires std::is_enum_v<E>
-  void put(E value) { put_word(words(value)[static_cast<std::size_t>(value)]); }
+  void put(E value) {
+    const auto all = words(value);
+    const auto index = static_cast<std::size_t>(value);
+    if (index >= all.size()) throw Error({}, "the scene has a value of an enumeration that it does not have", "mend it");
+    put_word(all[index]);
+  }
   void put(const std::string& text) {
-    constexpr char hexadecimal[] = "0123456789abcdef";
-    text_ += '"';
-    for (const char c : text) {
-      const auto code = static_cast<unsigned char>(c);
-      if (c == '"' || c == '\\') text_ += '\\';
-      if (code < 0x20)
-        text_ += {'\\', 'u', '0', '0', hexadecimal[code >> 4], hexadecimal[code & 15]};
-      else
-        text_ += c;
+    try {
+      text_ += nlohmann::json(text).dump();
+    } catch (const nlohmann::json::exception&) {
+      throw Error({}, "the name '" + scene_file::printable(text) + "' is not UTF-8", "give it another name");
     }
-    text_ += '"';
   }
   void put_word(const char* word) { text_.append("\"").append(word).append("\""); }
   template <class T>

@@ -1,6 +1,7 @@
 // pliant study: runs a scene once for each combination of values, and writes a table with a row for each.
 //
-// Variants run side by side, each on one thread, which changes no bits. A variant that fails is a row with the reason.
+// Variants run side by side, each on one thread unless --threads says otherwise, which changes no bits. A variant that
+// fails is a row with the reason.
 #include "study.h"
 
 #include <fmt/format.h>
@@ -20,6 +21,8 @@
 #include "apps/render/render.h"
 #include "command.h"
 #include "pliant/error.h"
+#include "pliant/save.h"
+#include "pliant/version.h"
 #include "run_report.h"
 
 namespace pliant::command {
@@ -55,6 +58,7 @@ std::vector<std::string> pointers_of(const StudyOptions& options) {
 std::vector<std::string> columns_of(const StudyOptions& options, const std::vector<Varied>& varied) {
   std::vector<std::string> columns;
   for (const Varied& one : varied) columns.push_back(one.pointer);
+  columns.emplace_back("fingerprint");
   columns.emplace_back("ok");
   for (const auto& [name, pointer] : always_measured) columns.push_back(name);
   columns.insert(columns.end(), options.measures.begin(), options.measures.end());
@@ -83,11 +87,30 @@ void check_measures(const StudyOptions& options) {
     }
 }
 
-Outcome simulate_variant(const StudyOptions& options, const Variant& variant, bool is_alone) {
+SceneFile file_of(const StudyOptions& options, const Variant& variant, bool is_alone) {
   Overrides overrides = options.overrides;
   overrides.values.insert(overrides.values.end(), variant.begin(), variant.end());
-  if (!is_alone) overrides.threads = 1;
-  const SceneFile file = read_file_with(options.scene, overrides, true);
+  if (!is_alone && !overrides.threads) overrides.threads = 1;
+  return read_file_with(options.scene, overrides, true);
+}
+
+/// What decides the results of a variant, in 16 digits: the scene, its frames, and the version of Pliant. Empty if the scene
+/// cannot be read.
+std::string fingerprint_of(const StudyOptions& options, const Variant& variant) {
+  try {
+    const Scene scene = file_of(options, variant, false).scene;
+    const Fingerprint of = fingerprint(scene);
+    std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+    for (const char c : of.scene + of.settings + std::to_string(scene.frames) + PLIANT_VERSION)
+      hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    return fmt::format("{:016x}", hash);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+Outcome simulate_variant(const StudyOptions& options, const Variant& variant, bool is_alone) {
+  const SceneFile file = file_of(options, variant, is_alone);
   World world = make_world(file.scene, options.scene);
   RunReport report(false);
   const bool finite = simulate(world, file.scene, true, [&](const Report& frame) { report.add(frame, world); });
@@ -119,6 +142,7 @@ std::vector<std::string> key_of(const Variant& variant, const std::vector<Varied
   return key;
 }
 
+/// `start`: the values and the fingerprint.
 std::vector<std::string> row_of(std::vector<std::string> key, const Outcome& outcome) {
   key.emplace_back(outcome.is_ok ? "true" : "false");
   key.insert(key.end(), outcome.measured.begin(), outcome.measured.end());
@@ -198,24 +222,38 @@ int study(const StudyOptions& options) {
   for (const std::string& text : options.vary) varied.push_back(parse_varied(text));
   const std::vector<Variant> variants = combinations(varied);
   check_study(options);
+  constexpr std::size_t most_pictures = 400;
+  if (!options.pictures.empty() && variants.size() > most_pictures)
+    throw Error({}, "--pictures would draw " + std::to_string(variants.size()) + " pictures",
+                "draw at most " + std::to_string(most_pictures));
   StudyTable table(options.out, columns_of(options, varied), varied.size(), variants.size());
   std::vector<std::size_t> left;
-  for (std::size_t i = 0; i < variants.size(); ++i)
-    if (!options.pictures.empty() || !table.take_over(i, key_of(variants[i], varied))) left.push_back(i);
+  std::vector<std::vector<std::string>> starts(variants.size());
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    starts[i] = key_of(variants[i], varied);
+    starts[i].push_back(fingerprint_of(options, variants[i]));
+    if (!table.take_over(i, starts[i]) || !options.pictures.empty()) left.push_back(i);
+  }
   std::vector<std::optional<RenderScene>> pictures(options.pictures.empty() ? 0 : variants.size());
   std::mutex guard;
   std::size_t failed = 0;
   const std::size_t wanted = options.jobs > 0 ? static_cast<std::size_t>(options.jobs)
                                               : std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
   const std::size_t jobs = std::min(wanted, std::max<std::size_t>(left.size(), 1));
-  run_side_by_side(left.size(), jobs, [&](std::size_t i) {
+  const auto run_one = [&](std::size_t i) {
     const std::size_t number = left[i];
     Outcome outcome = outcome_of(options, variants[number], jobs == 1);
     const std::scoped_lock lock(guard);
     failed += outcome.is_ok ? 0 : 1;
-    table.set(number, row_of(key_of(variants[number], varied), outcome));
+    table.set(number, row_of(starts[number], outcome));
     if (!pictures.empty()) pictures[number] = std::move(outcome.picture);
-  });
+  };
+  try {
+    run_side_by_side(left.size(), jobs, run_one);
+  } catch (...) {
+    table.write();
+    throw;
+  }
   table.write();
   if (!pictures.empty()) draw_sheet(options, pictures, varied.empty() ? 1 : varied.back().values.size());
   if (!options.quiet) {

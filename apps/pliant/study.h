@@ -1,7 +1,9 @@
 // A study: runs a scene once for each combination of values, and writes a row for each into a table.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,25 +30,29 @@ std::vector<Variant> combinations(const std::vector<Varied>& varied);
 /// The fields of a line of CSV (RFC 4180).
 std::vector<std::string> csv_fields(const std::string& line);
 
-/// A table in CSV that is complete after each row. Rows of an earlier table with the same columns are kept, so that a study
-/// goes on where it was stopped.
+/// A table in CSV, whose file is complete at any time. Rows of an earlier table with the same columns are kept, so that a
+/// study goes on where it was stopped, and others of the same members stand in one table.
 class StudyTable {
  public:
-  /// The first `keys` columns say which variant a row is of. Throws an Error if the file has other columns.
+  /// The first `keys` columns are the values of a variant; the next two say what it was made of, and if it went well
+  /// ("true"). Throws an Error if the file has other columns.
   StudyTable(std::string path, std::vector<std::string> columns, std::size_t keys, std::size_t rows);
 
-  /// Takes over the row of a variant from the earlier table, if it is there.
-  bool take_over(std::size_t row, const std::vector<std::string>& key);
-  /// Sets a row and writes the table.
+  /// Takes over the row of a variant from the earlier table, if it is there and went well. `start`: its first fields.
+  bool take_over(std::size_t row, const std::vector<std::string>& start);
+  /// Sets a row, and writes the table if that was not done within the last second.
   void set(std::size_t row, std::vector<std::string> fields);
-  void write() const;
+  void write();
 
  private:
+  std::string key_of(const std::vector<std::string>& fields) const;
+
   std::string path_;
   std::vector<std::string> columns_;
   std::size_t keys_;
-  std::vector<std::vector<std::string>> rows_;     ///< empty: not there yet
-  std::vector<std::vector<std::string>> earlier_;  ///< rows of the file as it was
+  std::vector<std::vector<std::string>> rows_;                 ///< empty: not there yet
+  std::map<std::string, std::vector<std::string>> earlier_{};  ///< rows of the file that no row replaces, by their values
+  std::chrono::steady_clock::time_point written_{};
 };
 
 }  // namespace pliant::command

@@ -110,30 +110,38 @@ StudyTable::StudyTable(std::string path, std::vector<std::string> columns, std::
   }
   for (std::size_t i = 1; i < lines.size(); ++i) {
     std::vector<std::string> fields = csv_fields(lines[i]);
-    if (fields.size() == columns_.size()) earlier_.push_back(std::move(fields));
+    if (fields.size() == columns_.size()) earlier_[key_of(fields)] = std::move(fields);
   }
 }
 
-bool StudyTable::take_over(std::size_t row, const std::vector<std::string>& key) {
-  for (const std::vector<std::string>& fields : earlier_)
-    if (std::equal(key.begin(), key.end(), fields.begin())) {
-      rows_[row] = fields;
-      return true;
-    }
-  return false;
+std::string StudyTable::key_of(const std::vector<std::string>& fields) const {
+  return csv_line({fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(keys_)});
+}
+
+bool StudyTable::take_over(std::size_t row, const std::vector<std::string>& start) {
+  const auto found = earlier_.find(key_of(start));
+  if (found == earlier_.end()) return false;
+  const std::vector<std::string>& fields = found->second;
+  if (!std::equal(start.begin(), start.end(), fields.begin()) || fields[keys_ + 1] != "true") return false;
+  rows_[row] = fields;
+  earlier_.erase(found);
+  return true;
 }
 
 void StudyTable::set(std::size_t row, std::vector<std::string> fields) {
+  earlier_.erase(key_of(fields));
   rows_[row] = std::move(fields);
-  write();
+  if (std::chrono::steady_clock::now() - written_ > std::chrono::seconds(1)) write();
 }
 
-void StudyTable::write() const {
+void StudyTable::write() {
   AtomicFile file(path_);
   file.write(csv_line(columns_));
   for (const std::vector<std::string>& fields : rows_)
     if (!fields.empty()) file.write(csv_line(fields));
+  for (const auto& [key, fields] : earlier_) file.write(csv_line(fields));
   file.commit();
+  written_ = std::chrono::steady_clock::now();
 }
 
 }  // namespace pliant::command

@@ -46,8 +46,9 @@ struct JointState {
 
 /// What a motor of a joint is to do.
 struct MotorCommand {
-  float target = 0;             ///< an angle [rad], displacement [m] or speed [rad/s or m/s], as the motor's kind says
-  std::optional<float> most{};  ///< greatest torque [N m] or force [N], > 0; left out: as before
+  /// An angle [rad], displacement [m], speed [rad/s or m/s], torque [N m] or force [N], as the motor's kind says.
+  float target = 0;
+  std::optional<float> most{};  ///< greatest torque [N m] or force [N], > 0; left out: as before. Not of a torque motor
   std::string motor{};          ///< its name in ObjectJoint::motors; may be empty if the joint has only one
 };
 
@@ -57,7 +58,7 @@ class ObjectView {
   ObjectView(const WorldData& world, ObjectId id) : read_(&world), id_(id) {}
   ObjectId id() const { return id_; }
   ObjectInfo info() const;
-  /// Of info(), without allocation. The name is valid until the object is removed or edited.
+  /// Of info(), without allocation. The name is valid until something is added, removed or edited.
   const std::string& name() const;
   int particle_count() const;
   /// The present description of an object with Object::tearing or cuts, which the World changes as it tears; the scene to
@@ -103,7 +104,8 @@ class ObjectView {
   JointLoad joint_load(int joint) const;
   bool joint_is_broken(int joint) const;
   /// The mean of the load that a joint carried in the last frame in which it was solved, over the frame's substeps: that of
-  /// one substep oscillates. Throws an Error unless World::record_joint_loads is on. Zero before the first step.
+  /// one substep oscillates. Throws an Error unless World::record_joint_loads is on. Zero before the first step, and after
+  /// the object was edited, torn or cut.
   JointLoad mean_joint_load(int joint) const;
   /// Angles, displacements and speeds of a joint, as they are now; of a broken one, too.
   JointState joint_state(int joint) const;
@@ -205,7 +207,7 @@ class MeshColliderView {
  public:
   MeshColliderView(const WorldData& world, MeshColliderId id) : read_(&world), id_(id) {}
   MeshColliderId id() const { return id_; }
-  const std::string& name() const;  ///< valid until the collider is removed
+  const std::string& name() const;  ///< valid until something is added, removed or edited
   int vertex_count() const;
   /// The current positions of the vertices in the mesh's own order [m].
   std::vector<Vec3f> positions() const;

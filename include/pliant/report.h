@@ -193,7 +193,7 @@ struct TouchSide {
 };
 
 /// The contacts between a rigid body and another one, a collider or particles in a frame. `push` over the duration of the
-/// frame is the mean force between them. Friction is not in it.
+/// frame is the mean force between them. Friction is not in it, nor is the pressure of liquids (ContactEvent has that).
 struct BodyTouch {
   TouchSide first, second;  ///< first < second
   int contacts = 0;         ///< largest number of active contacts in a substep

@@ -183,7 +183,9 @@ struct ForceField {
   requires(!std::same_as<std::remove_cvref_t<F>, ForceField> && std::constructible_from<Function, F>)
       ForceField(F&& f, bool may_run_on_all_threads = false)  // NOLINT: any callable is one, `requires` excludes copies
       : function(std::forward<F>(f)), on_all_threads(may_run_on_all_threads) {}
+  /// True if there is a function.
   explicit operator bool() const { return function != nullptr || array_function != nullptr; }
+  /// Calls the function on particles, which must be there.
   Vec3f operator()(const Vec3f& position, const Vec3f& velocity, float mass, float time) const {
     return function(position, velocity, mass, time);
   }

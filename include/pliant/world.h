@@ -111,7 +111,7 @@ class World {
   bool keeps_description() const;
   /// A scene of the present contents: as given, added and edited, in the order of objects(), colliders() and
   /// mesh_colliders(), and objects that come apart as they are now. It has the settings of the scene that the World was made
-  /// from. Together with layout() and state() it makes the same World again. Throws an Error if the World was not made with
+  /// from, and the pairs, also those of what is removed, which a World of layout() keeps. Together with layout() and state() it makes the same World again. Throws an Error if the World was not made with
   /// KeepDescription.
   Scene description() const;
 
@@ -148,7 +148,8 @@ class World {
   void record_contact_events(bool on);
   /// The contact events of the last step, ordered by participants: contacts that began, persisted or ended.
   const std::vector<ContactEvent>& contact_events() const;
-  /// The same of the last step for each rigid body and what it touched, if contact events are recorded.
+  /// The same of the last step for each rigid body and what it touched, if contact events are recorded. Those of what is
+  /// removed go with it.
   const std::vector<BodyTouch>& body_touches() const;
 
   /// The settings in use. A sweep or substeps that were left open are those chosen for the first objects; 0 substeps or

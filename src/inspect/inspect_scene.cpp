@@ -108,7 +108,11 @@ void check_forces(Problems& problems, const Scene& scene) {
   if (scene.wind.gust > 0 && !(scene.wind.gust_period > 0 && scene.wind.gust_period <= largest_place))
     problems.grave("wind, gust_period", "is " + words(scene.wind.gust_period) + " s", "give a positive, finite time");
   for (std::size_t i = 0; i < scene.forces.size(); ++i)
-    if (!scene.forces[i]) problems.grave("force " + std::to_string(i), "is an empty function", "remove it");
+    if (!scene.forces[i])
+      problems.grave("force " + std::to_string(i), "is an empty function", "remove it");
+    else if (scene.forces[i].function && scene.forces[i].array_function)
+      problems.grave("force " + std::to_string(i), "has a function on particles and one on arrays",
+                     "make two forces of it");
 }
 
 /// Checks the sizes of a collider's shape against their lower limits.

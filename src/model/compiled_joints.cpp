@@ -74,9 +74,14 @@ CompiledJoint::Motor motor_of(const Object& object, const CompiledObject& compil
   const bool is_angle = is_motor(pool, "joint_angle_motor");
   if (!is_angle && !is_motor(pool, "joint_offset_motor"))
     refuse(object, joint, "has a motor whose constraint is of another type");
-  for (std::size_t k = 1; k < motor.keyframes.size(); ++k)
-    if (!(motor.keyframes[k].time > motor.keyframes[k - 1].time))
+  for (std::size_t k = 0; k < motor.keyframes.size(); ++k) {
+    const MotorKeyframe& key = motor.keyframes[k];
+    if (!std::isfinite(key.time) || !std::isfinite(key.target))
+      refuse(object, joint, "has a motor whose keyframe " + std::to_string(k) + " is not finite");
+    if (k > 0 && !(key.time > motor.keyframes[k - 1].time))
       refuse(object, joint, "has a motor whose keyframe " + std::to_string(k) + " is not after the one before");
+  }
+  if (motor.is_torque && motor.to_position) refuse(object, joint, "has a motor to a position that is one of a torque, too");
   const auto value = [&](int field) { return pool.blocks[place_of(pool, part, field)]; };
   const float most = value(joint::motor_most), speed = value(joint::motor_speed);
   const float target = motor.is_torque     ? (speed < 0 ? -most : most)
@@ -88,6 +93,10 @@ CompiledJoint::Motor motor_of(const Object& object, const CompiledObject& compil
 CompiledJoint::Side side_of(const Object& object, const CompiledObject& compiled, int number, const Vec3f& anchor,
                             const Quatf& axes) {
   const ObjectBody& body = object.bodies[static_cast<std::size_t>(number)];
+  const float size = axes.x * axes.x + axes.y * axes.y + axes.z * axes.z + axes.w * axes.w;
+  if (!(size > 0.9f && size < 1.1f) || !std::isfinite(anchor.x + anchor.y + anchor.z))
+    throw Error({.object = object.name}, "has a joint whose axes or anchor are not finite or no rotation",
+                "make joints by add_joint");
   return {compiled.place[static_cast<std::size_t>(body.particle)], body.frame, anchor, axes};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "collision/broad/bounds.h"
@@ -105,16 +106,26 @@ bool may_meet(const Substep& s, const LaggingGroup& group, const CompiledObject&
   });
 }
 
-/// True if an object comes within `reach` [m] of a group in the substep. Of large surfaces it looks at the parts.
-bool comes_near(const Substep& s, int object, const LaggingGroup& group, float reach) {
-  const BoxBounds of_group{xyz(group.box.low), xyz(group.box.high)};
-  const bool has_surface = s.has_pairs() && s.pairs->has_surface(object);
-  if (has_surface && s.pairs->comes_near(object, of_group, reach)) return true;
-  PointBounds box;
-  if (!has_surface) add_particles(s, object, box);
-  add_solids(s, object, box);
-  return overlap(of_group.grown(reach), {xyz(box.low), xyz(box.high)});
-}
+/// What of an object others may come near; its box is made where it is first asked for.
+struct Other {
+  const Substep& s;
+  int object;
+  bool has_surface;  ///< of which the parts are looked at
+  std::optional<BoxBounds> box{};
+
+  /// True if it comes within `reach` [m] of a group in the substep.
+  bool comes_near(const LaggingGroup& group, float reach) {
+    const BoxBounds of_group{xyz(group.box.low), xyz(group.box.high)};
+    if (has_surface && s.pairs->comes_near(object, of_group, reach)) return true;
+    if (!box) {
+      PointBounds made;
+      if (!has_surface) add_particles(s, object, made);
+      add_solids(s, object, made);
+      box = BoxBounds{xyz(made.low), xyz(made.high)};
+    }
+    return overlap(of_group.grown(reach), *box);
+  }
+};
 
 /// Leaves out the shifts of groups that something of another group, or a collider, comes near.
 void leave_out_near(const Substep& s, const std::vector<int>& number, std::vector<LaggingGroup>& groups) {
@@ -123,12 +134,14 @@ void leave_out_near(const Substep& s, const std::vector<int>& number, std::vecto
   for (const LaggingGroup& group : groups) is_near.push_back(static_cast<char>(is_near_collider(s, group)));
   for_objects(s, [&](int o) {
     const CompiledObject& other = s.model.objects[at(o)];
+    Other near{s, o, s.has_pairs() && s.pairs->has_surface(o)};
     const float moved = number[at(o)] < 0 ? 0 : length(groups[at(number[at(o)])].shift);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const LaggingGroup& group = groups[g];
-      if (number[at(o)] == static_cast<int>(g) || is_near[g] != 0 || !may_meet(s, group, other)) continue;
+      if (number[at(o)] == static_cast<int>(g) || is_near[g] != 0 || group.shift == Vec3f{}) continue;
+      if (!may_meet(s, group, other)) continue;
       const float reach = moved + length(group.shift) + group.thickness + other.thickness;
-      is_near[g] = static_cast<char>(comes_near(s, o, group, reach));
+      is_near[g] = static_cast<char>(near.comes_near(group, reach));
     }
   });
   for (std::size_t g = 0; g < groups.size(); ++g)

@@ -1,7 +1,6 @@
 // Sums of the loads of joints over the substeps of a frame, for their means.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "pliant/vec3.h"
@@ -12,12 +11,12 @@ namespace pliant {
 struct JointLoadSums {
   std::vector<Vec3d> forces, torques;  ///< by joint [N s], [N m s]
   double time = 0;                     ///< of the substeps so far [s]
-  std::int64_t frame = -1;             ///< State::frame of the frame that was summed; -1: none
+  bool is_complete = true;             ///< the step that was summed has ended, and the next one starts anew
 };
 
 struct Substep;
 
-/// Adds the loads of all joints of the substep's objects, after its solve. Sums of an earlier frame are started anew.
+/// Adds the loads of all joints of the substep's objects, after its solve. Sums of an earlier step are started anew.
 void add_joint_loads(const Substep& s);
 
 }  // namespace pliant

@@ -90,6 +90,8 @@ void make_events(WorldData& world) {
 
 void forget_touching(WorldData& world, const Thing& thing) {
   std::erase_if(world.events.touching, [&](const auto& pair) { return pair.first == thing || pair.second == thing; });
+  std::erase_if(world.events.touches,
+                [&](const BodyTouch& touch) { return touch.first.thing == thing || touch.second.thing == thing; });
 }
 
 void World::record_contact_events(bool on) {

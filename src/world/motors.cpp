@@ -96,6 +96,8 @@ void ObjectHandle::set_motor(const std::string& joint, const MotorCommand& comma
   const std::string element = "motor '" + motor.name + "' of joint '" + joint + "'";
   if (!std::isfinite(command.target) || std::fabs(command.target) > joint::no_limit)
     refuse_command(of.name, element, "its target is not finite", "give a finite number");
+  if (command.most && motor.is_torque)
+    refuse_command(of.name, element, "is given a greatest torque or force beside its own", "leave `most` out");
   if (command.most && !(*command.most > 0))
     refuse_command(of.name, element, "its greatest torque or force is " + std::to_string(*command.most),
                    "give a number above 0");

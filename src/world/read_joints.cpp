@@ -55,7 +55,8 @@ JointSide side_of(const WorldData& world, int number, const CompiledJoint::Side&
   const Record &x = world.state.positions[particle], &v = world.state.velocities[particle],
                &q = world.state.frames.orientations[frame], &w = world.state.frames.angular_velocities[frame];
   const Quatd rotation = normalise(convert<double>(Quatf{q.x, q.y, q.z, q.w}));
-  const Vec3d centre = convert<double>(Vec3f{x.x, x.y, x.z});
+  const Record& rest = world.state.remainders[particle];  // what rounding left out of the position
+  const Vec3d centre = convert<double>(Vec3f{x.x, x.y, x.z}) + convert<double>(Vec3f{rest.x, rest.y, rest.z});
   const Vec3d place = centre + rotate(rotation, convert<double>(side.anchor));
   const Vec3d spin = rotate(rotation, convert<double>(Vec3f{w.x, w.y, w.z}));
   const Vec3d arm = (at != nullptr ? *at : place) - centre;

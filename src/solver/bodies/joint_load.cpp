@@ -163,8 +163,8 @@ void add_joint_loads(const Substep& s) {
     const CompiledObject& object = s.model.objects[static_cast<std::size_t>(o)];
     JointLoadSums& sums = s.work.joint_loads[static_cast<std::size_t>(o)];
     if (object.joints.empty()) return;
-    if (sums.frame != s.state.frame || sums.forces.size() != object.joints.size())
-      sums = {std::vector<Vec3d>(object.joints.size()), std::vector<Vec3d>(object.joints.size()), 0, s.state.frame};
+    if (sums.is_complete || sums.forces.size() != object.joints.size())
+      sums = {std::vector<Vec3d>(object.joints.size()), std::vector<Vec3d>(object.joints.size()), 0, false};
     const std::vector<int>& broken = s.work.joints[static_cast<std::size_t>(o)].broken;
     const LoadView view = view_of(s, o);
     for (std::size_t j = 0; j < object.joints.size(); ++j) {

@@ -71,7 +71,10 @@ std::vector<Substep> begin_frame(const StepContext& context, double dt) {
   if (std::any_of(groups.begin(), groups.end(), [](const Substep& s) { return s.has_pairs(); }))
     work.look_for_tangles = false;
   if (work.contact_log != nullptr) work.contact_log->clear();
-  if (work.sums_joint_loads) work.joint_loads.resize(context.model.objects.size());
+  if (work.sums_joint_loads) {
+    work.joint_loads.resize(context.model.objects.size());
+    for (JointLoadSums& sums : work.joint_loads) sums.is_complete = true;
+  }
   return groups;
 }
 
