@@ -123,6 +123,7 @@ class PathSearch {
     if (touched) first_ = {true, leg.start, leg.from, now.normal};
     double share = is_plane ? std::fmin((now.separation + (touched ? slop_ : 0)) / -slope_now, 1.) : 0;
     double before = 0, after = 2;  // the nearest place is between these shares of the leg
+    PathGap coming, parting;       // at these
     for (int step = 0; step < most_steps && level > 0; ++step) {
       const PathGap gap = gap_at_(path_.at(leg, share));
       const double slope = dot(gap.normal, motion);
@@ -133,7 +134,11 @@ class PathSearch {
       if (std::fabs(slope) <= level) note_least(here, gap.separation);
       if (std::fabs(slope) <= level || (slope < 0 && share >= 1)) return false;
       (slope < 0 ? before : after) = share;
-      if (after - before < narrow) return false;
+      (slope < 0 ? coming : parting) = gap;
+      if (after - before < narrow) {
+        if (length_squared(coming.normal) > 0) slide(coming.normal, parting.normal, motion);
+        return false;
+      }
       const double target = touched ? -slop_ : 0, ahead = share - (gap.separation - target) / slope;
       // Where a step went past the nearest place, solids do not touch, or not as deep: only that place is looked for.
       share = after <= 1 ? 0.5 * (before + after) : std::fmin(ahead, 1.);
@@ -155,6 +160,12 @@ class PathSearch {
     least_ = std::fmin(separation, least_);
     nearest_ = here;
     nearest_.touches = false;
+  }
+
+  /// Where the direction turns at once from one that solids come along to one along which they part, both pass along
+  /// any between: the one across the motion stops nothing.
+  void slide(const Vec3d& coming, const Vec3d& parting, const Vec3d& motion) {
+    nearest_.normal = unit_or(coming * dot(parting, motion) - parting * dot(coming, motion), nearest_.normal);
   }
 
   const ContactPath& path_;
