@@ -104,7 +104,8 @@ class PathSearch {
   PathContact find(const PathGap& now = {}) {
     for (std::size_t i = 0; i < path_.count(); ++i)
       if (along(path_.leg(i), i == 0 ? now : PathGap{})) return first_;
-    return nearest_;
+    if (least_ == 1e300) stay();
+    return comes_at_end_ ? pass_beyond() : nearest_;
   }
 
  private:
@@ -112,11 +113,29 @@ class PathSearch {
   static constexpr double accuracy = 0.1;  ///< share of the slop
   static constexpr double sideways =
       1e-4;  ///< of motion whose share along the normal is less solids neither come nearer nor part
-  static constexpr double narrow = 1e-4;  ///< share of a leg
+  static constexpr double narrow = 1e-4;     ///< share of a leg
+  static constexpr double frames_ahead = 4;  ///< in which is seen whether solids pass each other
+
+  /// What does not move is nearest where it is.
+  void stay() {
+    const PathGap gap = gap_at_({});
+    note({false, 0, {}, gap.normal}, gap.separation);
+  }
+
+  /// What would go past in the frames that follow is not held by the direction along which it comes at the end of this
+  /// one.
+  PathContact pass_beyond() {
+    const PathContact at_end = nearest_;
+    ContactPath::Leg leg = path_.leg(path_.count() - 1);
+    leg.from = path_.at(leg, 1), leg.start = 1, leg.duration = frames_ahead;
+    least_ = 1e300;
+    return along(leg, {}) || comes_at_end_ ? at_end : nearest_;
+  }
 
   /// Returns true if solids touch on a leg, and go in. `now` may be a plane that separates them at its start.
   bool along(const ContactPath::Leg& leg, const PathGap& now) {
     const Vec3d motion = leg.speed * leg.duration;
+    comes_at_end_ = false;
     const double level = sideways * length(motion), slope_now = dot(now.normal, motion);
     const bool is_plane = slope_now < -level && now.separation > -slop_;
     bool touched = is_plane && now.separation <= accuracy * slop_;
@@ -132,6 +151,7 @@ class PathSearch {
       if (!touched && gap.separation <= accuracy * slop_) touched = true, first_ = here;
       if (slope < 0 && gap.separation <= (accuracy - 1) * slop_) return true;
       if (std::fabs(slope) <= level) note_least(here, gap.separation);
+      comes_at_end_ = slope < -level && share >= 1 && gap.separation < slop_;
       if (std::fabs(slope) <= level || (slope < 0 && share >= 1)) return false;
       (slope < 0 ? before : after) = share;
       (slope < 0 ? coming : parting) = gap;
@@ -172,6 +192,7 @@ class PathSearch {
   double slop_;
   const GapAt& gap_at_;
   double least_ = 1e300;
+  bool comes_at_end_ = false;
   PathContact first_, nearest_;
 };
 

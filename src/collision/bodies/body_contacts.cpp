@@ -26,8 +26,9 @@ constexpr double fast_share = 0.15;
 /// Solids that would go into each other by less than this share of the smaller part's size and this share of the path
 /// that gravity adds in a frame pass each other: what lies on one of two flush solids is pressed in by less.
 constexpr double slop_share = 0.005, slop_of_fall = 0.1;
-/// What comes nearer in a frame by less than this share of the path that gravity adds is at rest.
-constexpr double approach_of_fall = 0.03;
+/// What comes nearer in a frame by less than this share of the path that gravity adds is at rest; of what moves by less
+/// than half of that path it may be more, since piles come to rest so.
+constexpr double approach_of_fall = 0.003, slow_approach_of_fall = 0.03, slow_way_of_fall = 0.5;
 constexpr float unlimited = 1e30f;  ///< [m]
 /// A contact stays while its bodies have moved less against each other since it began than this share of the smaller part's size, and
 /// turned by less than 1.6 degrees (cosine of half the angle).
@@ -232,8 +233,8 @@ struct BodyContacts::Task {
   /// True if bodies may touch in a frame at a contact that was found on another path.
   bool comes_near(const Pair& pair, const BodyState& a, const BodyState& b, const BodyContact& contact) const {
     if (of.parts_[at(pair.first)].is_half_space || !one_is_held(a, b)) return false;
-    const double along = static_cast<double>(dot(contact.normal, b.velocity - a.velocity) * dt);
-    return along < -least_approach();
+    const Vec3f way = (b.velocity - a.velocity) * dt;
+    return static_cast<double>(dot(contact.normal, way)) < -least_approach(static_cast<double>(length(way)));
   }
 
   /// True if the contacts of a pair stay, or, where there are none, if no new ones are looked for.
@@ -320,11 +321,11 @@ struct BodyContacts::Task {
     // An impact may turn the whole approach into spin. Of two opposite points one may rise as the other sinks.
     const double turning =
         static_cast<double>(2 * dt * (approach + turning_of(pair.first, a) + turning_of(pair.second, b)));
+    const double way = static_cast<double>(dt * length(velocity)), least = least_approach(way);
     const SolidPath on{path_of(one.body, other.body, number), slop_share * size + slop_of_fall * fall(), 0.5 * fall(),
-                       least_approach()};
-    const double least_fast = one_is_held(a, b) ? least_approach() : fast_share * size;
-    const bool is_fast = length(on.path.end()) > least_fast;
-    const bool starts_fast = static_cast<double>(dt * length(velocity)) > least_fast;
+                       least};
+    const double least_fast = one_is_held(a, b) ? least : fast_share * size;
+    const bool is_fast = length(on.path.end()) > least_fast, starts_fast = way > least_fast;
     return {number, one, other, a, b, old, relative, size, reach_of(pair, approach), turning, on, is_fast, starts_fast};
   }
 
@@ -428,8 +429,10 @@ struct BodyContacts::Task {
   static bool one_is_held(const BodyState& a, const BodyState& b) { return is_held(a) || is_held(b); }
   /// Colliders that move are not fixed while bodies sleep, but yield to nothing.
   static bool is_held(const BodyState& body) { return body.is_fixed || !body.yields; }
-  /// What comes nearer by less in the frame is thrown by no more than a hundredth of a millimetre [m].
-  double least_approach() const { return approach_of_fall * fall() + 1e-7; }
+  /// What moves by `way` and comes nearer by less in the frame is hardly thrown [m].
+  double least_approach(double way) const {
+    return (way > slow_way_of_fall * fall() ? approach_of_fall : slow_approach_of_fall) * fall() + 1e-7;
+  }
 
   static void note_first(const PathContact& first, const Meeting& m, Found& found) {
     if (first.touches && length(m.on.path.end()) > fast_share * m.size)

@@ -106,7 +106,7 @@ void add_points(const Way& way, const Met& met, std::vector<TrianglePoint>& poin
     TriangleNearest nearest = exactly_nearest_on(way.mesh.face(met.triangle), there, {});
     nearest.normal = met.at.normal;
     nearest.separation = dot(nearest.normal, nearest.on_solid - nearest.on_triangle);
-    touch_triangle(there, way.mesh, met.triangle, way.reach, nearest, points);
+    pass_triangle(there, way.mesh, met.triangle, way.reach, nearest, points);
   }
   for (std::size_t i = first; i < points.size(); ++i) {
     points[i].moved = by;
