@@ -104,7 +104,8 @@ class PathSearch {
   PathContact find(const PathGap& now = {}) {
     for (std::size_t i = 0; i < path_.count(); ++i)
       if (along(path_.leg(i), i == 0 ? now : PathGap{})) return first_;
-    return nearest_;
+    if (least_ == 1e300) stay();
+    return comes_at_end_ ? pass_beyond() : nearest_;
   }
 
  private:
@@ -112,17 +113,36 @@ class PathSearch {
   static constexpr double accuracy = 0.1;  ///< share of the slop
   static constexpr double sideways =
       1e-4;  ///< of motion whose share along the normal is less solids neither come nearer nor part
-  static constexpr double narrow = 1e-4;  ///< share of a leg
+  static constexpr double narrow = 1e-4;     ///< share of a leg
+  static constexpr double frames_ahead = 4;  ///< in which is seen whether solids pass each other
+
+  /// What does not move is nearest where it is.
+  void stay() {
+    const PathGap gap = gap_at_({});
+    note({false, 0, {}, gap.normal}, gap.separation);
+  }
+
+  /// What would go past in the frames that follow is not held by the direction along which it comes at the end of this
+  /// one.
+  PathContact pass_beyond() {
+    const PathContact at_end = nearest_;
+    ContactPath::Leg leg = path_.leg(path_.count() - 1);
+    leg.from = path_.at(leg, 1), leg.start = 1, leg.duration = frames_ahead;
+    least_ = 1e300;
+    return along(leg, {}) || comes_at_end_ ? at_end : nearest_;
+  }
 
   /// Returns true if solids touch on a leg, and go in. `now` may be a plane that separates them at its start.
   bool along(const ContactPath::Leg& leg, const PathGap& now) {
     const Vec3d motion = leg.speed * leg.duration;
+    comes_at_end_ = false;
     const double level = sideways * length(motion), slope_now = dot(now.normal, motion);
     const bool is_plane = slope_now < -level && now.separation > -slop_;
     bool touched = is_plane && now.separation <= accuracy * slop_;
     if (touched) first_ = {true, leg.start, leg.from, now.normal};
     double share = is_plane ? std::fmin((now.separation + (touched ? slop_ : 0)) / -slope_now, 1.) : 0;
     double before = 0, after = 2;  // the nearest place is between these shares of the leg
+    PathGap coming, parting;       // at these
     for (int step = 0; step < most_steps && level > 0; ++step) {
       const PathGap gap = gap_at_(path_.at(leg, share));
       const double slope = dot(gap.normal, motion);
@@ -131,9 +151,14 @@ class PathSearch {
       if (!touched && gap.separation <= accuracy * slop_) touched = true, first_ = here;
       if (slope < 0 && gap.separation <= (accuracy - 1) * slop_) return true;
       if (std::fabs(slope) <= level) note_least(here, gap.separation);
+      comes_at_end_ = slope < -level && share >= 1 && gap.separation < slop_;
       if (std::fabs(slope) <= level || (slope < 0 && share >= 1)) return false;
       (slope < 0 ? before : after) = share;
-      if (after - before < narrow) return false;
+      (slope < 0 ? coming : parting) = gap;
+      if (after - before < narrow) {
+        if (length_squared(coming.normal) > 0) slide(coming.normal, parting.normal, motion);
+        return false;
+      }
       const double target = touched ? -slop_ : 0, ahead = share - (gap.separation - target) / slope;
       // Where a step went past the nearest place, solids do not touch, or not as deep: only that place is looked for.
       share = after <= 1 ? 0.5 * (before + after) : std::fmin(ahead, 1.);
@@ -157,10 +182,17 @@ class PathSearch {
     nearest_.touches = false;
   }
 
+  /// Where the direction turns at once from one that solids come along to one along which they part, both pass along
+  /// any between: the one across the motion stops nothing.
+  void slide(const Vec3d& coming, const Vec3d& parting, const Vec3d& motion) {
+    nearest_.normal = unit_or(coming * dot(parting, motion) - parting * dot(coming, motion), nearest_.normal);
+  }
+
   const ContactPath& path_;
   double slop_;
   const GapAt& gap_at_;
   double least_ = 1e300;
+  bool comes_at_end_ = false;
   PathContact first_, nearest_;
 };
 

@@ -22,6 +22,8 @@ constexpr double accuracy = 1e-11, close = 1e-8;
 constexpr double growth = 1e-7;
 /// Nor beyond so many faces: of solids whose faces are flush, rounding may let each step double them.
 constexpr std::size_t most_faces = 2000;
+/// A face of the polytope beyond which the origin is by more than this share of the solids' size has been turned over.
+constexpr double turned_over = 1e-8;
 /// Cores nearer than this, times a metre and their size, count as overlapping.
 constexpr double contact = 1e-10;
 
@@ -265,10 +267,14 @@ class Polytope {
     faces_.push_back({corners, normal, dot(normal, a), length_squared(normal) > 0});
   }
 
+  /// The origin is inside or on the polytope: a face that it is outside of has been turned over by rounding.
   int nearest_face() const {
     int best = -1;
-    for (std::size_t i = 0; i < faces_.size(); ++i)
-      if (faces_[i].alive && (best < 0 || faces_[i].distance < faces_[at(best)].distance)) best = static_cast<int>(i);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      const PolytopeFace& face = faces_[i];
+      if (!face.alive || face.distance < -turned_over * size_) continue;
+      if (best < 0 || face.distance < faces_[at(best)].distance) best = static_cast<int>(i);
+    }
     return best;
   }
 

@@ -56,6 +56,17 @@ BodyMesh folded(float slope) {
   return body_mesh(surface(2, 1, [=](float x, float) { return slope * std::fabs(x); }));
 }
 
+/// The surface of a cube of half size 1 about the origin.
+BodyMesh closed_cube() {
+  TriangleMesh mesh;
+  for (const float x : {-1.f, 1.f})
+    for (const float y : {-1.f, 1.f})
+      for (const float z : {-1.f, 1.f}) mesh.positions.push_back({x, y, z});
+  mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                    {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+  return body_mesh(mesh);
+}
+
 std::vector<MeshTouch> touches(const ConvexShape& shape, const Posed& pose, const BodyMesh& mesh, double reach = 0.01) {
   std::vector<MeshTouch> found;
   touch_mesh(shape, pose, mesh, reach, found);
@@ -327,6 +338,28 @@ TEST_F(Meshes, ABallIsPushedOutByAllItTouches) {
           if (at.touch.points[k].separation < 0) centre -= at.touch.normal * at.touch.points[k].separation;
     EXPECT_GT(distance_of_all(ball(0.2f), {centre, {}}, mesh), -1e-3) << i;
   }
+}
+
+// Less deep below the edge than beside it: the way out is over the edge, whichever side of the wall the centre is on.
+TEST_F(Meshes, ABoxAtTheEdgeOfAClosedMeshIsLifted) {
+  const BodyMesh block = closed_cube();
+  for (const double x : {0.501, 1.499})
+    for (const double z : {-0.3, 0., 0.4}) {
+      const auto found = touches(cuboid_, {{x, 1.25 - 1e-5, z}, {}}, block, 1e-4);
+      ASSERT_FALSE(found.empty());
+      for (const MeshTouch& at : found) EXPECT_NEAR(at.touch.normal.y, 1, 1e-9) << "at " << x << ' ' << z;
+      EXPECT_NEAR(deepest(found), -1e-5, 1e-6);
+    }
+}
+
+// It lies behind the plane of another side, and sticks out beyond that.
+TEST_F(Meshes, WhatLiesBesideAClosedMeshDoesNotOverlapIt) {
+  const BodyMesh block = closed_cube();
+  const ConvexShape rod{Kind::cylinder, 0, 0.05f, 0.5f, nullptr};
+  const auto found = touches(rod, {{1.1, 0, 0.9}, turned({1, 0, 0}, pi / 2)}, block, 0.1);
+  ASSERT_FALSE(found.empty());
+  for (const MeshTouch& at : found) EXPECT_NEAR(at.touch.normal.x, 1, 1e-6);
+  EXPECT_NEAR(deepest(found), 0.05, 1e-4);
 }
 
 TEST_F(Meshes, PiecesAreAscendingAndDiffer) {

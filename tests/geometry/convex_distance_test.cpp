@@ -165,6 +165,19 @@ TEST(ConvexDistance, OfACylinderThatStandsOrLiesIsThatToTheFloor) {
   }
 }
 
+// A prism above the plane of a triangle touches the triangle's edge to the last bit; the polytope then has flat parts.
+TEST(ConvexDistance, OfAPrismThatJustTouchesAnEdgeIsZero) {
+  Polyhedron triangle, prism;
+  triangle.corners = {{-0.837153673f, 0, 0.837153673f}, {0.837153673f, 0, 2.51146102f}, {0.837153673f, 0, 0.837153673f}};
+  const float r = 0.062642172f, h = 0.0897143558f, k = 0.0442947038f;
+  prism.corners = {{r, h, 0},   {k, h, -k},  {0, h, -r},   {-k, h, -k}, {-r, h, 0}, {-k, h, k}, {0, h, r},   {k, h, k},
+                   {-k, -h, k}, {-r, -h, 0}, {-k, -h, -k}, {k, -h, k},  {0, -h, r}, {r, -h, 0}, {0, -h, -r}, {k, -h, -k}};
+  const ConvexShape a{Kind::polyhedron, 0, 0, 0, &triangle}, b{Kind::polyhedron, 0, 0, 0, &prism};
+  const Posed pose{{-0.20974124573358474, 0.089710323203863157, 0.77753680270453085},
+                   {6.3742870817611322e-12, -0.85318976058376639, 2.3918355490159375e-13, -0.52160064458838207}};
+  EXPECT_NEAR(convex_distance(a, b, pose).separation, 0, 1e-12);
+}
+
 TEST(ConvexDistance, FeaturesAreTheFlatPartsThatFaceADirection) {
   Polyhedron kept = polyhedron_of_box({1, 2, 3});
   const ConvexShape box{Kind::polyhedron, 0, 0, 0, &kept}, cylinder{Kind::cylinder, 0, 0.3f, 0.5f, nullptr},

@@ -372,28 +372,27 @@ struct Ghosts {
 
 bool slides(const GhostPath& path) { return path.rise < 1e-4f && path.lost < 1e-3f && path.sunk < 5e-3f; }
 
-/// Of 4 000 one in a hundred rises by more than 0.1 mm or loses more than a thousandth of its speed: the contacts of
-/// few long substeps are so soft that the next solid is a step, and some meet an edge.
+/// Of 4 000 two rise by more than 0.1 mm or lose more than a thousandth of their speed: a ball that goes nearly along a
+/// joint, and a capsule whose contacts are so soft, with four substeps of 7 ms, that the next solid is a step.
 TEST(BodyGhosts, RandomSolidsSlideOverFlushSolids) {
   const Ghosts found(
       ghosts(), [](int seed) { return slide(seed); }, slides);
-  EXPECT_LE(found.turned, 2 + found.count / 50);
+  EXPECT_LE(found.turned, found.count / 1000);
 }
 
-/// Over meshes a tenth of them meets an edge.
-TEST(BodyGhosts, FewHullsOnACornerAreThrown) {
+TEST(BodyGhosts, NoHullOnACornerIsThrown) {
   const Ghosts found(
       ghosts() / 4, [](int seed) { return slide(seed, true); }, slides);
-  EXPECT_LE(found.turned, 2 + found.count / 5);
+  EXPECT_EQ(found.turned, 0);
 }
 
-/// Of 4 000 twelve are turned aside, five of them by free solids at which they come slowly, for which no path is
-/// searched (BodyContacts).
+/// Of 4 000 four are turned aside, by free solids at which they come slowly, for which no path is searched
+/// (BodyContacts).
 TEST(BodyGhosts, RandomSolidsPassWhatTheyMiss) {
   const Ghosts found(
       ghosts(), [](int seed) { return pass_by(seed); },
       [](const GhostPath& path) { return path.aside < 2e-5f && path.lost < 1e-5f; });
-  EXPECT_LE(found.turned, 1 + found.count / 250);
+  EXPECT_LE(found.turned, found.count / 500);
 }
 
 }  // namespace

@@ -57,12 +57,18 @@ void add_points(Cluster& cluster, const std::vector<TrianglePoint>& points, cons
   }
 }
 
+/// Triangles that are met at different places share a manifold only if it has the same direction at each.
+bool belongs_to(const Cluster& cluster, const TrianglePoint& at) {
+  const Vec3d apart = cluster.points.front().moved - at.moved;
+  return dot(cluster.normal, at.normal) > (length_squared(apart) > 0 ? own_cosine : alike_cosine);
+}
+
 std::vector<Cluster> clusters_of(const std::vector<TrianglePoint>& points, double tolerance) {
   std::vector<Cluster> clusters;
   for (const Group& group : groups_of(points)) {
     const Vec3d& normal = points[group.first].normal;
     auto place = std::find_if(clusters.begin(), clusters.end(),
-                              [&](const Cluster& c) { return dot(c.normal, normal) > alike_cosine; });
+                              [&](const Cluster& c) { return belongs_to(c, points[group.first]); });
     if (place == clusters.end()) place = clusters.insert(place, {normal, group.triangle, {}});
     add_points(*place, points, group, tolerance);
   }

@@ -14,7 +14,7 @@ namespace {
 /// Contacts whose normals agree so well are one [cosine].
 constexpr double same_normal = 1 - 1e-6;
 /// The direction of a contact may differ so much from that of the place where both are nearest [cosine].
-constexpr double alike_normal = 1 - 1e-4;
+constexpr double alike_normal = 1 - 1e-8;
 
 Posed relative_pose(const Posed& a, const Posed& b) {
   Posed relative = relative_to(a, b);

@@ -30,6 +30,10 @@ void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle
 void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
                     const TriangleNearest& nearest, std::vector<TrianglePoint>& points);
 
+/// The same of a solid that passes a triangle, which is held by none that lies in a direction of other triangles.
+void pass_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
+                   const TriangleNearest& nearest, std::vector<TrianglePoint>& points);
+
 /// Appends the points of a solid that are deepest below the plane of a triangle, as if that had no bounds. `normal` is
 /// that of the triangle, or its opposite: to the side to which the solid belongs.
 void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal, double reach,

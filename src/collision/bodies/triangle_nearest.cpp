@@ -26,11 +26,14 @@ Vec3d lowest_corner(const MeshFace& face, const Vec3d& direction) {
   return a <= b && a <= c ? t[0] : b <= c ? t[1] : t[2];
 }
 
-/// True if a point lies over a triangle along its normal, or beyond inner sides by a rounding.
-bool is_over(const MeshFace& face, const Vec3d& point) {
+/// True if a point lies over a triangle along its normal, or beyond flat sides by a rounding; from sides at which the
+/// surface ends or bends it must be so far [m].
+bool is_over_triangle(const MeshFace& face, const Vec3d& point, double from_edges) {
   for (std::size_t k = 0; k < 3; ++k) {
     const MeshSide& side = face.sides[k];
-    if (dot(side.outward, point - face.corners[k]) > (side.is_inner ? MeshSide::tolerance : 0)) return false;
+    const bool is_flat = side.is_inner && std::fabs(side.fold) <= MeshSide::flat;
+    const double most = is_flat ? MeshSide::tolerance : -from_edges;
+    if (dot(side.outward, point - face.corners[k]) > most) return false;
   }
   return true;
 }
@@ -149,7 +152,17 @@ TriangleNearest nearest_on(const MeshFace& face, const SolidInMesh& solid, doubl
     out = along_normal(face, solid, is_one_sided);
     if (out.separation > reach) return {};
     const bool is_smooth = face.is_smooth[dot(out.normal, face.normal) < 0 ? 1 : 0];
-    const bool is_face_contact = is_smooth || (out.separation > -shallow * solid.size() && is_over(face, out.on_solid));
+    const bool is_above = is_over_triangle(face, out.on_solid, 0);
+    // What is less deep below an edge than beside it is pushed out over that edge.
+    const bool is_at_edge = is_above && out.separation < 0 && !is_over_triangle(face, out.on_solid, -out.separation);
+    const bool is_shallow = out.separation > -shallow * solid.size();
+    if (is_smooth && !is_shallow && !is_one_sided) {
+      // What is deep below the plane may be beside the triangle, and outside of what is smooth as seen from within.
+      TriangleNearest exact = nearest_by_supports(face, solid, reach);
+      exact.is_near = exact.separation <= reach;
+      if (exact.separation > 0) return exact;
+    }
+    const bool is_face_contact = !is_at_edge && (is_smooth || (is_shallow && is_above));
     if (!is_face_contact && solid.is_polyhedron()) out = best_axis(face, solid, out, reach);
     if (out.separation > reach) return {};
     if (!is_face_contact && (out.separation > 0 || !solid.is_polyhedron())) out = nearest_by_supports(face, solid, reach);

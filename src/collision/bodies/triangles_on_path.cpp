@@ -100,11 +100,14 @@ void add_points(const Way& way, const Met& met, std::vector<TrianglePoint>& poin
   const std::size_t first = points.size();
   const Vec3d& by = met.at.displacement;
   const SolidInMesh there = way.solid.moved(by);
-  if (met.at.touches)
+  if (met.at.touches) {
     touch_triangle(there, way.mesh, met.triangle, way.reach, points);
-  else  // no direction is preferred where they pass
-    touch_triangle(there, way.mesh, met.triangle, way.reach, exactly_nearest_on(way.mesh.face(met.triangle), there, {}),
-                   points);
+  } else {  // no direction is preferred where they pass
+    TriangleNearest nearest = exactly_nearest_on(way.mesh.face(met.triangle), there, {});
+    nearest.normal = met.at.normal;
+    nearest.separation = dot(nearest.normal, nearest.on_solid - nearest.on_triangle);
+    pass_triangle(there, way.mesh, met.triangle, way.reach, nearest, points);
+  }
   for (std::size_t i = first; i < points.size(); ++i) {
     points[i].moved = by;
     points[i].point.on_b -= by;
