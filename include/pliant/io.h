@@ -120,7 +120,7 @@ std::string scene_json(const Scene& scene);
 
 /// Reads what scene_json wrote: a Scene of the same fingerprint. Members that were taken out have their defaults. Throws an
 /// Error with line, column and JSON path if the text is not JSON, was written by another version of the format, or has a
-/// member or value that does not belong there. Texts of up to 64 MiB are read, which is some 400 000 particles of cloth; save
+/// member or value that does not belong there. Texts of up to 64 MiB are read, which is some 200 000 particles of cloth; save
 /// larger ones. `name` stands for the file.
 Scene scene_from_json(const std::string& text, const std::string& name = "scene");
 
