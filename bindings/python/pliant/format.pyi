@@ -1303,20 +1303,44 @@ class HingeJoint(TypedDict, total=False):
     """Greatest torque of friction. [N m] Default: 0."""
     damping: float
     """Torque over angular velocity. [N m s/rad] Default: 0."""
+    spring: RotarySpring
+    """Pulls the angle towards its rest. Default: none."""
 
 class RotaryMotor(TypedDict, total=False):
-    """Drives an angle by a torque, at a speed or to a position."""
+    """Drives an angle, at a speed, to a position, or by a torque."""
 
     speed: float
     """Speed to keep. [degree/s]"""
     position: float
     """Angle to move to, at the remaining angle times `rate`. [degree]"""
+    torque: float
+    """Torque. [N m]"""
+    keyframes: Sequence[KeyframeOfARotaryMotor]
+    """The target by time, instead of the one above. Default: none."""
     most: float
-    """Greatest torque. [N m] Default: 1."""
+    """Greatest torque, without `torque`. [N m] Default: 1."""
     rate: float
     """Only with `position`: speed over remaining angle. [1/s] Default: 10."""
     most_speed: float
     """Only with `position`: greatest speed. [degree/s] Default: no limit."""
+
+class KeyframeOfARotaryMotor(TypedDict, total=False):
+    """The target of a motor at a time: linear between keyframes, constant outside."""
+
+    time: Required[float]
+    """Time, after that of the keyframe before. [s]"""
+    target: Required[float]
+    """Target. [degree, degree/s or N m]"""
+
+class RotarySpring(TypedDict, total=False):
+    """Pulls an angle towards its rest."""
+
+    rest: float
+    """Angle at which it has no torque. [degree] Default: 0."""
+    stiffness: Required[float]
+    """Torque over angle. [N m/rad]"""
+    damping: float
+    """Torque over angular velocity. [N m s/rad] Default: 0."""
 
 class SliderJoint(TypedDict, total=False):
     """The second body slides along one axis of the first."""
@@ -1333,6 +1357,8 @@ class SliderJoint(TypedDict, total=False):
     """Greatest force of friction. [N] Default: 0."""
     damping: float
     """Force over speed. [N s/m] Default: 0."""
+    spring: LinearSpring
+    """Pulls the displacement. Default: none."""
 
 class DisplacementRange(TypedDict, total=False):
     """Stops of a displacement. At the start, the displacement is 0."""
@@ -1345,18 +1371,40 @@ class DisplacementRange(TypedDict, total=False):
     """Compliance of the stops; 0: rigid. [m/N] Default: 0."""
 
 class LinearMotor(TypedDict, total=False):
-    """Drives a displacement by a force, at a speed or to a position."""
+    """Drives a displacement, at a speed, to a position, or by a force."""
 
     speed: float
     """Speed to keep. [m/s]"""
     position: float
     """Displacement to move to, at the remaining displacement times `rate`. [m]"""
+    force: float
+    """Force. [N]"""
+    keyframes: Sequence[KeyframeOfALinearMotor]
+    """The target by time, instead of the one above. Default: none."""
     most: float
-    """Greatest force. [N] Default: 1."""
+    """Greatest force, without `force`. [N] Default: 1."""
     rate: float
     """Only with `position`: speed over remaining displacement. [1/s] Default: 10."""
     most_speed: float
     """Only with `position`: greatest speed. [m/s] Default: no limit."""
+
+class KeyframeOfALinearMotor(TypedDict, total=False):
+    """The target of a motor at a time: linear between keyframes, constant outside."""
+
+    time: Required[float]
+    """Time, after that of the keyframe before. [s]"""
+    target: Required[float]
+    """Target. [m, m/s or N]"""
+
+class LinearSpring(TypedDict, total=False):
+    """Pulls a displacement towards its rest."""
+
+    rest: float
+    """Displacement without force. [m] Default: 0."""
+    stiffness: Required[float]
+    """Force over displacement. [N/m]"""
+    damping: float
+    """Force over speed. [N s/m] Default: 0."""
 
 class CylindricalJoint(TypedDict, total=False):
     """The second body slides along one axis of the first, and rotates about it."""
@@ -1377,6 +1425,10 @@ class CylindricalJoint(TypedDict, total=False):
     """Greatest force of friction. [N] Default: 0."""
     turn_friction: float
     """Greatest torque of friction. [N m] Default: 0."""
+    slide_spring: LinearSpring
+    """Pulls the displacement towards its rest. Default: none."""
+    turn_spring: RotarySpring
+    """Pulls the angle towards its rest. Default: none."""
 
 class UniversalJoint(TypedDict, total=False):
     """Two axes, one of each body, that cross at the anchor and stay perpendicular."""
@@ -1399,6 +1451,10 @@ class UniversalJoint(TypedDict, total=False):
     """Greatest torque of friction about axis_a. [N m] Default: 0."""
     friction_b: float
     """Greatest torque of friction about axis_b. [N m] Default: 0."""
+    spring_a: RotarySpring
+    """Pulls the angle about axis_a towards its rest. Default: none."""
+    spring_b: RotarySpring
+    """Pulls the angle about axis_b towards its rest. Default: none."""
 
 class PlanarJoint(TypedDict, total=False):
     """The second body slides in a plane of the first, and rotates about its normal."""
@@ -1408,7 +1464,8 @@ class PlanarJoint(TypedDict, total=False):
     normal: Sequence[float] | AnyArray
     """Normal of the plane. Default: [0, 1, 0]."""
     axis_x: Sequence[float] | AnyArray
-    """Direction x in the plane; y is the normal times x. Needed for limits and motors of displacements. Default: none."""
+    """Direction x in the plane; y is the normal times x. Needed for limits, motors and springs of displacements.
+    Default: none."""
     x_limit: DisplacementRange
     """Range of the displacement along x. Default: no limit."""
     y_limit: DisplacementRange
@@ -1425,6 +1482,12 @@ class PlanarJoint(TypedDict, total=False):
     """Greatest force of friction along x, and along y. [N] Default: 0."""
     turn_friction: float
     """Greatest torque of friction. [N m] Default: 0."""
+    x_spring: LinearSpring
+    """Pulls the displacement along x. Default: none."""
+    y_spring: LinearSpring
+    """Pulls the displacement along y. Default: none."""
+    turn_spring: RotarySpring
+    """Pulls the angle about the normal. Default: none."""
 
 class DistanceJoint(TypedDict, total=False):
     """Two points keep their distance, as with a rod, or stay in a range of distances, as with a rope."""
@@ -1499,6 +1562,8 @@ class DisplacementFreedom(TypedDict, total=False):
     """Drives the displacement. Default: none."""
     friction: float
     """Greatest force of friction. [N] Default: 0."""
+    spring: LinearSpring
+    """Pulls the displacement. Default: none."""
 
 class AngleFreedom(TypedDict, total=False):
     """Freedom about one axis."""
@@ -1509,6 +1574,8 @@ class AngleFreedom(TypedDict, total=False):
     """Drives the angle. Default: none."""
     friction: float
     """Greatest torque of friction. [N m] Default: 0."""
+    spring: RotarySpring
+    """Pulls the angle. Default: none."""
 
 class JointCopies(TypedDict, total=False):
     """Copies of a joint along a row of bodies: in copy k, the numbers at the ends of the bodies' names are greater by

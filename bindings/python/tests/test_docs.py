@@ -10,7 +10,7 @@ import sys
 import pytest
 from conftest import ROOT
 
-PAGES = ["docs/guide/python.md", "docs/guide/researchers.md"]
+PAGES = ["README.md", "docs/guide/python.md", "docs/guide/researchers.md"]
 EXAMPLES = sorted((ROOT / "bindings" / "python" / "examples").glob("*.py"))
 
 
