@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "collision/broad/bounds.h"
@@ -111,19 +110,21 @@ struct Other {
   const Substep& s;
   int object;
   bool has_surface;  ///< of which the parts are looked at
-  std::optional<BoxBounds> box{};
+  bool has_box = false;
+  BoxBounds box{};
 
   /// True if it comes within `reach` [m] of a group in the substep.
   bool comes_near(const LaggingGroup& group, float reach) {
     const BoxBounds of_group{xyz(group.box.low), xyz(group.box.high)};
     if (has_surface && s.pairs->comes_near(object, of_group, reach)) return true;
-    if (!box) {
+    if (!has_box) {
       PointBounds made;
       if (!has_surface) add_particles(s, object, made);
       add_solids(s, object, made);
-      box = BoxBounds{xyz(made.low), xyz(made.high)};
+      box = {xyz(made.low), xyz(made.high)};
+      has_box = true;
     }
-    return overlap(of_group.grown(reach), *box);
+    return overlap(of_group.grown(reach), box);
   }
 };
 
