@@ -54,7 +54,8 @@ add_type(all.h StencilConstraints Bead bead.h)
 
 # Warnings are errors as in the presets: what the new type does not touch then comes out of the compiler's cache.
 must(${CMAKE_COMMAND} -S ${tree} -B ${tree}/build/newcomer -G ${GENERATOR} -D CMAKE_BUILD_TYPE=${CONFIGURATION}
-  -D CMAKE_CXX_COMPILER=${COMPILER} -D PLIANT_CUDA=OFF -D PLIANT_WARNINGS_AS_ERRORS=ON -D PLIANT_LEVELS=native)
+  -D CMAKE_CXX_COMPILER=${COMPILER} -D PLIANT_CUDA=OFF -D PLIANT_WARNINGS_AS_ERRORS=ON -D PLIANT_LEVELS=native
+  -D PLIANT_BUILD_C=OFF)
 must(${CMAKE_COMMAND} --build ${tree}/build/newcomer --target pliant_command test_constraints test_stencils)
 
 # The scene runs, and the area holds: the weight has not fallen.
