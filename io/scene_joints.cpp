@@ -44,6 +44,7 @@ void set_motor(const JsonDocument& document, const JsonValue& at, const char* na
     if (set(*value, torque, motor.target)) motor.kind = JointMotor::Kind::torque;
   const float unit_of_target = motor.kind == JointMotor::Kind::torque ? 1 : unit;
   motor.target *= unit_of_target;
+  motor.keyframes.reserve(elements(*value, "keyframes").size());
   for (const JsonValue& item : elements(*value, "keyframes")) {
     MotorKeyframe key;
     set(item, "time", key.time);

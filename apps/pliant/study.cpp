@@ -50,6 +50,7 @@ struct Outcome {
 
 std::vector<std::string> pointers_of(const StudyOptions& options) {
   std::vector<std::string> pointers;
+  pointers.reserve(always_measured.size() + options.measures.size());
   for (const auto& [name, pointer] : always_measured) pointers.push_back(pointer);
   pointers.insert(pointers.end(), options.measures.begin(), options.measures.end());
   return pointers;
@@ -57,6 +58,7 @@ std::vector<std::string> pointers_of(const StudyOptions& options) {
 
 std::vector<std::string> columns_of(const StudyOptions& options, const std::vector<Varied>& varied) {
   std::vector<std::string> columns;
+  columns.reserve(varied.size() + always_measured.size() + options.measures.size() + 3);
   for (const Varied& one : varied) columns.push_back(one.pointer);
   columns.emplace_back("fingerprint");
   columns.emplace_back("ok");
@@ -138,6 +140,7 @@ Outcome outcome_of(const StudyOptions& options, const Variant& variant, bool is_
 
 std::vector<std::string> key_of(const Variant& variant, const std::vector<Varied>& varied) {
   std::vector<std::string> key;
+  key.reserve(variant.size() + 1);
   for (std::size_t i = 0; i < variant.size(); ++i) key.push_back(variant[i].substr(varied[i].pointer.size() + 1));
   return key;
 }
@@ -180,6 +183,7 @@ void draw_sheet(const StudyOptions& options, const std::vector<std::optional<Ren
   const auto whole = [](std::size_t count, int size) { return static_cast<int>(count) * (size + gap) - gap; };
   const int full_width = whole(columns, width), full_height = whole(rows, height);
   std::vector<RenderScene> scenes;
+  scenes.reserve(pictures.size());
   for (const std::optional<RenderScene>& one : pictures)
     if (one) scenes.push_back(*one);
   if (scenes.empty()) throw Error({}, "there is nothing to draw: no variant succeeded", "see the column \"problem\"");
@@ -219,6 +223,7 @@ void check_study(const StudyOptions& options) {
 
 int study(const StudyOptions& options) {
   std::vector<Varied> varied;
+  varied.reserve(options.vary.size());
   for (const std::string& text : options.vary) varied.push_back(parse_varied(text));
   const std::vector<Variant> variants = combinations(varied);
   check_study(options);

@@ -32,6 +32,9 @@ Scene World::description() const {
   if (!data_->kept_scene)
     throw Error({}, "the World has not kept its description", "make it with KeepDescription, or keep the Scene");
   Scene scene = data_->kept_scene->rest;
+  scene.objects.reserve(data_->descriptions.size());
+  scene.colliders.reserve(data_->kept_scene->colliders.size());
+  scene.mesh_colliders.reserve(data_->kept_scene->mesh_colliders.size());
   // Maps are in the order of slots, as the ids are.
   for (const auto& [slot, object] : data_->descriptions) scene.objects.push_back(object);
   for (const auto& [slot, collider] : data_->kept_scene->colliders) scene.colliders.push_back(collider);
