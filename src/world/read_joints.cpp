@@ -50,8 +50,8 @@ struct JointSide {
 };
 
 JointSide side_of(const WorldData& world, int number, const CompiledJoint::Side& side, const Vec3d* at = nullptr) {
-  const auto particle = static_cast<std::size_t>(world.model.first[number] + side.point);
-  const auto frame = static_cast<std::size_t>(world.model.first_frame[number] + side.frame);
+  const int particle = world.model.first[number] + side.point;
+  const int frame = world.model.first_frame[number] + side.frame;
   const Record &x = world.state.positions[particle], &v = world.state.velocities[particle],
                &q = world.state.frames.orientations[frame], &w = world.state.frames.angular_velocities[frame];
   const Quatd rotation = normalise(convert<double>(Quatf{q.x, q.y, q.z, q.w}));
