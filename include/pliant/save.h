@@ -1,6 +1,7 @@
 // Saves and loads a State, or a whole World, as one file. It is part of the library pliant_io.
 //
-// Saving is exact: after loading, the next step gives the same bits as without saving. Files are written atomically, so
+// Saving is exact: after loading, the next step gives the same bits as without saving. What was set for the next step
+// alone (forces, targets and poses) and what is recorded are not saved. Files are written atomically, so
 // the previous one survives a crash, a full disk or a kill. They have a format version and a SHA-256 checksum.
 // docs/reference/save-format.md describes the format.
 #pragma once

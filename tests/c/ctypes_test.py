@@ -3,6 +3,7 @@
 import ctypes
 import json
 import sys
+import threading
 
 library = ctypes.CDLL(sys.argv[1])
 scenes = sys.argv[2]
@@ -60,6 +61,27 @@ try:
     raise AssertionError("a stale id was taken")
 except RuntimeError as error:
     assert "no object 7" in str(error), error
+
+# While another thread runs a World, every call says that it is busy, between frames too; and it is not freed.
+BUSY, STOPPED = 10, 6
+rope = world_of(scenes + "/rope.json")
+runs, seen = [], []
+thread = threading.Thread(
+    target=lambda: runs.append(library.pliant_world_run(rope, ctypes.c_int64(10**9), None)), daemon=True
+)
+length = ctypes.c_size_t()
+thread.start()
+while len(seen) < 2000 and thread.is_alive():
+    status = library.pliant_world_name(rope, Id(0, 0, 0), None, ctypes.c_size_t(0), ctypes.byref(length))
+    if seen or status == BUSY:
+        seen.append(status)
+assert library.pliant_world_free(rope) == BUSY
+call("pliant_world_stop", rope, 1)
+thread.join()
+assert set(seen) == {BUSY}, set(seen)
+assert runs == [STOPPED]
+call("pliant_world_free", rope)
+
 call("pliant_world_free", world)
 assert library.pliant_world_free(world) != 0
 print("Python", sys.version.split()[0], "called libpliant_c", library.pliant_version().decode())

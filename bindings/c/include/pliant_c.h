@@ -31,7 +31,8 @@
  * relative to the working directory.
  *
  * Threads. A World, a scene, a state and a writer each belong to one thread at a time; different ones may be used at the same time.
- * While a World steps, other calls with it give PLIANT_BUSY, but pliant_world_stop, which any thread and signal handlers may call.
+ * While a World steps or runs, other calls with it give PLIANT_BUSY, but pliant_world_stop, which any thread and signal handlers may call.
+ * That finds most mistakes and is no lock: a call that has begun when a step begins is not seen. Keep to one thread at a time.
  *
  * Until Pliant 1.0 a minor version may change this interface; the library's SOVERSION then grows. */
 #ifndef PLIANT_C_H
@@ -281,7 +282,8 @@ PLIANT_API pliant_status pliant_scene_describe(const pliant_scene* scene, char* 
  * it names a number. Refused if the scene cannot be simulated; pliant_scene_check says so, too. */
 PLIANT_API pliant_status pliant_world_create(const pliant_scene* scene, int32_t threads, pliant_world** world);
 
-/* Frees a World. Its writers and states stay. A step under way ends first. NULL is accepted. */
+/* Frees a World. Its writers and states stay. PLIANT_BUSY while another thread steps it, which then keeps its handle. A force of its own may
+ * free it: the step under way ends first. NULL is accepted. */
 PLIANT_API pliant_status pliant_world_free(pliant_world* world);
 
 /* Advances by `dt` seconds, > 0; 0: by the frame time of its scene. Keep it constant. Refused if it is negative, not finite or too short. PLIANT_NOT_FINITE if the step met a value that is not
@@ -343,8 +345,8 @@ PLIANT_API pliant_status pliant_world_contacts(const pliant_world* world, pliant
 /* A scene of what the World holds: as given and added, and torn objects as they are now. As pliant_scene_from_json gives it. */
 PLIANT_API pliant_status pliant_world_scene(const pliant_world* world, pliant_scene** scene);
 
-/* Writes the World to a file. After loading, the next step gives the same bits. If writing fails, a file that was there stays as it was.
- * Refused if the World has forces. */
+/* Writes the World to a file. After loading, the next step gives the same bits. Forces and targets that were set for the next step, and what
+ * is recorded, are not in it. If writing fails, a file that was there stays as it was. Refused if the World has forces. */
 PLIANT_API pliant_status pliant_world_save(const pliant_world* world, const char* path);
 
 /* Reads such a file. All ids that were valid are valid in it. */
@@ -517,7 +519,7 @@ PLIANT_API pliant_status pliant_report_json(const pliant_world* world, char* int
  * pliant_writer_finish. */
 PLIANT_API pliant_status pliant_writer_open(const pliant_world* world, const char* path, pliant_writer** writer);
 
-/* Adds the present state as a frame: once at the start and once after each step. */
+/* Adds the present state as a frame: once at the start and once after each step. Refused if the writer was opened for another World. */
 PLIANT_API pliant_status pliant_writer_add(pliant_writer* writer, const pliant_world* world);
 
 /* Completes the file. Nothing can be added after that. */

@@ -7,6 +7,7 @@ namespace pliant::c {
 
 struct WriterHandle {
   std::unique_ptr<FrameWriter> writer;  ///< null once it is finished
+  std::weak_ptr<WorldHandle> world;     ///< whose frames it writes
 };
 
 namespace {
@@ -29,6 +30,7 @@ pliant_status pliant_writer_open(const pliant_world* world, const char* path, pl
     require(path, "path");
     require(writer, "writer");
     auto made = std::make_shared<WriterHandle>();
+    made->world = of;
     made->writer = make_frame_writer(path, of->world.description(), of->world);
     give_handle(std::move(made), writer);
   });
@@ -38,7 +40,10 @@ pliant_status pliant_writer_add(pliant_writer* writer, const pliant_world* world
   return guarded([&] {
     const auto to = at(writer);
     const auto of = at(world);
-    unfinished(*to).add(of->world);
+    FrameWriter& frames = unfinished(*to);
+    if (to->world.lock() != of)
+      throw StatusError(PLIANT_REFUSED, "the writer was opened for another World", "open a writer for each World");
+    frames.add(of->world);
   });
 }
 

@@ -24,13 +24,15 @@ void give_world(std::shared_ptr<WorldHandle> made, pliant_world** into) {
   *into = handle;
 }
 
-/// Marks a World as being in a step.
+/// Marks a World as being in a step, or in a run of steps.
 class Stepping {
  public:
   explicit Stepping(WorldHandle& world) : world_(world) {
-    if (world.is_stepping.exchange(true)) throw StatusError(PLIANT_BUSY, "the World is in a step", "call again after it");
+    std::thread::id none;
+    if (!world.stepper.compare_exchange_strong(none, std::this_thread::get_id()))
+      throw StatusError(PLIANT_BUSY, "the World is in a step", "call again after it");
   }
-  ~Stepping() { world_.is_stepping.store(false); }
+  ~Stepping() { world_.stepper.store(std::thread::id()); }
   Stepping(const Stepping&) = delete;
   Stepping& operator=(const Stepping&) = delete;
 
@@ -38,9 +40,8 @@ class Stepping {
   WorldHandle& world_;
 };
 
-/// Steps. Throws a StatusError if the step did not complete its frame.
+/// Steps a World that is marked. Throws a StatusError if the step did not complete its frame.
 void step(WorldHandle& world, float dt) {
-  const Stepping stepping(world);
   const std::int64_t frame = world.world.state().frame;
   world.report = world.world.step(dt);
   if (!world.report.ok())
@@ -90,11 +91,20 @@ pliant_status pliant_world_create(const pliant_scene* scene, int32_t threads, pl
   });
 }
 
-pliant_status pliant_world_free(pliant_world* world) { return free_handle(world); }
+pliant_status pliant_world_free(pliant_world* world) {
+  return guarded([&] {
+    if (world == nullptr) return;
+    const std::thread::id stepper = at<pliant_world>(world)->stepper.load();
+    if (stepper != std::thread::id() && stepper != std::this_thread::get_id())
+      throw StatusError(PLIANT_BUSY, "the World is in a step of another thread", "free it after the step");
+    take(world, Kind::world);
+  });
+}
 
 pliant_status pliant_world_step(pliant_world* world, float dt) {
   return guarded([&] {
     const auto of = at(world);
+    const Stepping stepping(*of);
     step(*of, dt == 0 ? of->frame_time : dt);
   });
 }
@@ -104,6 +114,7 @@ pliant_status pliant_world_run(pliant_world* world, int64_t frames, int64_t* don
     const auto of = at(world);
     if (frames < 0) throw StatusError(PLIANT_REFUSED, "'frames' is " + std::to_string(frames), "give 0 or more");
     if (done != nullptr) *done = 0;
+    const Stepping stepping(*of);
     for (std::int64_t i = 0; i < frames; ++i) {
       step(*of, of->frame_time);
       if (done != nullptr) ++*done;

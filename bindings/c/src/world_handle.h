@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <thread>
 
 #include "handles.h"
 #include "pliant/world.h"
@@ -15,13 +16,15 @@ struct WorldHandle {
   float frame_time;  ///< [s]
   int frames;
   Report report{};
-  std::atomic<bool> is_stepping{false};
+  /// The thread that steps it; of no thread between steps.
+  std::atomic<std::thread::id> stepper{};
+  bool is_stepping() const { return stepper.load() != std::thread::id(); }
 };
 
 /// The World of a handle, which is not in a step. Throws a StatusError if it is, or if the handle is stale.
 inline std::shared_ptr<WorldHandle> at(const pliant_world* handle) {
   auto world = at<pliant_world>(handle);
-  if (world->is_stepping.load()) throw StatusError(PLIANT_BUSY, "the World is in a step", "call again after it");
+  if (world->is_stepping()) throw StatusError(PLIANT_BUSY, "the World is in a step", "call again after it");
   return world;
 }
 

@@ -502,7 +502,7 @@ class World:
 
     def step(self, dt: float | None = None) -> Report:
         """
-        Advances by one frame of `dt` seconds; None: the scene's frame_time. Never raises for what happens in it: see Report.ok. Keep dt constant. Other Python threads run meanwhile. Ctrl-C ends a long step within a substep; the frame then does not count.
+        Advances by one frame of `dt` seconds; None: the scene's frame_time. Never raises for what happens in it: see Report.ok. Raises Error if dt is too short for its substeps. Keep dt constant. Other Python threads run meanwhile. Ctrl-C ends a long step within a substep; the frame then does not count.
         """
 
     def run(self, frames: int | None = None) -> Report:
@@ -517,7 +517,12 @@ class World:
 
     def stop(self) -> None:
         """
-        Ends a step that runs in another thread within a substep: its Report has `stopped`.
+        Ends a step that runs in another thread within a substep: its Report has `stopped`. If none runs, the next one ends before it begins. A Report that has `stopped` ends the effect.
+        """
+
+    def forget_forces(self) -> None:
+        """
+        Forgets the functions of `forces`; later steps are without them. Needed only where such a function refers both to this World and to an Object or other part of it: Python cannot collect that cycle.
         """
 
     def state(self) -> State:
@@ -630,18 +635,18 @@ class World:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """
-        Saves the World as one file: description, settings and State. Raises Error if writing fails; an existing file then stays unchanged.
+        Saves the World as one file: description, settings and State. Forces and targets that wait for the next step, and what is recorded, are not saved. Raises Error if writing fails; an existing file then stays unchanged.
         """
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> World:
         """
-        Loads a World that save() wrote; its next step gives the same bits as without saving.
+        Loads a World that save() wrote; its next step gives the same bits as without saving, if nothing was set for it.
         """
 
     def __getstate__(self) -> bytes:
         """
-        The bytes of the save format: a World can be pickled, unless it has forces.
+        The bytes of the save format: a World can be pickled, unless it has forces. What save() leaves out is left out.
         """
 
     def __setstate__(self, bytes: bytes) -> None:
@@ -675,7 +680,7 @@ class Writer:
 
 class BatchObject:
     """
-    The objects of one name in all worlds of a Batch: batch["name"]. Arrays have the shape (worlds, n, 3).
+    The objects of one name in all worlds of a Batch: batch["name"]. Arrays have the shape (worlds, n, 3). What is not finite or of a wrong shape raises Error, and changes no world.
     """
 
     @property
@@ -738,7 +743,7 @@ class Batch:
 
     def step(self, dt: float | None = None) -> list[Report]:
         """
-        Advances all worlds by one frame of `dt` seconds; None: the scene's. Returns the Report of each.
+        Advances all worlds by one frame of `dt` seconds; None: the scene's. Returns the Report of each. After Ctrl-C the worlds may be at different frames: restore states() that you kept.
         """
 
     def run(self, frames: int | None = None) -> list[Report]:
@@ -750,7 +755,9 @@ class Batch:
         """The State of each world."""
 
     def restore(self, state: State | list[State]) -> None:
-        """Restores one State in all worlds, or a list of one for each."""
+        """
+        Restores one State in all worlds, or a list of one for each. If one does not fit, raises Error and changes none.
+        """
 
     def state_hashes(self) -> list[str]:
         """World.state_hash() of each world."""

@@ -117,21 +117,33 @@ def _plain(value: Any, arrays: _Arrays, pointer: str = "", depth: int = 0) -> An
     raise Error(f"this is a {type(value).__name__}", "a scene has dicts, lists, numbers, str and bool", element=pointer)
 
 
-def _text(scene: Mapping[str, Any], arrays: _Arrays) -> str:
-    """The text that C++ reads."""
+def files_of(plain: Any) -> list[str]:
+    """The paths of meshes and robots that a plain scene names."""
+    if isinstance(plain, list):
+        return [path for item in plain for path in files_of(item)]
+    if not isinstance(plain, dict):
+        return []
+    own = [plain["file"]] if isinstance(plain.get("file"), str) else []
+    return own + [path for item in plain.values() for path in files_of(item)]
+
+
+def _text(scene: Mapping[str, Any], arrays: _Arrays) -> tuple[str, bool]:
+    """The text that C++ reads, and whether it says all: it names no files or arrays, which can change beside it."""
     plain = _plain(scene, arrays)
     plain.setdefault("objects", [])
-    return json.dumps(plain, ensure_ascii=False, allow_nan=False)
+    return json.dumps(plain, ensure_ascii=False, allow_nan=False), not arrays.any and not files_of(plain)
 
 
-def _copied(value: Any, depth: int = 0) -> Any:
-    """A copy of dicts and lists that shares arrays."""
+def copied(value: Any, depth: int = 0) -> Any:
+    """A copy of dicts, lists and tuples that shares arrays."""
     if depth > _DEEPEST:
         raise Error("this is nested too deeply", "scenes never need so many levels")
     if isinstance(value, Mapping):
-        return {key: _copied(item, depth + 1) for key, item in value.items()}
+        return {key: copied(item, depth + 1) for key, item in value.items()}
     if isinstance(value, list):
-        return [_copied(item, depth + 1) for item in value]
+        return [copied(item, depth + 1) for item in value]
+    if type(value) is tuple:
+        return tuple(copied(item, depth + 1) for item in value)
     return value
 
 
@@ -198,18 +210,24 @@ class Scene(dict[str, Any]):
     ) -> None:
         if description is not None and not isinstance(description, Mapping):
             raise TypeError("a Scene is made from a dict; Scene.read() reads a file, Scene.parse() text")
-        super().__init__(_copied(description or {}))
-        self.update(_copied(members))
+        super().__init__(copied(description or {}))
+        self.update(copied(members))
         inherited = description if isinstance(description, Scene) else None
         self.arrays = dict(inherited.arrays if inherited is not None else {})
         self.arrays.update(arrays or {})
         self.folder = os.fspath(folder) or (inherited.folder if inherited is not None else "")
         self.file = inherited.file if inherited is not None else ""
-        self._known: tuple[str, _pliant.Description] | None = None
+        self._known: tuple[str, str, _pliant.Description] | None = None  # text, folder, what they say
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], arrays: Mapping[str, Any] | None = None) -> Scene:
         """Reads a scene file. Raises Error with file, line and column if it is wrong."""
+        return cls._read(path, arrays)[0]
+
+    @classmethod
+    def _read(
+        cls, path: str | os.PathLike[str], arrays: Mapping[str, Any] | None = None
+    ) -> tuple[Scene, _pliant.Description]:
         name = os.fspath(path)
         if not isinstance(name, str):
             raise TypeError("a path is a str or os.PathLike")
@@ -228,18 +246,21 @@ class Scene(dict[str, Any]):
         """Reads a scene from JSON text; paths of meshes are relative to `folder`."""
         if not isinstance(text, str):
             raise TypeError("the text of a scene is a str")
-        return cls._of_text(text, "", os.fspath(folder), arrays)
+        return cls._of_text(text, "", os.fspath(folder), arrays)[0]
 
     @classmethod
-    def _of_text(cls, text: str, name: str, folder: str, arrays: Mapping[str, Any] | None) -> Scene:
+    def _of_text(
+        cls, text: str, name: str, folder: str, arrays: Mapping[str, Any] | None
+    ) -> tuple[Scene, _pliant.Description]:
         named = _Arrays(arrays or {})
         # C++ reads it first: its errors have line and column.
         known = _pliant.describe(text, name, folder, named.meshes, named.tetrahedra, named.points, True)
         scene = cls(json.loads(text), arrays=arrays, folder=folder)
         scene.file = name
-        if not named.any:
-            scene._known = (_text(scene, named), known)
-        return scene
+        plain, says_all = _text(scene, named)
+        if says_all:
+            scene._known = (plain, folder, known)
+        return scene, known
 
     def _add(self, list_name: str, members: dict[str, Any]) -> str:
         things = self.setdefault(list_name, [])
@@ -261,11 +282,11 @@ class Scene(dict[str, Any]):
         One member says what it is: cloth, soft_body, rope, rod, liquid, grains, gas, tracers, particles, bodies or
         urdf. Others are those of an object in the scene format: name, pins, attachments, thickness, ...
         """
-        return self._add("objects", _copied(_named(members, _KINDS, "an object", self._names("objects"))))
+        return self._add("objects", copied(_named(members, _KINDS, "an object", self._names("objects"))))
 
     def add_collider(self, **members: Any) -> str:
         """Adds a collider and returns its name. One member says its shape: plane, sphere, capsule, box or mesh."""
-        return self._add("colliders", _copied(_named(members, _SHAPES, "a collider", self._names("colliders"))))
+        return self._add("colliders", copied(_named(members, _SHAPES, "a collider", self._names("colliders"))))
 
     def lookup(self, pointer: str) -> Any:
         """The value at a JSON pointer, such as "/objects/0/cloth/material". Raises Error if there is none."""
@@ -280,8 +301,11 @@ class Scene(dict[str, Any]):
         return at
 
     def assign(self, pointer: str, value: Any) -> None:
-        """Sets the value at a JSON pointer; "-" appends to a list. Members on the way that are missing are made."""
-        steps = _steps(pointer)
+        """Sets the value at a JSON pointer; "-" appends to a list. Members on the way that are missing are made.
+
+        The value is copied (arrays are shared).
+        """
+        steps, value = _steps(pointer), copied(value)
         at: Any = self
         for i, step in enumerate(steps):
             last = i + 1 == len(steps)
@@ -341,16 +365,16 @@ class Scene(dict[str, Any]):
     def compiled(self) -> _pliant.Description:
         """The scene as C++ has read it, from which World and Batch are made. Raises Error if it is wrong."""
         arrays = _Arrays(self.arrays)
-        text = _text(self, arrays)
-        if self._known is not None and not arrays.any and self._known[0] == text:
-            return self._known[1]
+        text, says_all = _text(self, arrays)
+        if says_all and self._known is not None and self._known[:2] == (text, self.folder):
+            return self._known[2]
         try:
             made = _pliant.describe(text, "", self.folder, arrays.meshes, arrays.tetrahedra, arrays.points, True)
         except Error as error:  # lines of the text that was made here say nothing
             raise Error(
                 error.problem, error.advice, file=error.file or self.file, object=error.object, element=error.element
             ) from None
-        self._known = None if arrays.any else (text, made)
+        self._known = (text, self.folder, made) if says_all else None
         return made
 
     def copy(self) -> Scene:
@@ -390,6 +414,8 @@ def as_scene(scene: SceneLike) -> Scene:
 
 def as_description(scene: SceneLike) -> _pliant.Description:
     """What C++ makes a World from."""
+    if isinstance(scene, (str, os.PathLike)):
+        return Scene._read(scene)[1]
     return scene if isinstance(scene, _pliant.Description) else as_scene(scene).compiled()
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import collections
+import contextlib
 import csv
 import dataclasses
 import hashlib
@@ -9,14 +11,15 @@ import itertools
 import json
 import os
 import pickle
+import queue
 from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence, Union
 
 from . import _pliant
 from ._errors import Error
-from ._scene import Scene, SceneLike, as_scene
+from ._scene import Scene, SceneLike, as_scene, copied, files_of
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
+    from concurrent.futures import Executor, Future, ProcessPoolExecutor
 
 Measure = Callable[["_pliant.World"], Any]
 Measures = Union[Measure, Mapping[str, Measure]]
@@ -27,7 +30,7 @@ class Table(list[dict[str, Any]]):
 
     Each has the values by JSON pointer, the measures by name, and:
 
-    - ``ok``: True if all frames ran and are finite
+    - ``ok``: True if all frames ran and are finite; False if the run was stopped
     - ``explain``: what went wrong, or the warnings of the last frame; else empty
     - ``state_hash``: World.state_hash() at the end; None if there is none
     - ``frames``: number of frames that ran
@@ -70,9 +73,14 @@ class Variant:
 
     @property
     def key(self) -> str:
-        """What identifies the variant: a hash of its scene, its frames and the names of its measures."""
+        """What identifies the variant: a hash of its scene, its frames, the names of its measures and the version.
+
+        Files of meshes and robots count by path, size and time, measures by name alone.
+        """
         plain, arrays = self.scene.extract()
-        text = json.dumps([plain, self.frames, sorted(self.measures)], sort_keys=True)
+        files = [_stamp(self.scene.folder, path) for path in files_of(plain)]
+        of_all = [_pliant.version(), plain, self.scene.folder, files, self.frames, sorted(self.measures)]
+        text = json.dumps(of_all, sort_keys=True)
         hashed = hashlib.sha256(text.encode())
         for name in sorted(arrays):
             hashed.update(pickle.dumps((name, arrays[name]), protocol=4))
@@ -80,13 +88,18 @@ class Variant:
 
     def run(self) -> dict[str, Any]:
         """Runs it, and returns its row. What goes wrong is in the row: nothing is raised but KeyboardInterrupt."""
-        row: dict[str, Any] = {**self.values, **dict.fromkeys(self.measures)}
-        row.update(ok=False, explain="", state_hash=None, frames=0, milliseconds=0.0)
+        row = self.failed("")
         try:
             self._run_into(row)
         except Exception as error:  # a row for each variant, whatever happens
             row["ok"] = False
             row["explain"] = str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}"
+        return row
+
+    def failed(self, explain: str) -> dict[str, Any]:
+        """The row of a variant that has not run."""
+        row: dict[str, Any] = {**copied(self.values), **dict.fromkeys(self.measures)}
+        row.update(ok=False, explain=explain, state_hash=None, frames=0, milliseconds=0.0)
         return row
 
     def _run_into(self, row: dict[str, Any]) -> None:
@@ -99,7 +112,18 @@ class Variant:
         for name, measure in self.measures.items():
             value = measure(world)
             row[name] = value.item() if hasattr(value, "item") and getattr(value, "ndim", 0) == 0 else value
-        row["ok"] = report.ok
+        row["ok"] = report.ok and not report.stopped
+        if report.stopped:
+            row["explain"] = "; ".join(filter(None, [row["explain"], "the run was stopped"]))
+
+
+def _stamp(folder: str, path: str) -> list[Any]:
+    """What tells whether a file has changed."""
+    try:
+        found = os.stat(os.path.join(folder, path))
+    except (OSError, ValueError):  # the run says what is wrong with it
+        return [path]
+    return [path, found.st_size, found.st_mtime_ns]
 
 
 def run_variant(variant: Variant) -> dict[str, Any]:
@@ -149,7 +173,7 @@ def variants(
         raise Error(f"frames is {frames}", "run 1 or more")
     base, named = as_scene(scene), _measures_of(measure)
     if isinstance(vary, (list, tuple)):
-        all_values = [dict(one) for one in vary]
+        all_values = [copied(dict(one)) for one in vary]
     else:
         all_values = _values_of(vary)  # type: ignore[arg-type]
     made = []
@@ -157,7 +181,7 @@ def variants(
         one = base.copy()
         for pointer, value in values.items():
             one.assign(pointer, value)
-        made.append(Variant(one, values, named, frames, threads))
+        made.append(Variant(one, copied(values), named, frames, threads))
     return made
 
 
@@ -167,10 +191,12 @@ class _Kept:
     def __init__(self, path: str | os.PathLike[str] | None) -> None:
         self.path = path
         self.rows: dict[str, dict[str, Any]] = {}
+        self._begin = ""  # what ends a line that was cut off
         if path is None or not os.path.exists(path):
             return
-        with open(path, encoding="utf-8") as file:
+        with open(path, encoding="utf-8", errors="replace") as file:
             for line in file:
+                self._begin = "" if line.endswith("\n") else "\n"
                 try:
                     kept = json.loads(line)
                     self.rows[kept["key"]] = kept["row"]
@@ -186,7 +212,8 @@ class _Kept:
             words = "a study with `resume` keeps rows as JSON: measures return numbers, str, lists or arrays"
             raise TypeError(words) from None
         with open(self.path, "a", encoding="utf-8") as file:
-            file.write(line + "\n")
+            file.write(self._begin + line + "\n")
+        self._begin = ""
 
 
 def _require_pickles(measures: dict[str, Measure]) -> None:
@@ -218,11 +245,15 @@ def study(
     ``measure``: a function of the World at the end, or a dict of functions by name. ``frames``: None for the scene's
     number. ``workers``: number of processes, as many as the machine has threads if None; 0: this process alone.
     ``executor``: anything with ``submit`` instead, such as a ThreadPoolExecutor or a ``Client`` of dask. ``threads`` of
-    each World. ``resume``: a file that keeps rows as they come: what it has of another run is not run again.
-    ``progress(done, of)`` is called after each row.
+    each World. ``resume``: a file that keeps rows as they come: what it has of another run is not run again, unless
+    the scene, its frames, the names of measures, the version of Pliant, or path, size or time of a file that the scene
+    names has changed. Measures count by name: remove the file after a change of their code, or of meshes that a .urdf
+    file names. ``progress(done, of)`` is called after each row.
 
-    A variant that fails is a row, too: ``ok`` is false, and ``explain`` says why. The rows do not depend on how they
-    are computed: the bits are the same. Raises Error for what is wrong with the call itself.
+    A variant that fails is a row, too: ``ok`` is false, and ``explain`` says why. If a process dies, variants that ran
+    beside it run again, each alone in a process; one whose process dies once more is a row that fails, which ``resume``
+    does not keep. The rows do not depend on how they are computed: the bits are the same. Raises Error for what is
+    wrong with the call itself.
 
     Under the start method "spawn", which is used, a script calls this below ``if __name__ == "__main__":``.
     """
@@ -238,9 +269,10 @@ def study(
     rows: dict[int, dict[str, Any]] = {i: kept.rows[key] for i, key in enumerate(keys) if key in kept.rows}
     missing = [i for i in range(len(all_variants)) if i not in rows]
 
-    def take(i: int, row: dict[str, Any]) -> None:
+    def take(i: int, row: dict[str, Any], is_kept: bool = True) -> None:
         rows[i] = row
-        kept.add(keys[i], row)
+        if is_kept:
+            kept.add(keys[i], row)
         if progress is not None:
             progress(len(rows), len(all_variants))
 
@@ -248,35 +280,111 @@ def study(
         for i in missing:
             take(i, all_variants[i].run())
     elif executor is not None:
-        _submit(executor, all_variants, missing, take)
+        _as_they_end(
+            lambda i: executor.submit(run_variant, all_variants[i]),
+            collections.deque(missing),
+            max(len(missing), 1),
+            lambda i, future: take(i, *_row(all_variants[i], future)),
+        )
     else:
-        import concurrent.futures
-        import multiprocessing
-
         _require_pickles(_measures_of(measure))
-        count = min(workers or os.cpu_count() or 1, max(len(missing), 1))
-        # oneTBB promises nothing after a fork.
-        with concurrent.futures.ProcessPoolExecutor(count, multiprocessing.get_context("spawn")) as pool:
-            _submit(pool, all_variants, missing, take)
+        _in_processes(all_variants, missing, min(workers or os.cpu_count() or 1, len(missing)), take)
     return Table(rows[i] for i in range(len(all_variants)))
 
 
-def _submit(
-    executor: Any, all_variants: list[Variant], missing: list[int], take: Callable[[int, dict[str, Any]], None]
-) -> None:
-    """Submits variants, and takes their rows in order. A worker that dies is a row, too."""
-    futures = {i: executor.submit(run_variant, all_variants[i]) for i in missing}
+def _row(variant: Variant, future: Any) -> tuple[dict[str, Any], bool]:
+    """The row of a future, and whether to keep it: not if no run made it."""
     try:
-        for i, future in futures.items():
-            try:
-                row = future.result()
-            except Exception as error:  # the process ended, or something does not pickle
-                variant = all_variants[i]
-                row = {**variant.values, **dict.fromkeys(variant.measures)}
-                row.update(ok=False, explain=f"{type(error).__name__}: {error}")
-                row.update(state_hash=None, frames=0, milliseconds=0.0)
-            take(i, row)
+        return future.result(), True
+    except Exception as error:  # the process ended, or something does not pickle
+        return variant.failed(f"{type(error).__name__}: {error}"), False
+
+
+def _as_they_end(
+    submit: Callable[[int], Any], left: collections.deque[int], most: int, take: Callable[[int, Any], None]
+) -> None:
+    """Submits what is left, at most so many at a time, and takes futures as they end."""
+    ended: queue.SimpleQueue[int] = queue.SimpleQueue()
+    futures: dict[int, Any] = {}
+
+    def put(i: int) -> Callable[[Any], None]:
+        return lambda _: ended.put(i)
+
+    try:
+        while left or futures:
+            while left and len(futures) < most:
+                i = left.popleft()
+                futures[i] = submit(i)
+                if hasattr(futures[i], "add_done_callback"):
+                    futures[i].add_done_callback(put(i))
+                else:
+                    ended.put(i)  # in order, then
+            i = ended.get()
+            take(i, futures.pop(i))
     except BaseException:
         for future in futures.values():
             future.cancel()
         raise
+
+
+def _pool(count: int) -> ProcessPoolExecutor:
+    import concurrent.futures  # not with the package, which is imported in less time
+    import multiprocessing
+
+    # oneTBB promises nothing after a fork.
+    return concurrent.futures.ProcessPoolExecutor(count, multiprocessing.get_context("spawn"))
+
+
+def _submitted(pool: Executor, variant: Variant) -> Future[dict[str, Any]]:
+    from concurrent.futures import BrokenExecutor, Future
+
+    try:
+        return pool.submit(run_variant, variant)
+    except BrokenExecutor as error:
+        future: Future[dict[str, Any]] = Future()
+        future.set_exception(error)
+        return future
+
+
+def _in_processes(all_variants: list[Variant], missing: list[int], count: int, take: Callable[..., None]) -> None:
+    """Runs variants on processes.
+
+    One that dies takes its pool along. What ran then runs again, each alone, and the rest in a new pool. Where no row
+    ever comes, as from a script that does not guard its main part, the third dead pool is the last.
+    """
+    from concurrent.futures import BrokenExecutor
+
+    left = collections.deque(missing)
+    suspects: dict[int, Any] = {}
+    rest: list[int] = []
+    dead, some_came = 0, False
+
+    def take_last(i: int, future: Any) -> None:
+        nonlocal some_came
+        some_came = some_came or not isinstance(future.exception(), BrokenExecutor)
+        take(i, *_row(all_variants[i], future))
+
+    def take_or_suspect(i: int, future: Any) -> None:
+        if not isinstance(future.exception(), BrokenExecutor):
+            return take_last(i, future)
+        suspects[i] = future
+        rest.extend(left)
+        left.clear()
+
+    while left:
+        suspects, rest = {}, []
+        with _pool(count) as pool:
+            _as_they_end(lambda i: _submitted(pool, all_variants[i]), left, count, take_or_suspect)
+        if len(suspects) == 1:
+            take_last(*suspects.popitem())
+        elif suspects:
+            with contextlib.ExitStack() as stack:
+                alone = {i: stack.enter_context(_pool(1)) for i in suspects}
+                again = collections.deque(suspects)
+                _as_they_end(lambda i: _submitted(alone[i], all_variants[i]), again, len(alone), take_last)
+        dead += 1
+        if dead == 3 and not some_came:
+            for i in rest:
+                take(i, all_variants[i].failed("not run: processes end before a row comes"), False)
+            break
+        left = collections.deque(rest)

@@ -29,6 +29,13 @@ struct BatchObject {
   std::size_t size() const { return ids.size(); }
   ObjectView view(std::size_t i) const { return std::as_const((*worlds)[i]->idle()).object(ids[i]); }
   ObjectHandle handle(std::size_t i) const { return (*worlds)[i]->idle().object(ids[i]); }
+  /// The handles in all worlds. Throws an Error if a world is stepping or has removed its object.
+  std::vector<ObjectHandle> handles() const {
+    std::vector<ObjectHandle> all;
+    all.reserve(size());
+    for (std::size_t i = 0; i < size(); ++i) all.push_back(handle(i));
+    return all;
+  }
 };
 
 std::shared_ptr<const Worlds> make_worlds(const std::vector<Description>& descriptions, int n, int threads) {
@@ -69,11 +76,12 @@ nb::list run(const Batch& self, std::optional<float> dt, int frames) {
     const auto at = static_cast<std::size_t>(i);
     Report& report = reports[at].report;
     for (int frame = 0; frame < frames && report.ok() && !report.stopped; ++frame)
-      report = stepping[at]->world().step(dt.value_or(worlds[at]->frame_time()));
+      report = advance(stepping[at]->world(), dt.value_or(worlds[at]->frame_time()));
   };
   side_by_side(static_cast<int>(worlds.size()), self.threads, work, [&] {
     for (const SharedWorld& world : worlds) world->stop = true;
   });
+  for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i]->answer(reports[i].report);
   nb::list list;
   for (NamedReport& report : reports) list.append(nb::cast(std::move(report)));
   return list;
@@ -127,6 +135,26 @@ class VectorsOfWorlds {
     n_ = numbers_.rows() / worlds;
   }
   std::span<const Vec3f> of(std::size_t world) const { return numbers_.vectors().subspan(world * n_, n_); }
+  /// Throws an Error unless all are finite, so that a setter changes all worlds or none.
+  void require_finite(const std::string& object, const char* what) const {
+    const std::span<const Vec3f> all = numbers_.vectors();
+    const auto is_finite = [](const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+    const auto bad = std::find_if_not(all.begin(), all.end(), is_finite);
+    if (bad == all.end()) return;
+    const auto at = static_cast<std::size_t>(bad - all.begin());
+    throw Error({.object = object, .element = "row " + std::to_string(at % n_) + " of world " + std::to_string(at / n_)},
+                std::string(what) + " are not finite", "give finite numbers");
+  }
+  /// Also unless there is one for each particle.
+  void require_each(const BatchObject& of, const char* what) const {
+    require_finite(of.name, what);
+    for (std::size_t i = 0; i < of.size(); ++i)
+      if (const auto particles = static_cast<std::size_t>(of.view(i).particle_count()); particles != n_)
+        throw Error({.object = of.name},
+                    what + (" are " + std::to_string(n_)) + " for " + std::to_string(particles) + " particles of world " +
+                        std::to_string(i),
+                    "give one per particle");
+  }
 
  private:
   static nb::object flat(nb::handle given, std::size_t worlds, const char* what) {
@@ -153,8 +181,27 @@ using Write = void (ObjectHandle::*)(std::span<const Vec3f>);
 auto writer(Write write, const char* what) {
   return [write, what](const BatchObject& self, nb::handle given) {
     const VectorsOfWorlds vectors(given, self.size(), what);
-    for (std::size_t i = 0; i < self.size(); ++i) (self.handle(i).*write)(vectors.of(i));
+    vectors.require_each(self, what);
+    std::vector<ObjectHandle> handles = self.handles();
+    for (std::size_t i = 0; i < self.size(); ++i) (handles[i].*write)(vectors.of(i));
   };
+}
+
+/// Adds to all or none: a sum of a velocity and an impulse may be too large for a float.
+void add_impulses(const BatchObject& self, nb::handle given) {
+  const VectorsOfWorlds vectors(given, self.size(), "impulses");
+  vectors.require_each(self, "impulses");
+  std::vector<ObjectHandle> handles = self.handles();
+  std::vector<std::vector<Vec3f>> before;
+  before.reserve(self.size());
+  for (std::size_t i = 0; i < self.size(); ++i) before.push_back(self.view(i).velocities());
+  std::size_t i = 0;
+  try {
+    for (; i < self.size(); ++i) handles[i].add_impulses(vectors.of(i));
+  } catch (...) {
+    while (i-- > 0) handles[i].set_velocities(before[i]);
+    throw;
+  }
 }
 
 using WriteSome = void (ObjectHandle::*)(std::span<const int>, std::span<const Vec3f>);
@@ -163,7 +210,9 @@ auto writer_of_some(WriteSome write, const char* which) {
   return [write, which](const BatchObject& self, nb::handle indices, nb::handle positions) {
     const Numbers some(indices, 'i', 0, which);
     const VectorsOfWorlds vectors(positions, self.size(), "positions");
-    for (std::size_t i = 0; i < self.size(); ++i) (self.handle(i).*write)(some.integers(), vectors.of(i));
+    vectors.require_finite(self.name, "positions");
+    std::vector<ObjectHandle> handles = self.handles();
+    for (std::size_t i = 0; i < self.size(); ++i) (handles[i].*write)(some.integers(), vectors.of(i));
   };
 }
 
@@ -173,7 +222,12 @@ void set_motor(const BatchObject& self, const std::string& joint, nb::handle tar
   if (all.rows() != self.size())
     throw Error({}, "there are " + std::to_string(all.rows()) + " targets",
                 "pass one for each of " + std::to_string(self.size()) + " worlds");
-  for (std::size_t i = 0; i < self.size(); ++i) self.handle(i).set_motor(joint, {all.floats()[i], most, motor});
+  for (std::size_t i = 0; i < self.size(); ++i)
+    if (!std::isfinite(all.floats()[i]))
+      throw Error({.object = self.name}, "the target of world " + std::to_string(i) + " is not finite",
+                  "give finite numbers");
+  std::vector<ObjectHandle> handles = self.handles();
+  for (std::size_t i = 0; i < self.size(); ++i) handles[i].set_motor(joint, {all.floats()[i], most, motor});
 }
 
 nb::tuple poses(const BatchObject& self, nb::handle body) {
@@ -182,8 +236,7 @@ nb::tuple poses(const BatchObject& self, nb::handle body) {
   positions.reserve(self.size());
   rotations.reserve(self.size());
   for (std::size_t i = 0; i < self.size(); ++i) {
-    const RigidPose pose = nb::isinstance<nb::str>(body) ? self.view(i).pose(nb::cast<std::string>(body))
-                                                         : self.view(i).pose(nb::cast<int>(body));
+    const RigidPose pose = with_body(body, [&](const auto& b) { return self.view(i).pose(b); });
     positions.push_back(pose.position);
     rotations.push_back(pose.rotation);
   }
@@ -197,25 +250,39 @@ std::vector<State> states(const Batch& self) {
   return all;
 }
 
+/// Restores of(i) in each world. If one does not fit, all have what they had before.
+template <class Of>
+void restore_each(const Worlds& worlds, const Of& of) {
+  std::vector<State> before;
+  before.reserve(worlds.size());
+  for (const SharedWorld& world : worlds) before.push_back(world->changing("restored").state());
+  std::size_t i = 0;
+  try {
+    for (; i < worlds.size(); ++i) worlds[i]->idle().restore(of(i));
+  } catch (...) {
+    while (i-- > 0) worlds[i]->idle().restore(before[i]);
+    throw;
+  }
+}
+
 void restore(const Batch& self, nb::handle given) {
   const State* one = nullptr;
-  if (nb::try_cast(given, one) && one != nullptr) {
-    for (const SharedWorld& world : *self.worlds) world->changing("restored").restore(*one);
-    return;
-  }
+  if (nb::try_cast(given, one) && one != nullptr)
+    return restore_each(*self.worlds, [&](std::size_t /*world*/) -> const State& { return *one; });
   std::vector<const State*> all;
   if (!nb::try_cast(given, all) || std::find(all.begin(), all.end(), nullptr) != all.end())
     throw nb::type_error("restore a State, or a list of them");
   if (all.size() != self.worlds->size())
     throw Error({}, "there are " + std::to_string(all.size()) + " states",
                 "pass one for each of " + std::to_string(self.worlds->size()) + " worlds");
-  for (std::size_t i = 0; i < all.size(); ++i) (*self.worlds)[i]->changing("restored").restore(*all[i]);
+  restore_each(*self.worlds, [&](std::size_t i) -> const State& { return *all[i]; });
 }
 
 void bind_batch_object(nb::module_& m) {
-  nb::class_<BatchObject>(
-      m, "BatchObject",
-      "The objects of one name in all worlds of a Batch: batch[\"name\"]. Arrays have the shape (worlds, n, 3).")
+  nb::class_<BatchObject>(m, "BatchObject",
+                          "The objects of one name in all worlds of a Batch: batch[\"name\"]. Arrays have the shape "
+                          "(worlds, n, 3). What is not "
+                          "finite or of a wrong shape raises Error, and changes no world.")
       .def_ro("name", &BatchObject::name, "Their name.")
       .def_ro("particles", &BatchObject::particles, "Number of particles of each.")
       .def("__len__", &BatchObject::size, "Number of worlds.")
@@ -241,7 +308,7 @@ void bind_batch_object(nb::module_& m) {
       .def("set_velocities", writer(&ObjectHandle::set_velocities, "velocities"), nb::arg("velocities"),
            nb::sig("def set_velocities(self, velocities: pliant._types.AnyArray) -> None"),
            "As Object.set_velocities() [m/s].")
-      .def("add_impulses", writer(&ObjectHandle::add_impulses, "impulses"), nb::arg("impulses"),
+      .def("add_impulses", &add_impulses, nb::arg("impulses"),
            nb::sig("def add_impulses(self, impulses: pliant._types.AnyArray) -> None"), "As Object.add_impulses() [N s].")
       .def("set_forces", writer(&ObjectHandle::set_forces, "forces"), nb::arg("forces"),
            nb::sig("def set_forces(self, forces: pliant._types.AnyArray) -> None"), "As Object.set_forces() [N].")
@@ -290,7 +357,9 @@ void bind_batch(nb::module_& m) {
           "Makes the worlds, side by side.")
       .def("step", &step_batch, nb::arg("dt") = nb::none(),
            nb::sig("def step(self, dt: float | None = None) -> list[Report]"),
-           "Advances all worlds by one frame of `dt` seconds; None: the scene's. Returns the Report of each.")
+           "Advances all worlds by one frame of `dt` seconds; None: the scene's. Returns the Report of each. After Ctrl-C "
+           "the "
+           "worlds may be at different frames: restore states() that you kept.")
       .def("run", &run_frames, nb::arg("frames") = nb::none(),
            nb::sig("def run(self, frames: int | None = None) -> list[Report]"),
            "Runs frames in all worlds, the scene's own number if None, and returns the last Report of each. A world ends "
@@ -298,7 +367,8 @@ void bind_batch(nb::module_& m) {
            "its Report is not ok.")
       .def("states", &states, "The State of each world.")
       .def("restore", &restore, nb::arg("state"), nb::sig("def restore(self, state: State | list[State]) -> None"),
-           "Restores one State in all worlds, or a list of one for each.")
+           "Restores one State in all worlds, or a list of one for each. If one does not fit, raises Error and changes "
+           "none.")
       .def(
           "state_hashes",
           [](const Batch& self) {

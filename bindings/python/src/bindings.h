@@ -64,7 +64,7 @@ class OwnedWorld {
   void remove(ColliderId id);
   void remove(MeshColliderId id);
 
-  /// The description of an object, as it was added.
+  /// The description of an object, as it was added. Throws an Error if there is none of that id.
   const Object& described(ObjectId id) const;
   /// True if an object tears, is cut or can break: then all particles can move in memory.
   bool comes_apart() const;
@@ -75,7 +75,14 @@ class OwnedWorld {
   const std::shared_ptr<const SceneFile>& shared_file() const { return file_; }
   float frame_time() const { return file_->scene.frame_time; }
 
-  /// Set by Ctrl-C while a step runs, and by World.stop().
+  /// Ends the step that runs, and the next one if none does, as World.stop() says.
+  void ask_to_stop();
+  /// Ends the effect of ask_to_stop() if the Report says that a step was stopped.
+  void answer(const Report& report);
+  /// Forgets the functions of forces, which then do nothing.
+  void forget_forces();
+
+  /// Read by the World after each substep. Set by Ctrl-C while a step runs, and by ask_to_stop().
   std::atomic<bool> stop{false};
   double last_milliseconds = 1e9;  ///< of the last step; large before the first
   int views = 0;                   ///< of records that are alive
@@ -87,6 +94,7 @@ class OwnedWorld {
   std::shared_ptr<const SceneFile> file_;
   std::shared_ptr<const Names> names_;
   bool is_stepping_ = false;
+  bool is_asked_to_stop_ = false;  ///< by World.stop(), which no Report has answered
   /// Descriptions whose index in the scene is not their id.
   std::map<ObjectId, Object> objects_;
   std::map<ColliderId, Collider> colliders_;
@@ -126,7 +134,10 @@ struct NamedReport {
   std::shared_ptr<const Names> names;
 };
 
-/// Advances by one frame without the GIL. Throws nb::python_error if a signal's handler raised, as that of Ctrl-C does.
+/// A step of a World that is marked as stepping. Throws an Error if nothing moved because dt is too short. Needs no GIL.
+Report advance(World& world, float dt);
+
+/// Advances by one frame without the GIL. Throws an Error as advance() does, and nb::python_error if a signal's handler raised, as that of Ctrl-C does.
 NamedReport step(OwnedWorld& owned, float dt);
 
 /// Makes a World without the GIL. No threads: the scene's number.

@@ -71,7 +71,10 @@ StopOnInterrupt::StopOnInterrupt(std::atomic<bool>& flag, bool wanted) {
 
 StopOnInterrupt::~StopOnInterrupt() {
   if (!installed_) return;
-  sigaction(SIGINT, &before, nullptr);
+  struct sigaction now {};  // a force may have set another one
+  const bool is_ours =
+      sigaction(SIGINT, nullptr, &now) == 0 && (now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == interrupt_step;
+  if (is_ours) sigaction(SIGINT, &before, nullptr);
   stepping.store(nullptr);
 }
 

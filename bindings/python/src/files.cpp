@@ -78,20 +78,20 @@ State state_of(const nb::bytes& bytes) { return load_state_bytes(span_of(bytes),
 
 void bind_saving(nb::class_<WorldRef>& c) {
   c.def("save", &save_world, nb::arg("path"), nb::sig("def save(self, path: str | os.PathLike[str]) -> None"),
-        "Saves the World as one file: description, settings and State. Raises Error if writing fails; an existing file "
-        "then stays "
-        "unchanged.")
+        "Saves the World as one file: description, settings and State. Forces and targets that wait for the next step, and "
+        "what is recorded, are not saved. Raises Error if writing fails; an existing file then stays unchanged.")
       .def_static(
           "load", [](nb::handle path) { return ref_of(load_world(path_of(path))); }, nb::arg("path"),
           nb::sig("def load(path: str | os.PathLike[str]) -> World"),
-          "Loads a World that save() wrote; its next step gives the same bits as without saving.")
+          "Loads a World that save() wrote; its next step gives the same bits as without saving, if nothing was set for "
+          "it.")
       .def(
           "__getstate__",
           [](const WorldRef& self) {
             const World& world = self.world->idle();
             return bytes_from(save_bytes(world, self.world->present()));
           },
-          "The bytes of the save format: a World can be pickled, unless it has forces.")
+          "The bytes of the save format: a World can be pickled, unless it has forces. What save() leaves out is left out.")
       .def(
           "__setstate__",
           [](WorldRef& self, const nb::bytes& bytes) {

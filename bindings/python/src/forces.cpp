@@ -26,14 +26,20 @@ void copy_in(std::span<const Vec3f> from, nb::handle array) {
   std::copy(from.begin(), from.end(), to.vectors().begin());
 }
 
+void copy_in(std::span<const float> from, nb::handle array) {
+  const std::size_t shape[1] = {from.size()};
+  const Output to(array, shape);
+  std::copy(from.begin(), from.end(), to.floats());
+}
+
 /// The arrays of an object of so many particles; made anew where an edit has changed the number.
 nb::object arrays_for(PythonForce& force, const ForceField::Arrays& given) {
   const nb::str name(std::string(given.object).c_str());
   const std::size_t n = given.positions.size();
   if (force.arrays.contains(name) && nb::len(nb::object(force.arrays[name].attr("masses"))) == n) return force.arrays[name];
-  const std::size_t shape[2] = {n, 3};
-  const nb::object made = python_part("pliant._types", "ForceArrays")(
-      name, new_floats(shape), new_floats(shape), float_rows(given.masses.data(), n, 0), new_floats(shape));
+  const std::size_t shape[2] = {n, 3}, one[1] = {n};
+  const nb::object made = python_part("pliant._types", "ForceArrays")(name, new_floats(shape), new_floats(shape),
+                                                                      new_floats(one), new_floats(shape));
   force.arrays[name] = made;
   return made;
 }
@@ -46,6 +52,7 @@ void call(PythonForce& force, const ForceField::Arrays& given) {
   const nb::object arrays = arrays_for(force, given);
   copy_in(given.positions, arrays.attr("positions"));
   copy_in(given.velocities, arrays.attr("velocities"));
+  copy_in(given.masses, arrays.attr("masses"));  // an object of this name may have been replaced
   copy_in(given.forces, arrays.attr("forces"));
   arrays.attr("time") = given.time;
   force.function(arrays);

@@ -71,15 +71,6 @@ nb::object orientations(const ObjectRef& self) {
   return float_rows(reinterpret_cast<const float*>(all.data()), all.size(), 4);
 }
 
-/// Calls `with` an index or a name of a body.
-template <class Function>
-auto with_body(nb::handle body, const Function& function) {
-  if (nb::isinstance<nb::str>(body)) return function(nb::cast<std::string>(body));
-  int index = 0;
-  if (PyBool_Check(body.ptr()) != 0 || !nb::try_cast(body, index)) throw nb::type_error("a body is its name, or its index");
-  return function(index);
-}
-
 float finite_float(nb::handle given, const char* what) {
   double value = 0;
   if (!nb::try_cast(given, value)) throw nb::type_error((std::string(what) + " is no number").c_str());

@@ -150,11 +150,30 @@ nb::dict estimates_of(const NamedReport& named) {
   return dict;
 }
 
-constexpr const char* keys[] = {
-    "frame",           "time",       "milliseconds",  "substeps",    "contacts", "pairs",         "residuals",
-    "stretch",         "iterations", "overstretch",   "compression", "flow",     "lost_momentum", "sleeping_bodies",
-    "sleeping_grains", "torn",       "broken_joints", "nonfinite",   "stopped",  "warnings",      "estimates",
-    "phases",          "ok"};
+constexpr const char* keys[] = {"frame",
+                                "time",
+                                "milliseconds",
+                                "substeps",
+                                "contacts",
+                                "pairs",
+                                "residuals",
+                                "stretch",
+                                "iterations",
+                                "overstretch",
+                                "worst_overstretch",
+                                "compression",
+                                "flow",
+                                "lost_momentum",
+                                "sleeping_bodies",
+                                "sleeping_grains",
+                                "torn",
+                                "broken_joints",
+                                "nonfinite",
+                                "stopped",
+                                "warnings",
+                                "estimates",
+                                "phases",
+                                "ok"};
 
 std::string repr(const NamedReport& named) {
   const Report& report = named.report;

@@ -51,11 +51,12 @@ NamedReport run(OwnedWorld& owned, int frames) {
     {
       const nb::gil_scoped_release release;
       do {
-        result.report = stepping.world().step(owned.frame_time());
+        result.report = advance(stepping.world(), owned.frame_time());
         ++done;
       } while (done < frames && result.report.ok() && !result.report.stopped && milliseconds_since(looked) < long_step);
     }
     looked = Clock::now();
+    owned.answer(result.report);
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
   }
   owned.last_milliseconds = result.report.milliseconds;
@@ -150,8 +151,9 @@ nb::list contact_events(const WorldRef& self) {
 
 /// The name of a body, or "" where it is none.
 std::string body_name(const OwnedWorld& owned, const TouchSide& side) {
-  if (side.body < 0) return {};
-  const Object& object = owned.described({side.thing.slot, side.thing.generation});
+  const ObjectId id{side.thing.slot, side.thing.generation};
+  if (side.body < 0 || !owned.names()->objects.contains(id)) return {};
+  const Object& object = owned.described(id);
   const auto index = static_cast<std::size_t>(side.body);
   return index < object.bodies.size() ? object.bodies[index].name : std::string{};
 }
@@ -176,8 +178,8 @@ std::string world_repr(const WorldRef& self) {
 void bind_stepping(nb::class_<WorldRef>& c) {
   c.def("step", &step_once, nb::arg("dt") = nb::none(), nb::sig("def step(self, dt: float | None = None) -> Report"),
         "Advances by one frame of `dt` seconds; None: the scene's frame_time. Never raises for what happens in it: see "
-        "Report.ok. Keep dt "
-        "constant. Other Python threads run meanwhile. Ctrl-C ends a long step within a substep; the frame then does not "
+        "Report.ok. Raises Error if dt is too short for its substeps. Keep dt constant. Other Python threads run "
+        "meanwhile. Ctrl-C ends a long step within a substep; the frame then does not "
         "count.")
       .def(
           "run",
@@ -196,8 +198,13 @@ void bind_stepping(nb::class_<WorldRef>& c) {
           "Iterates over frames: each steps once and gives its Report. None: the scene's own number. Ends after a Report "
           "that is not ok.")
       .def(
-          "stop", [](const WorldRef& self) { self.world->stop = true; },
-          "Ends a step that runs in another thread within a substep: its Report has `stopped`.")
+          "stop", [](const WorldRef& self) { self.world->ask_to_stop(); },
+          "Ends a step that runs in another thread within a substep: its Report has `stopped`. If none runs, the next one "
+          "ends before it begins. A Report that has `stopped` ends the effect.")
+      .def(
+          "forget_forces", [](const WorldRef& self) { self.world->forget_forces(); },
+          "Forgets the functions of `forces`; later steps are without them. Needed only where such a function refers both "
+          "to this World and to an Object or other part of it: Python cannot collect that cycle.")
       .def(
           "state", [](const WorldRef& self) { return self.world->idle().state(); }, "A copy of the State.")
       .def(
@@ -417,7 +424,11 @@ void OwnedWorld::remove(MeshColliderId id) {
 
 const Object& OwnedWorld::described(ObjectId id) const {
   const auto found = objects_.find(id);
-  return found != objects_.end() ? found->second : file_->scene.objects[static_cast<std::size_t>(id.slot)];
+  if (found != objects_.end()) return found->second;
+  const std::vector<Object>& all = file_->scene.objects;
+  if (id.generation != 0 || id.slot < 0 || static_cast<std::size_t>(id.slot) >= all.size())
+    throw Error({}, "the object was removed", "use one of World.objects");
+  return all[static_cast<std::size_t>(id.slot)];
 }
 
 bool OwnedWorld::comes_apart() const {
@@ -452,7 +463,28 @@ Scene OwnedWorld::present() const {
 Stepping::Stepping(OwnedWorld& owned) : owned_(owned) {
   owned.idle();
   owned_.is_stepping_ = true;
-  owned_.stop = false;
+  owned_.stop = owned_.is_asked_to_stop_;
+}
+
+void OwnedWorld::ask_to_stop() { stop = is_asked_to_stop_ = true; }
+
+void OwnedWorld::answer(const Report& report) {
+  if (report.stopped) stop = is_asked_to_stop_ = false;
+}
+
+void OwnedWorld::forget_forces() {
+  idle();
+  std::vector<nb::object> forgotten;  // what their end calls may use this World
+  forgotten.reserve(forces.size());
+  for (const std::shared_ptr<PythonForce>& force : forces) forgotten.push_back(std::move(force->function));
+}
+
+Report advance(World& world, float dt) {
+  const std::int64_t before = world.state().frame;
+  Report report = world.step(dt);
+  if (report.ok() && !report.stopped && world.state().frame == before)
+    throw Error({}, report.explain(), "pass a longer one");
+  return report;
 }
 
 NamedReport step(OwnedWorld& owned, float dt) {
@@ -461,8 +493,9 @@ NamedReport step(OwnedWorld& owned, float dt) {
   {
     const StopOnInterrupt guard(owned.stop, owned.last_milliseconds > long_step);
     const nb::gil_scoped_release release;
-    result.report = stepping.world().step(dt);
+    result.report = advance(stepping.world(), dt);
   }
+  owned.answer(result.report);
   owned.last_milliseconds = result.report.milliseconds;
   if (result.report.stopped && PyErr_CheckSignals() != 0) throw nb::python_error();
   return result;

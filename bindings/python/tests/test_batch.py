@@ -99,6 +99,13 @@ def batch_of(n: int = 3) -> pliant.Batch:
     return pliant.Batch(cloth_scene(), n)
 
 
+def third_of(shape: tuple[int, ...], value: float) -> np.ndarray[Any, np.dtype[np.float32]]:
+    """Ones, but for a value of the last particle in the last world."""
+    array = np.ones(shape, np.float32)
+    array[2, -1, 1] = value
+    return array
+
+
 BAD: dict[str, Callable[[pliant.Batch], Any]] = {
     "none": lambda b: batch_of(0),
     "less than none": lambda b: batch_of(-1),
@@ -118,6 +125,7 @@ BAD: dict[str, Callable[[pliant.Batch], Any]] = {
     "a number for a name": lambda b: b[0],  # type: ignore[index]
     "frames": lambda b: b.run(0),
     "dt of zero": lambda b: b.step(0),
+    "dt that is too short": lambda b: b.step(1e-12),
     "dt of nan": lambda b: b.step(float("nan")),
     "dt of text": lambda b: b.step("1"),  # type: ignore[arg-type]
     "out of one world": lambda b: b["cloth"].positions(np.zeros((36, 3), np.float32)),
@@ -129,12 +137,17 @@ BAD: dict[str, Callable[[pliant.Batch], Any]] = {
     "forces of text": lambda b: b["cloth"].set_forces(np.full((3, 36, 3), "a")),
     "ragged impulses": lambda b: b["cloth"].add_impulses([[1], [2, 3]]),  # type: ignore[arg-type]
     "nan": lambda b: b["cloth"].set_velocities(np.full((3, 36, 3), np.nan)),
+    "velocities with a nan": lambda b: b["cloth"].set_velocities(third_of((3, 36, 3), np.nan)),
+    "impulses with a nan": lambda b: b["cloth"].add_impulses(third_of((3, 36, 3), np.nan)),
+    "impulses that are too large": lambda b: b["cloth"].add_impulses(third_of((3, 36, 3), 3e38)),
+    "a target of nan": lambda b: b["cloth"].set_targets([0], third_of((3, 1, 3), np.nan)),
     "no pin": lambda b: b["cloth"].set_targets([7], np.zeros((3, 1, 3))),
     "targets of one world": lambda b: b["cloth"].set_targets([0], np.zeros((1, 3))),
     "no attachment": lambda b: b["cloth"].set_attachment_targets([0], np.zeros((3, 1, 3))),
     "no joint": lambda b: b["cloth"].set_motor("hinge", [0, 0, 0]),
     "fewer targets": lambda b: b["cloth"].set_motor("hinge", [0]),
     "no body": lambda b: b["cloth"].poses("door"),
+    "a body of a fraction": lambda b: b["cloth"].poses(1.5),  # type: ignore[arg-type]
     "a body of None": lambda b: b["cloth"].poses(None),  # type: ignore[arg-type]
     "restoring nothing": lambda b: b.restore(None),  # type: ignore[arg-type]
     "restoring Nones": lambda b: b.restore([None] * 3),  # type: ignore[list-item]
@@ -154,6 +167,40 @@ def test_misuse(bad: str) -> None:
     assert str(caught.value)
     assert batch.state_hashes() == before
     assert all(report.ok for report in batch.step())
+
+
+def test_what_is_refused_leaves_no_force_or_target() -> None:
+    batch, same = batch_of(), batch_of()
+    for bad in (np.nan, np.inf):
+        with pytest.raises(pliant.Error, match="row 35 of world 2"):
+            batch["cloth"].set_forces(third_of((3, 36, 3), bad))
+        with pytest.raises(pliant.Error, match="row 0 of world 2"):
+            batch["cloth"].set_targets([0], third_of((3, 1, 3), bad))
+    batch.step()
+    same.step()
+    assert batch.state_hashes() == same.state_hashes()
+
+
+def test_motors_are_set_in_all_worlds_or_none(machine_scene: pliant.Scene) -> None:
+    batch = pliant.Batch(machine_scene, 3)
+    before = batch.state_hashes()
+    with pytest.raises(pliant.Error, match="world 2 is not finite"):
+        batch["machine"].set_motor("hinge", [1, 2, np.nan])
+    assert batch.state_hashes() == before
+
+
+def test_a_list_of_states_is_restored_in_all_worlds_or_none() -> None:
+    batch = batch_of()
+    start = batch.states()
+    batch.run(2)
+    before = batch.state_hashes()
+    with pytest.raises(pliant.Error):
+        batch.restore([*start[:2], pliant.World(cloth_scene(7)).state()])
+    assert batch.state_hashes() == before
+    records = batch.worlds[2]["cloth"].records()
+    with pytest.raises(pliant.Error, match="views of its records"):
+        batch.restore(start)
+    assert batch.state_hashes() == before and len(records) > 0
 
 
 def test_different_numbers_of_particles() -> None:

@@ -159,6 +159,31 @@ def test_meshes(tmp_path: pathlib.Path) -> None:
     np.testing.assert_array_equal(again[1], triangles)
 
 
+def test_a_scene_sees_changes_of_its_files_and_folder(tmp_path: pathlib.Path) -> None:
+    for name, columns in (("a", 4), ("b", 5)):
+        (tmp_path / name).mkdir()
+        pliant.write_mesh(str(tmp_path / name / "mesh.obj"), pliant.grid_mesh(columns, 4, 1, 1))
+    scene = pliant.Scene(folder=tmp_path / "a")
+    scene.add(cloth={"mesh": {"file": "mesh.obj"}})
+    assert pliant.World(scene)["cloth"].particles == 16
+    scene.folder = str(tmp_path / "b")
+    assert pliant.World(scene)["cloth"].particles == 20
+    pliant.write_mesh(str(tmp_path / "b" / "mesh.obj"), pliant.grid_mesh(6, 4, 1, 1))
+    assert pliant.World(scene)["cloth"].particles == 24
+    scene.write(tmp_path / "a" / "scene.json")
+    read = pliant.Scene.read(tmp_path / "a" / "scene.json")
+    pliant.write_mesh(str(tmp_path / "a" / "mesh.obj"), pliant.grid_mesh(7, 4, 1, 1))
+    assert pliant.World(read)["cloth"].particles == 28
+
+
+def test_values_that_are_assigned_are_copied() -> None:
+    gravity = [0, -5, 0]
+    scene = cloth_scene()
+    scene.assign("/gravity", gravity)
+    scene["gravity"][1] = 7
+    assert gravity == [0, -5, 0]
+
+
 def test_fabrics() -> None:
     fabrics = pliant.fabrics()
     assert fabrics["cotton"]["area_density"] == pytest.approx(0.15, rel=0.5)

@@ -7,6 +7,7 @@ import csv
 import json
 import os
 import pathlib
+import threading
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ import pytest
 from conftest import cloth_scene
 
 import pliant
+from pliant import _pliant
 from pliant.study import Table, variants
 
 VARY: dict[str, list[Any]] = {"/objects/0/cloth/material": ["cotton", "silk"], "/settings/substeps": [5, 10]}
@@ -29,6 +31,10 @@ def heights(world: pliant.World) -> Any:
 
 def dies(world: pliant.World) -> Any:
     os._exit(3)
+
+
+def dies_without_gravity(world: pliant.World) -> Any:
+    return droop(world) or os._exit(3)
 
 
 def fails(world: pliant.World) -> Any:
@@ -84,6 +90,79 @@ def test_a_process_that_dies_is_a_row() -> None:
     assert [row["ok"] for row in table] == [False] and table[0]["explain"]
 
 
+def test_a_process_that_dies_takes_no_other_row_along(tmp_path: pathlib.Path) -> None:
+    kept = tmp_path / "rows.jsonl"
+    vary = {"/gravity": [[0, -float(i), 0] for i in range(6)]}
+    table = pliant.study(cloth_scene(), vary, measure={"droop": dies_without_gravity}, workers=2, resume=kept)
+    assert [row["ok"] for row in table] == [False] + [True] * 5
+    assert len(kept.read_text().splitlines()) == 5
+    progress: list[tuple[int, int]] = []
+    table = pliant.study(
+        cloth_scene(), vary, measure={"droop": droop}, workers=0, resume=kept,
+        progress=lambda done, of: progress.append((done, of)),
+    )  # fmt: skip
+    assert not table.failures and progress == [(6, 6)]
+
+
+def test_processes_that_all_die_end_the_study() -> None:
+    table = pliant.study(cloth_scene(), {"/settings/substeps": [5, 6, 7, 8, 9]}, measure=dies, workers=1)
+    assert not any(row["ok"] for row in table)
+    assert [row["explain"][:7] for row in table] == ["BrokenP"] * 3 + ["not run"] * 2
+
+
+def test_rows_are_kept_as_they_come(tmp_path: pathlib.Path) -> None:
+    """The first variant waits until the row of the second is in the file."""
+    kept = tmp_path / "rows.jsonl"
+    came = threading.Event()
+
+    def wait(world: pliant.World) -> bool:
+        return droop(world) < 0 or came.wait(10)
+
+    vary = {"/gravity": [[0, 0, 0], [0, -1, 0]]}
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        table = pliant.study(
+            cloth_scene(), vary, measure={"came": wait}, executor=pool, resume=kept,
+            progress=lambda done, of: came.set(),
+        )  # fmt: skip
+    assert table.column("came") == [True, True]
+    assert [json.loads(line)["row"]["/gravity"][1] for line in kept.read_text().splitlines()] == [-1, 0]
+
+
+def test_values_are_copies() -> None:
+    gravity = [0, -1, 0]
+    made = variants(cloth_scene(), [{"/gravity": gravity}, {"/gravity": gravity}])
+    made[0].scene["gravity"][1] = 5
+    row = made[1].run()
+    gravity[1] = 7
+    assert made[1].scene["gravity"] == made[1].values["/gravity"] == row["/gravity"] == [0, -1, 0]
+
+
+def test_a_run_that_was_stopped_is_not_ok(monkeypatch: pytest.MonkeyPatch) -> None:
+    def stopped(*arguments: Any, **named: Any) -> pliant.World:
+        world = pliant.World(*arguments, **named)
+        world.stop()
+        return world
+
+    monkeypatch.setattr(_pliant, "World", stopped)
+    (row,) = pliant.study(cloth_scene(), [{}], workers=0)
+    assert not row["ok"] and row["frames"] == 0 and "stopped" in row["explain"]
+
+
+def test_resume_sees_files_and_folders(tmp_path: pathlib.Path) -> None:
+    def key(folder: pathlib.Path) -> str:
+        (one,) = variants(pliant.Scene(scene, folder=folder), [{}])
+        return one.key
+
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+        pliant.write_mesh(str(tmp_path / name / "mesh.obj"), pliant.grid_mesh(4, 4, 1, 1))
+    scene = {"objects": [{"cloth": {"mesh": {"file": "mesh.obj"}}}]}
+    first = key(tmp_path / "a")
+    assert first == key(tmp_path / "a") != key(tmp_path / "b")
+    pliant.write_mesh(str(tmp_path / "a" / "mesh.obj"), pliant.grid_mesh(5, 4, 1, 1))
+    assert key(tmp_path / "a") != first
+
+
 def test_resume(tmp_path: pathlib.Path) -> None:
     kept = tmp_path / "rows.jsonl"
     calls = []
@@ -101,6 +180,9 @@ def test_resume(tmp_path: pathlib.Path) -> None:
         progress=lambda done, of: progress.append((done, of)),
     )  # fmt: skip
     assert len(calls) == 2 and second[0] == first[0] and progress == [(2, 2)]
+    again = {"/settings/substeps": [10]}
+    third = pliant.study(cloth_scene(), again, measure={"droop": counted}, workers=0, resume=kept)
+    assert len(calls) == 2 and third[0] == second[1]  # the first row after the half line was not lost
     changed = cloth_scene()
     changed["gravity"] = [0, -1, 0]
     pliant.study(changed, {"/settings/substeps": [5]}, measure={"droop": counted}, workers=0, resume=kept)
@@ -170,6 +252,7 @@ untyped: Any = pliant.study  # of calls that mypy would refuse
     [
         lambda: untyped(cloth_scene(), 3),
         lambda: untyped(cloth_scene(), {"/gravity": 3}),
+        lambda: untyped(cloth_scene(), [3]),
         lambda: untyped(cloth_scene(), {"/gravity": "abc"}),
         lambda: untyped(cloth_scene(), {"gravity": [1]}),
         lambda: untyped(None, VARY),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import gc
 import os
 import pathlib
@@ -59,7 +60,7 @@ def test_a_report_is_attributes_and_a_dict(world: pliant.World) -> None:
     report = world.step()
     assert report.ok and report.explain() == "" and not report.stopped
     values = report.as_dict()
-    assert set(values) == set(report.keys()) == set(report)
+    assert set(values) == set(report.keys()) == set(report) and "worst_overstretch" in values
     for key in report:
         assert report[key] == getattr(report, key) == values[key]
     assert dict(report)["frame"] == 1
@@ -128,6 +129,14 @@ def test_save_load_and_pickle(world: pliant.World, tmp_path: pathlib.Path) -> No
         assert list(pliant.World.load(tmp_path / "b.world")) == ["cloth", "rope", "rope_2"]
 
 
+def test_a_copy_of_a_world_goes_its_own_way(world: pliant.World) -> None:
+    world.run(2)
+    other = copy.copy(world)
+    assert other.state_hash() == world.state_hash()
+    other.step()
+    assert (world.frame, other.frame) == (2, 3)
+
+
 def test_a_writer_writes_frames(world: pliant.World, tmp_path: pathlib.Path) -> None:
     with world.writer(tmp_path / "cloth.obj") as out:
         for _ in world.frames(2):
@@ -163,6 +172,13 @@ def test_what_bodies_touch() -> None:
     (touch,) = world.body_touches()
     assert {(touch.first, touch.first_body), (touch.second, touch.second_body)} == {("dice", "die"), ("floor", "")}
     assert abs(touch.push[1]) / world.frame_time == pytest.approx(9.81, rel=0.02)
+    second = world.add(name="late", bodies=[{"name": "top", "solids": [solid], "mass": 1, "position": [0, 0.3, 0]}])
+    world.run(30)
+    assert ("late", "top") in [(touch.second, touch.second_body) for touch in world.body_touches()]
+    world.remove(second)
+    assert all(touch.first and touch.second for touch in world.body_touches())
+    world.remove("dice")
+    assert world.body_touches() == []
 
 
 def test_descriptions(world: pliant.World) -> None:
@@ -198,6 +214,42 @@ def test_a_force_on_arrays() -> None:
     everywhere = pliant.World(scene, forces=push)
     everywhere.run(30)
     np.testing.assert_allclose(everywhere["other"].velocities(), [[1.5, 0, 0]], rtol=1e-5)
+
+
+def test_masses_are_those_of_now() -> None:
+    """Another object of the same name and number of particles, of 50 kg instead of 2."""
+    scene = pliant.Scene(gravity=(0, 0, 0))
+    scene.add(particles={"positions": np.zeros((1, 3)), "masses": [2]}, name="ball")
+    seen = []
+
+    def weigh(arrays: pliant.ForceArrays) -> None:
+        seen.append(float(arrays.masses[0]))
+        arrays.forces[:, 0] = arrays.masses
+
+    world = pliant.World(scene, forces=weigh)
+    world.step()
+    world.remove("ball")
+    world.add(particles={"positions": np.zeros((1, 3)), "masses": [50]}, name="ball")
+    world.step()
+    assert (seen[0], seen[-1]) == (2, 50)
+    np.testing.assert_allclose(world["ball"].velocities(), [[1 / 60, 0, 0]], rtol=1e-5)
+
+
+def test_a_handler_that_a_force_sets_stays() -> None:
+    def is_ignored() -> bool:
+        status = pathlib.Path("/proc/self/status").read_text()
+        return bool(int(status.split("SigIgn:")[1].split()[0], 16) & 1 << (signal.SIGINT - 1))
+
+    def ignore(arrays: pliant.ForceArrays) -> None:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    world = pliant.World(cloth_scene(), threads=1, forces=ignore)
+    before = signal.getsignal(signal.SIGINT)
+    try:
+        world.run(1)
+        assert is_ignored()
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_an_exception_of_a_force_comes_out_and_a_restore_heals() -> None:
@@ -255,6 +307,20 @@ def test_stop_ends_a_run_from_another_thread() -> None:
         world.stop()
         time.sleep(0.01)
     assert reports[0].stopped
+
+
+def test_a_stop_between_frames_ends_the_next_step_alone(world: pliant.World) -> None:
+    world.step()
+    world.stop()
+    report = world.step()
+    assert report.stopped and world.frame == 1
+    assert not world.step().stopped and world.frame == 2
+    frames = []
+    for report in world.frames(10):
+        frames.append(report.stopped)
+        if len(frames) == 1:
+            world.stop()
+    assert frames == [False, True] and world.run(2).ok and world.frame == 5
 
 
 @pytest.mark.parametrize("loop", ["world.run(10**9)", "for _ in world.frames(10**9): pass", "while True: world.step()"])
@@ -326,6 +392,34 @@ def test_a_force_that_refers_to_its_world_is_collected() -> None:
 
         world = pliant.World(cloth_scene(), threads=1, forces=push)
         world.step()
+
+    make()
+    del held
+    gc.collect()
+    assert gone() is None
+
+
+def test_a_force_that_refers_to_its_world_and_an_object_is_collected_once_forgotten() -> None:
+    class Held:
+        pass
+
+    held = Held()
+    gone = weakref.ref(held)
+
+    def make() -> None:
+        def push(arrays: pliant.ForceArrays) -> None:
+            assert held is not None and world is not None and cloth is not None
+            arrays.forces[:, 1] = 1
+
+        world = pliant.World(cloth_scene(), threads=1, forces=push)
+        cloth = world["cloth"]
+        world.step()
+        world.forget_forces()
+        alone = pliant.World(cloth_scene(), threads=1)
+        alone.restore(world.state())
+        world.step()
+        alone.step()
+        assert world.state_hash() == alone.state_hash()
 
     make()
     del held

@@ -189,6 +189,7 @@ void test_reports(void) {
 void test_files(const char* folder) {
   const pliant_array array = sheet_array();
   pliant_world* world = sheet_world();
+  pliant_world* other = sheet_world();
   pliant_writer *writer = NULL, *dropped = NULL;
   FILE* file;
   SAYS(PLIANT_REFUSED, ".txt", pliant_writer_open(world, path_in(folder, "c.txt"), &writer));
@@ -197,6 +198,9 @@ void test_files(const char* folder) {
     OK(pliant_writer_add(writer, world));
     OK(pliant_world_step(world, 0));
   }
+  OK(pliant_world_remove(other, object_at(0)));
+  SAYS(PLIANT_REFUSED, "another World", pliant_writer_add(writer, other));
+  OK(pliant_world_free(other));
   OK(pliant_writer_finish(writer));
   SAYS(PLIANT_REFUSED, "finished", pliant_writer_add(writer, world));
   OK(pliant_writer_free(writer));
