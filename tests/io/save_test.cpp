@@ -346,7 +346,7 @@ TEST(Save, EveryCutAndEveryFlippedBitIsRefused) {
   }
   test::put(path, whole + "x");
   EXPECT_NE(reason([&] { load_state(path); }).find("header says"), std::string::npos);
-  std::vector<std::byte> bytes = save_bytes(state);  // the same as in the file, and faster to read
+  std::vector<std::byte> bytes = save_bytes(state);  // as in the file
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     bytes[bit / 8] ^= std::byte(1 << (bit % 8));
     ASSERT_EQ(reason([&] { load_state_bytes(bytes, "it"); }).rfind("it: ", 0), 0u) << "bit " << bit;
