@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import pathlib
+import signal
+import subprocess
+import sys
+import time
 
 import pytest
 
@@ -46,3 +50,20 @@ def machine_scene() -> pliant.Scene:
             }
         ]
     )
+
+
+def seconds_until_interrupted(program: str) -> float:
+    """Runs a program that prints "ready", sends it a Ctrl-C, and expects it to print "interrupted". Returns how long
+    that took [s]."""
+    # Whoever starts the tests in the background has SIGINT ignored, which a child would inherit.
+    start = "import signal\nsignal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    with subprocess.Popen([sys.executable, "-c", start + program], stdout=subprocess.PIPE, text=True) as child:
+        try:
+            assert child.stdout is not None and child.stdout.readline() == "ready\n"
+            time.sleep(0.3)
+            sent = time.monotonic()
+            child.send_signal(signal.SIGINT)
+            assert child.communicate(timeout=60)[0] == "interrupted\n"
+            return time.monotonic() - sent
+        finally:
+            child.kill()

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import signal
-import subprocess
-import sys
-import time
 from typing import Any, Callable
 
 import numpy as np
 import pytest
-from conftest import cloth_scene
+from conftest import cloth_scene, seconds_until_interrupted
 
 import pliant
 
@@ -235,10 +231,4 @@ try:
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 """
-    child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True)
-    assert child.stdout is not None and child.stdout.readline() == "ready\n"
-    time.sleep(0.2)
-    child.send_signal(signal.SIGINT)
-    assert child.stdout.readline() == "interrupted\n"
-    child.wait(timeout=20)
-    child.stdout.close()
+    seconds_until_interrupted(program)
