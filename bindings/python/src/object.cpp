@@ -195,6 +195,41 @@ void bind_joints(nb::class_<ObjectRef>& c) {
           nb::arg("joint"), nb::sig("def joint_is_broken(self, joint: int | str) -> bool"), "True if a joint has broken.");
 }
 
+void bind_control_of_bodies(nb::class_<ObjectRef>& c) {
+  c.def(
+       "set_pose",
+       [](const ObjectRef& o, nb::handle body, nb::handle position, nb::handle rotation) {
+         const RigidPose pose = pose_from(position, rotation);
+         with_body(body, [&](const auto& b) { o.handle().set_pose(b, pose); });
+       },
+       nb::arg("body"), nb::arg("position"), nb::arg("rotation") = nb::make_tuple(0, 0, 0, 1),
+       nb::sig("def set_pose(self, body: int | str, position: pliant._types.VectorLike, rotation: "
+               "pliant._types.VectorLike = (0, 0, 0, 1)) -> None"),
+       "Moves a kinematic body, by index or name, to a pose that it reaches at the end of the next step [m].")
+      .def(
+          "set_surface_velocity",
+          [](const ObjectRef& o, nb::handle body, nb::handle velocity) {
+            const Vec3f v = vector_from(velocity, "velocity");
+            with_body(body, [&](const auto& b) { o.handle().set_surface_velocity(b, v); });
+          },
+          nb::arg("body"), nb::arg("velocity"),
+          nb::sig("def set_surface_velocity(self, body: int | str, velocity: pliant._types.VectorLike) -> None"),
+          "Gives the surface of a body a velocity along itself, as a conveyor belt has, in the body's frame [m/s].")
+      .def("set_motor", &set_motor, nb::arg("joint"), nb::arg("target"), nb::arg("most") = nb::none(),
+           nb::arg("motor") = "",
+           nb::sig("def set_motor(self, joint: str, target: float, most: float | None = None, motor: str = '') -> None"),
+           "Gives the motor of a joint a new target: an angle [rad], displacement [m] or speed [rad/s or m/s], as its kind "
+           "says. `most`: "
+           "greatest torque [N m] or force [N]; None: as before. `motor`: its name if the joint has several.")
+      .def(
+          "set_rest_factor",
+          [](const ObjectRef& o, int group, nb::handle factor) {
+            o.handle().set_rest_factor(group, finite_float(factor, "factor"));
+          },
+          nb::arg("group"), nb::arg("factor"), nb::sig("def set_rest_factor(self, group: int, factor: float) -> None"),
+          "Multiplies rest lengths or volumes of a group of constraints by a factor >= 0, as a muscle's activation does.");
+}
+
 void bind_control(nb::class_<ObjectRef>& c) {
   c.def(
        "set_targets",
@@ -245,39 +280,7 @@ void bind_control(nb::class_<ObjectRef>& c) {
                   "(0, 0, 0, 1)) -> None"),
           "Moves the whole object at once: each point is rotated about the origin by `rotation` (x, y, z, w), then moved "
           "by `position` "
-          "[m]. Raises Error if a pin or attachment with keyframes would stay behind.")
-      .def(
-          "set_pose",
-          [](const ObjectRef& o, nb::handle body, nb::handle position, nb::handle rotation) {
-            const RigidPose pose = pose_from(position, rotation);
-            with_body(body, [&](const auto& b) { o.handle().set_pose(b, pose); });
-          },
-          nb::arg("body"), nb::arg("position"), nb::arg("rotation") = nb::make_tuple(0, 0, 0, 1),
-          nb::sig("def set_pose(self, body: int | str, position: pliant._types.VectorLike, rotation: "
-                  "pliant._types.VectorLike = (0, 0, 0, 1)) -> None"),
-          "Moves a kinematic body, by index or name, to a pose that it reaches at the end of the next step [m].")
-      .def(
-          "set_surface_velocity",
-          [](const ObjectRef& o, nb::handle body, nb::handle velocity) {
-            const Vec3f v = vector_from(velocity, "velocity");
-            with_body(body, [&](const auto& b) { o.handle().set_surface_velocity(b, v); });
-          },
-          nb::arg("body"), nb::arg("velocity"),
-          nb::sig("def set_surface_velocity(self, body: int | str, velocity: pliant._types.VectorLike) -> None"),
-          "Gives the surface of a body a velocity along itself, as a conveyor belt has, in the body's frame [m/s].")
-      .def("set_motor", &set_motor, nb::arg("joint"), nb::arg("target"), nb::arg("most") = nb::none(),
-           nb::arg("motor") = "",
-           nb::sig("def set_motor(self, joint: str, target: float, most: float | None = None, motor: str = '') -> None"),
-           "Gives the motor of a joint a new target: an angle [rad], displacement [m] or speed [rad/s or m/s], as its kind "
-           "says. `most`: "
-           "greatest torque [N m] or force [N]; None: as before. `motor`: its name if the joint has several.")
-      .def(
-          "set_rest_factor",
-          [](const ObjectRef& o, int group, nb::handle factor) {
-            o.handle().set_rest_factor(group, finite_float(factor, "factor"));
-          },
-          nb::arg("group"), nb::arg("factor"), nb::sig("def set_rest_factor(self, group: int, factor: float) -> None"),
-          "Multiplies rest lengths or volumes of a group of constraints by a factor >= 0, as a muscle's activation does.");
+          "[m]. Raises Error if a pin or attachment with keyframes would stay behind.");
 }
 
 }  // namespace
@@ -304,6 +307,7 @@ void bind_object(nb::module_& m) {
   bind_reading(c);
   bind_joints(c);
   bind_control(c);
+  bind_control_of_bodies(c);
 }
 
 }  // namespace pliant::python

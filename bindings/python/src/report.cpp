@@ -210,17 +210,74 @@ nb::dict as_dict(nb::handle self) {
   return dict;
 }
 
+/// A member of Report as it is.
+constexpr auto whole = [](auto Report::*member) {
+  return [member](const NamedReport& named) { return named.report.*member; };
+};
+
+void bind_happenings(nb::class_<NamedReport>& c) {
+  c.def_prop_ro("sleeping_bodies", whole(&Report::sleeping_bodies), "Rigid bodies that sleep.")
+      .def_prop_ro("sleeping_grains", whole(&Report::sleeping_grains), "Grains that sleep.")
+      .def_prop_ro("torn", &torn_of, nb::sig("def torn(self) -> list[dict[str, typing.Any]]"),
+                   "Objects that tore or were cut: object, new_particles, lost_constraints.")
+      .def_prop_ro("broken_joints", &broken_joints_of, nb::sig("def broken_joints(self) -> list[dict[str, typing.Any]]"),
+                   "Joints that broke in this step: object, joint (index), name.")
+      .def_prop_ro(
+          "nonfinite", [](const NamedReport& r) { return object_of(r.report.nonfinite); },
+          nb::sig("def nonfinite(self) -> dict[str, typing.Any] | None"),
+          "Where the first value that is not finite arose: object, element, frame, substep; else None.")
+      .def_prop_ro("stopped", whole(&Report::stopped), "True if Ctrl-C or World.stop() ended the step within the frame.")
+      .def_prop_ro("warnings", whole(&Report::warnings), "Warnings, one sentence each.")
+      .def_prop_ro(
+          "estimates", &estimates_of, nb::sig("def estimates(self) -> dict[str, dict[str, typing.Any]]"),
+          "How far from converged the solve of stretching, bending, ... is, as docs/internals/convergence.md explains.")
+      .def_prop_ro(
+          "phases", [](const NamedReport& r) { return phases_of(r.report); },
+          nb::sig("def phases(self) -> dict[str, float]"), "Time of each phase [ms].")
+      .def_prop_ro(
+          "ok", [](const NamedReport& r) { return r.report.ok(); }, "False if a value was not finite.")
+      .def(
+          "explain", [](const NamedReport& r) { return r.report.explain(); }, "Problems and warnings as text.")
+      .def(
+          "describe", [](const NamedReport& r) { return describe(r.report); },
+          "Frame, time, cost, contacts, the worst overstretch, and all that explain() says, for people to read.");
+}
+
+void bind_mapping(nb::class_<NamedReport>& c) {
+  c.def("as_dict", &as_dict, nb::sig("def as_dict(self) -> dict[str, typing.Any]"),
+        "All values as a dict that JSON can hold.")
+      .def(
+          "keys",
+          [](const NamedReport& /*self*/) {
+            nb::list list;
+            for (const char* key : keys) list.append(key);
+            return list;
+          },
+          nb::sig("def keys(self) -> list[str]"), "The names of all values.")
+      .def(
+          "__getitem__",
+          [](nb::handle self, const std::string& key) -> nb::object {
+            for (const char* one : keys)
+              if (key == one) return self.attr(one);
+            throw nb::key_error(("a Report has no '" + key + "'").c_str());
+          },
+          nb::arg("key"), nb::sig("def __getitem__(self, key: str, /) -> typing.Any"), "A value by name.")
+      .def(
+          "__iter__", [](nb::handle self) { return nb::iter(self.attr("keys")()); },
+          nb::sig("def __iter__(self) -> collections.abc.Iterator[str]"), "Iterates over the names of all values.")
+      .def(
+          "__len__", [](const NamedReport& /*self*/) { return std::size(keys); }, "The number of values.")
+      .def("__repr__", &repr);
+}
+
 }  // namespace
 
 void bind_report(nb::module_& m) {
-  const auto whole = [](auto Report::*member) {
-    return [member](const NamedReport& named) { return named.report.*member; };
-  };
-  nb::class_<NamedReport>(
+  nb::class_<NamedReport> c(
       m, "Report",
       "What a step did. Values are attributes, and also items as of a dict: report[\"contacts\"]. Names of objects are "
-      "those at the time of the step.")
-      .def_prop_ro("frame", whole(&Report::frame), "Number of complete frames.")
+      "those at the time of the step.");
+  c.def_prop_ro("frame", whole(&Report::frame), "Number of complete frames.")
       .def_prop_ro("time", whole(&Report::time), "Simulated time [s].")
       .def_prop_ro("milliseconds", whole(&Report::milliseconds), "Time that the step took [ms].")
       .def_prop_ro("substeps", whole(&Report::substeps), "Substeps of this frame; the most of any object.")
@@ -263,56 +320,9 @@ void bind_report(nb::module_& m) {
       .def_prop_ro(
           "lost_momentum", [](const NamedReport& r) { return lost_momentum_of(r.report); },
           nb::sig("def lost_momentum(self) -> dict[str, float]"),
-          "Momentum that filter, guards and sleep took from objects [kg m/s].")
-      .def_prop_ro("sleeping_bodies", whole(&Report::sleeping_bodies), "Rigid bodies that sleep.")
-      .def_prop_ro("sleeping_grains", whole(&Report::sleeping_grains), "Grains that sleep.")
-      .def_prop_ro("torn", &torn_of, nb::sig("def torn(self) -> list[dict[str, typing.Any]]"),
-                   "Objects that tore or were cut: object, new_particles, lost_constraints.")
-      .def_prop_ro("broken_joints", &broken_joints_of, nb::sig("def broken_joints(self) -> list[dict[str, typing.Any]]"),
-                   "Joints that broke in this step: object, joint (index), name.")
-      .def_prop_ro(
-          "nonfinite", [](const NamedReport& r) { return object_of(r.report.nonfinite); },
-          nb::sig("def nonfinite(self) -> dict[str, typing.Any] | None"),
-          "Where the first value that is not finite arose: object, element, frame, substep; else None.")
-      .def_prop_ro("stopped", whole(&Report::stopped), "True if Ctrl-C or World.stop() ended the step within the frame.")
-      .def_prop_ro("warnings", whole(&Report::warnings), "Warnings, one sentence each.")
-      .def_prop_ro(
-          "estimates", &estimates_of, nb::sig("def estimates(self) -> dict[str, dict[str, typing.Any]]"),
-          "How far from converged the solve of stretching, bending, ... is, as docs/internals/convergence.md explains.")
-      .def_prop_ro(
-          "phases", [](const NamedReport& r) { return phases_of(r.report); },
-          nb::sig("def phases(self) -> dict[str, float]"), "Time of each phase [ms].")
-      .def_prop_ro(
-          "ok", [](const NamedReport& r) { return r.report.ok(); }, "False if a value was not finite.")
-      .def(
-          "explain", [](const NamedReport& r) { return r.report.explain(); }, "Problems and warnings as text.")
-      .def(
-          "describe", [](const NamedReport& r) { return describe(r.report); },
-          "Frame, time, cost, contacts, the worst overstretch, and all that explain() says, for people to read.")
-      .def("as_dict", &as_dict, nb::sig("def as_dict(self) -> dict[str, typing.Any]"),
-           "All values as a dict that JSON can hold.")
-      .def(
-          "keys",
-          [](const NamedReport& /*self*/) {
-            nb::list list;
-            for (const char* key : keys) list.append(key);
-            return list;
-          },
-          nb::sig("def keys(self) -> list[str]"), "The names of all values.")
-      .def(
-          "__getitem__",
-          [](nb::handle self, const std::string& key) -> nb::object {
-            for (const char* one : keys)
-              if (key == one) return self.attr(one);
-            throw nb::key_error(("a Report has no '" + key + "'").c_str());
-          },
-          nb::arg("key"), nb::sig("def __getitem__(self, key: str, /) -> typing.Any"), "A value by name.")
-      .def(
-          "__iter__", [](nb::handle self) { return nb::iter(self.attr("keys")()); },
-          nb::sig("def __iter__(self) -> collections.abc.Iterator[str]"), "Iterates over the names of all values.")
-      .def(
-          "__len__", [](const NamedReport& /*self*/) { return std::size(keys); }, "The number of values.")
-      .def("__repr__", &repr);
+          "Momentum that filter, guards and sleep took from objects [kg m/s].");
+  bind_happenings(c);
+  bind_mapping(c);
 }
 
 }  // namespace pliant::python
