@@ -11,12 +11,12 @@ namespace pliant {
 struct JointLoadSums {
   std::vector<Vec3d> forces, torques;  ///< by joint [N s], [N m s]
   double time = 0;                     ///< of the substeps so far [s]
-  bool is_complete = true;             ///< the step that was summed has ended, and the next one starts anew
+  bool is_complete = true;             ///< the step that was summed has ended, and the next one starts again
 };
 
 struct Substep;
 
-/// Adds the loads of all joints of the substep's objects, after its solve. Sums of an earlier step are started anew.
+/// Adds the loads of all joints of the substep's objects, after its solve. Sums of an earlier step start again from zero.
 void add_joint_loads(const Substep& s);
 
 }  // namespace pliant

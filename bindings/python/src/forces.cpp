@@ -32,7 +32,7 @@ void copy_in(std::span<const float> from, nb::handle array) {
   std::copy(from.begin(), from.end(), to.floats());
 }
 
-/// The arrays of an object of so many particles; made anew where an edit has changed the number.
+/// The arrays of an object of so many particles; made again where an edit has changed the number.
 nb::object arrays_for(PythonForce& force, const ForceField::Arrays& given) {
   const nb::str name(std::string(given.object).c_str());
   const std::size_t n = given.positions.size();
