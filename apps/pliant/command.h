@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/command_line/overrides.h"
+#include "apps/render/camera.h"
 
 namespace pliant::command {
 
@@ -32,12 +33,14 @@ int run(const RunOptions& options);
 
 struct RenderOptions {
   std::string scene;
-  Overrides overrides;                 ///< `frames` is not used
-  std::optional<int> frame;            ///< frame to draw, or length of a movie; default: the scene's last frame
-  std::string out;                     ///< file, .png or .mp4
-  std::string size = "1280x720";       ///< WxH in pixels
-  float azimuth = 28, elevation = 18;  ///< camera direction [degrees]
-  std::vector<int> strip;              ///< frames drawn side by side in one picture; empty: one frame
+  Overrides overrides;       ///< `frames` is not used
+  std::optional<int> frame;  ///< frame to draw, or length of a movie; default: the scene's last frame
+  std::string out;           ///< file, .png or .mp4
+  std::string size;          ///< WxH in pixels; empty: 1280x720, of a draft half of it
+  pliant::render::CameraOptions camera;
+  std::vector<int> strip;  ///< frames drawn side by side in one picture; empty: one frame
+  std::string resume;      ///< checkpoint of the scene to draw, or from which to go on; empty: none
+  bool draft = false;      ///< smaller, and of a movie some 15 pictures a second
   bool quiet = false;
 };
 

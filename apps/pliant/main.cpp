@@ -79,6 +79,35 @@ void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
   run_app->callback([&] { chosen = [&] { return run(options); }; });
 }
 
+/// Adds the options of a camera.
+void add_camera(CLI::App& app, pliant::render::CameraOptions& camera) {
+  app.add_option("--azimuth", camera.azimuth, "camera angle from the front towards the right, -360 to 360 [degrees]")
+      ->type_name("A")
+      ->check(range(-360.f, 360.f))
+      ->capture_default_str();
+  app.add_option("--elevation", camera.elevation, "camera angle above the horizon, -89 to 89 [degrees]")
+      ->type_name("A")
+      ->check(range(-89.f, 89.f))
+      ->capture_default_str();
+  app.add_option_function<std::vector<float>>(
+         "--look-at",
+         [&](const std::vector<float>& at) {
+           camera.look_at = pliant::Vec3f{at[0], at[1], at[2]};
+         },
+         "point in the middle of the picture [m] (default: the middle of the scene)")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(range(-1e9f, 1e9f));
+  app.add_option("--distance", camera.distance, "of the camera from that point [m] (default: so that the scene fits)")
+      ->type_name("D")
+      ->check(range(1e-6f, 1e9f));
+  app.add_option("--fov", camera.field_of_view, "vertical angle of view, 5 to 120 [degrees]")
+      ->type_name("A")
+      ->check(range(5.f, 120.f))
+      ->capture_default_str();
+}
+
 void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
   CLI::App* render_app = app.add_subcommand("render", "Draw a scene as a picture or movie, without a display");
   render_app->add_option("SCENE", options.scene, "scene file (JSON)")->required();
@@ -86,20 +115,16 @@ void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
   render_app->add_option("--frame", options.frame, "frame to draw, or last frame of a movie (default: the scene's last)")
       ->type_name("N")
       ->check(range(0, most));
-  render_app->add_option("--size", options.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
-  render_app
-      ->add_option("--azimuth", options.azimuth, "camera angle from the front towards the right, -360 to 360 [degrees]")
-      ->type_name("A")
-      ->check(range(-360.f, 360.f))
-      ->capture_default_str();
-  render_app->add_option("--elevation", options.elevation, "camera angle above the horizon, -89 to 89 [degrees]")
-      ->type_name("A")
-      ->check(range(-89.f, 89.f))
-      ->capture_default_str();
+  render_app->add_option("--size", options.size, "width and height in pixels (default: 1280x720, with --draft 640x360)")
+      ->type_name("WxH");
+  render_app->add_flag("--draft", options.draft, "draw quickly: a small picture, and 15 of a movie a second");
+  add_camera(*render_app, options.camera);
   render_app->add_option("--strip", options.strip, "frames to draw side by side in one picture, such as 0,30,60")
       ->type_name("FRAMES")
       ->delimiter(',')
       ->check(range(0, most));
+  render_app->add_option("--resume", options.resume, "draw this checkpoint of the scene, or go on from it to --frame")
+      ->type_name("FILE");
   add_settings(*render_app, options.overrides);
   render_app->add_flag("--quiet", options.quiet, "print nothing unless something goes wrong");
   render_app->callback([&] { chosen = [&] { return render(options); }; });

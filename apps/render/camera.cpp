@@ -23,12 +23,12 @@ struct Side {
   float eye() const { return (largest_plus - largest_minus) / 2; }
   float distance() const { return (largest_plus + largest_minus) / (2 * slope); }
 };
-}  // namespace
 
-Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, float azimuth, float elevation) {
+/// The camera that shows all, in the direction of `frame`.
+Camera fit_camera(const std::vector<RenderScene>& scenes, int width, int height, const ViewFrame& frame,
+                  float field_of_view) {
   Camera camera;
-  const float a = azimuth * degree, e = std::clamp(elevation, -89.f, 89.f) * degree;
-  const ViewFrame frame = view_frame(Vec3f{-std::sin(a) * std::cos(e), -std::sin(e), -std::cos(a) * std::cos(e)});
+  camera.field_of_view = field_of_view;
   const float tangent = std::tan(camera.field_of_view * degree / 2) * used_share;
   Side across{.slope = tangent * static_cast<float>(width) / static_cast<float>(height)}, upright{.slope = tangent};
   Bounds all;
@@ -49,6 +49,19 @@ Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int heigh
   const auto at = [&](float z) { return frame.right * across.eye() + frame.up * upright.eye() + frame.back * z; };
   camera.eye = at(eye_z);
   camera.target = at(std::min(middle, eye_z - 1e-3f * all.radius()));
+  return camera;
+}
+
+}  // namespace
+
+Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, const CameraOptions& options) {
+  const float a = options.azimuth * degree, e = std::clamp(options.elevation, -89.f, 89.f) * degree;
+  const ViewFrame frame = view_frame(Vec3f{-std::sin(a) * std::cos(e), -std::sin(e), -std::cos(a) * std::cos(e)});
+  Camera camera = fit_camera(scenes, width, height, frame, options.field_of_view);
+  if (!options.look_at && !options.distance) return camera;
+  const float distance = options.distance.value_or(length(camera.eye - camera.target));
+  camera.target = options.look_at.value_or(camera.target);
+  camera.eye = camera.target + frame.back * distance;
   return camera;
 }
 

@@ -128,23 +128,30 @@ Geometry build_collider(const RenderCollider& collider, const Vec3f& around, flo
   return geometry;
 }
 
-/// Makes a mesh in which triangles share no vertices. A normal is the mean over adjacent faces of similar direction, so
-/// round shapes look smooth and edges sharp.
-Geometry build_solid(const RenderMesh& mesh) {
+/// The normals of a mesh's triangles times twice their areas.
+std::vector<Vec3f> face_normals(const std::vector<Vec3f>& positions, const std::vector<std::array<int, 3>>& triangles) {
+  std::vector<Vec3f> faces;
+  faces.reserve(triangles.size());
+  for (const auto& [a, b, c] : triangles) faces.push_back(cross(positions[b] - positions[a], positions[c] - positions[a]));
+  return faces;
+}
+
+/// Makes a mesh in which triangles share no vertices. A normal is the mean over adjacent faces that have similar
+/// directions in the mesh's own shape, so round shapes look smooth and edges sharp.
+Geometry build_creased(const RenderMesh& mesh, Material material) {
   constexpr float about = 0.8f;  // cosine of the largest angle between faces that are smoothed
-  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = Material::solid};
-  std::vector<Vec3f> faces;  // normals times twice the area
+  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = material};
+  const std::vector<Vec3f> faces = face_normals(mesh.positions, mesh.triangles);
+  std::vector<Vec3f> directions = mesh.creased.empty() ? faces : face_normals(mesh.creased, mesh.triangles);
+  for (Vec3f& direction : directions) direction = unit(direction);
   std::vector<std::vector<std::size_t>> around(mesh.positions.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    faces.push_back(cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const int corner : mesh.triangles[t]) around[corner].push_back(t);
-  }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const int corner : mesh.triangles[t]) {
       Vec3f normal{};
       for (const std::size_t other : around[corner])
-        if (dot(unit(faces[other]), unit(faces[t])) > about) normal += faces[other];
+        if (dot(directions[other], directions[t]) > about) normal += faces[other];
       geometry.indices.push_back(static_cast<std::uint32_t>(geometry.vertices.size()));
       geometry.vertices.push_back({mesh.positions[corner], unit(normal)});
     }
@@ -158,8 +165,9 @@ void add_bodies(const std::vector<RenderBody>& bodies, std::vector<Geometry>& re
   for (const RenderBody& body : bodies) {
     const auto [found, is_new] = made.try_emplace(body.mesh.get());
     if (is_new)
-      found->second = build_solid(
-          {.positions = body.mesh->positions, .triangles = body.mesh->triangles, .colour = body.colour, .is_solid = true});
+      found->second = build_creased(
+          {.positions = body.mesh->positions, .triangles = body.mesh->triangles, .colour = body.colour, .is_solid = true},
+          Material::solid);
     Geometry geometry = found->second;
     geometry.colour = body.colour;
     place(geometry, body.pose.position, body.pose.rotation);
@@ -178,8 +186,9 @@ std::array<Vec3f, 8> box_corners(const Bounds& box, const RigidPose& pose) {
   return corners;
 }
 
-/// Adds the corners of the boxes around all bodies that are fixed, or all that are not.
-void include_bodies(const RenderScene& scene, bool fixed, float largest, std::vector<Vec3f>& points) {
+/// The corners of the boxes around all bodies that are fixed, or all that are not, unless they are larger than `largest`.
+std::vector<Vec3f> corners_of_bodies(const RenderScene& scene, bool fixed, float largest) {
+  std::vector<Vec3f> points;
   std::map<const TriangleMesh*, Bounds> boxes;
   for (const RenderBody& body : scene.bodies) {
     if (body.is_fixed != fixed || body.mesh->positions.empty()) continue;
@@ -189,12 +198,13 @@ void include_bodies(const RenderScene& scene, bool fixed, float largest, std::ve
     const auto corners = box_corners(found->second, body.pose);
     points.insert(points.end(), corners.begin(), corners.end());
   }
+  return points;
 }
 
-/// Adds the points of a liquid but for the few that lie far from the others: a camera that framed every drop of a splash would show
-/// the rest small.
+/// Adds the points of a liquid, free particles or bodies, but for the few that lie far from the others: a camera that
+/// framed every drop of a splash would show the rest small.
 void include_most(const std::vector<Vec3f>& positions, std::vector<Vec3f>& points) {
-  constexpr float few = 0.01f, around = 0.1f;  // shares of the points on each side, and of their size
+  constexpr float few = 0.025f, around = 0.25f;  // shares of the points on each side, and of their size
   if (positions.empty()) return;
   Vec3f low{}, high{};
   std::vector<float> along(positions.size());
@@ -223,7 +233,8 @@ Geometry build_balls(const RenderBalls& balls, float least_radius) {
 }
 
 Geometry build_mesh(const RenderMesh& mesh) {
-  if (mesh.is_solid) return build_solid(mesh);
+  if (mesh.is_solid) return build_creased(mesh, Material::solid);
+  if (!mesh.creased.empty()) return build_creased(mesh, Material::cloth);
   const Material material = mesh.is_liquid ? Material::liquid : Material::cloth;
   Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = material, .clarity = mesh.clarity};
   const std::vector<Vec3f> normals = output::vertex_normals(mesh.positions, mesh.triangles);
@@ -260,6 +271,12 @@ void check_triangles(const char* kind, std::size_t index, const std::vector<Vec3
     for (const int i : triangle)
       if (i < 0 || i >= count)
         refuse(kind, index, "has a triangle with vertex " + std::to_string(i) + " of " + std::to_string(count));
+}
+
+void check_mesh(const RenderMesh& mesh, std::size_t index) {
+  check_triangles("mesh", index, mesh.positions, mesh.triangles);
+  if (!mesh.creased.empty() && mesh.creased.size() != mesh.positions.size())
+    refuse("mesh", index, "has another number of positions in its creased shape");
 }
 
 void check_body(const RenderBody& body, std::size_t index) {
@@ -310,12 +327,14 @@ std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
       points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
   }
   for (const RenderTube& tube : scene.tubes) points.insert(points.end(), tube.points.begin(), tube.points.end());
-  for (const RenderBalls& balls : scene.balls) points.insert(points.end(), balls.centres.begin(), balls.centres.end());
+  for (const RenderBalls& balls : scene.balls) include_most(balls.centres, points);
   for (const RenderSmoke& smoke : scene.smokes) points.insert(points.end(), smoke.centres.begin(), smoke.centres.end());
   points.insert(points.end(), scene.unseen.begin(), scene.unseen.end());
-  include_bodies(scene, false, std::numeric_limits<float>::infinity(), points);
+  constexpr float any = std::numeric_limits<float>::infinity();
+  include_most(corners_of_bodies(scene, false, any), points);
   const float size = bounds(points).radius();
-  include_bodies(scene, true, size == 0 ? std::numeric_limits<float>::infinity() : 2.5f * size, points);
+  const std::vector<Vec3f> fixed = corners_of_bodies(scene, true, size == 0 ? any : 2.5f * size);
+  points.insert(points.end(), fixed.begin(), fixed.end());
   for (const RenderMesh& mesh : scene.meshes)
     if (mesh.is_solid && (size == 0 || bounds(mesh.positions).radius() < 2.5f * size))
       points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
@@ -372,8 +391,7 @@ Geometry build_ground(const Vec3f& centre, float half_size_, const Vec3f& colour
 }
 
 void check(const RenderScene& scene) {
-  for (std::size_t m = 0; m < scene.meshes.size(); ++m)
-    check_triangles("mesh", m, scene.meshes[m].positions, scene.meshes[m].triangles);
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) check_mesh(scene.meshes[m], m);
   for (std::size_t t = 0; t < scene.tubes.size(); ++t) {
     const RenderTube& tube = scene.tubes[t];
     const bool fine = std::all_of(tube.points.begin(), tube.points.end(), finite) && std::isfinite(tube.radius);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "camera.h"
 #include "pliant/scene.h"
 #include "pliant/vec3.h"
 #include "pliant/world.h"
@@ -27,6 +28,7 @@ struct RenderMesh {
   bool is_liquid = false;             ///< true: the closed surface of a liquid, drawn clear, deeper in colour where thick
   float clarity = 0;                  ///< of a liquid, as Fluid::clarity [m]
   std::vector<float> wetness{};       ///< of each vertex, 0 dry to 1 full of liquid, which darkens it; empty: dry
+  std::vector<Vec3f> creased{};       ///< positions in which sharp edges are those of the shape; empty: none is sharp
 };
 
 /// A line drawn as a round tube, for ropes; a single point becomes a ball.
@@ -68,13 +70,6 @@ struct RenderCollider {
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 
-/// The camera of a picture.
-struct Camera {
-  Vec3f eye{0, 1, 3};
-  Vec3f target{};
-  float field_of_view = 30;  ///< vertical angle of view [degrees], 5..120
-};
-
 /// The size of what pictures show. It determines the size and grid of the ground, the depth range and the width of
 /// shadows, so it must be the same in all frames of a movie.
 struct Extent {
@@ -100,21 +95,23 @@ struct RenderScene {
 /// bodies as their solids, tracers as smoke. Gases are not seen.
 RenderScene make_render_scene(const Scene& scene, const World& world);
 
-/// A camera at the front, to the right and above, that shows all of every scene in `scenes` in a picture of this shape.
-/// For a movie, give scenes between which the motion takes place (at least the first one), and keep the camera.
-/// `azimuth` turns it about the vertical from the front to the right, `elevation` raises it [degrees].
-Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, float azimuth = 28,
-                    float elevation = 18);
+/// A camera that shows every scene in `scenes` in a picture of this shape. Of liquids, free particles and bodies the few
+/// that lie far from the others (5 % at most) may be outside. For a movie, give scenes between which the motion takes
+/// place (at least the first one), and keep the camera.
+Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, const CameraOptions& options = {});
 
 /// The extent of all scenes together. For a movie, give the same scenes as to frame_camera, and keep the extent.
 Extent extent_of(const std::vector<RenderScene>& scenes);
+
+/// How carefully pictures are drawn. A draft has coarser shadows and edges, in less than half of the time.
+enum class Quality { full, draft };
 
 /// Draws pictures of one size. Use it from one thread at a time.
 class Renderer {
  public:
   /// Makes the OpenGL context. Throws an Error for sizes outside 16..8192, and one that names the Debian package to
   /// install if EGL or OpenGL 3.3 is not available.
-  Renderer(int width, int height);
+  Renderer(int width, int height, Quality quality = Quality::full);
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;

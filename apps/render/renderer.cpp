@@ -22,7 +22,7 @@ namespace pliant::render {
 
 namespace {
 
-constexpr int shadow_map_size = 2048;
+int shadow_map_size_of(Quality quality) { return quality == Quality::draft ? 1024 : 2048; }
 
 Matrix to_texture(const Matrix& clip) {
   const Matrix halve{{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
@@ -40,10 +40,10 @@ std::vector<std::pair<float, float>> spiral(int count) {
   return places;
 }
 
-int best_samples() {
+int best_samples(Quality quality) {
   GLint most = 4;
   glGetIntegerv(GL_MAX_SAMPLES, &most);
-  return std::clamp(most, 1, 8);
+  return std::clamp(most, 1, quality == Quality::draft ? 2 : 8);
 }
 
 /// The spacing of the ground's grid: a power of ten that shows a few lines.
@@ -66,7 +66,7 @@ struct Renderer::Implementation {
     Program surface{surface_vertex, std::string(light_functions) + surface_fragment};
   };
 
-  Implementation(int w, int h);
+  Implementation(int w, int h, Quality quality);
   std::vector<std::uint8_t> draw(const RenderScene& scene);
 
   void draw_ranges(bool ground) const;
@@ -80,7 +80,7 @@ struct Renderer::Implementation {
   std::vector<float> read_depths() const;
   OpaquePicture opaque() const;
 
-  int width, height, half_width, half_height;
+  int width, height, half_width, half_height, shadow_map_size;
   Context context;
   Programs programs;
   SceneBuffers buffers;
@@ -91,8 +91,14 @@ struct Renderer::Implementation {
   LiquidPasses liquids;
 };
 
-Renderer::Implementation::Implementation(int w, int h)
-    : width(w), height(h), half_width((w + 1) / 2), half_height((h + 1) / 2), sampled(w, h, best_samples()), liquids(w, h) {
+Renderer::Implementation::Implementation(int w, int h, Quality quality)
+    : width(w),
+      height(h),
+      half_width((w + 1) / 2),
+      half_height((h + 1) / 2),
+      shadow_map_size(shadow_map_size_of(quality)),
+      sampled(w, h, best_samples(quality)),
+      liquids(w, h) {
   GLuint name = 0;
   glGenVertexArrays(1, &name);
   nothing = VertexArray(name);
@@ -207,11 +213,11 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("spacing", grid_spacing(size));
   program.set("picture", static_cast<float>(width), static_cast<float>(height));
   program.set("widest", 18.f);
-  program.set("softness", sun.softness * shadow_map_size);
+  program.set("softness", sun.softness * static_cast<float>(shadow_map_size));
   program.set("spiral", spiral(16));
   // If the centre of a pixel is outside the triangle that is visible in it, its position is up to a pixel away from the
   // surface.
-  program.set("bias", std::max(5 * size / shadow_map_size, 2 * pixel));
+  program.set("bias", std::max(5 * size / static_cast<float>(shadow_map_size), 2 * pixel));
   for (const Range& range : buffers.ranges()) {
     if (range.material == Material::liquid) continue;
     program.set("albedo", range.colour);
@@ -305,12 +311,12 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
   return result;
 }
 
-Renderer::Renderer(int width, int height) {
+Renderer::Renderer(int width, int height, Quality quality) {
   constexpr int smallest = 16, largest = 8192;
   if (width < smallest || height < smallest || width > largest || height > largest)
     throw Error({}, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels cannot be drawn",
                 "choose 16 to 8192 pixels for width and height");
-  self_ = std::make_unique<Implementation>(width, height);
+  self_ = std::make_unique<Implementation>(width, height, quality);
 }
 
 Renderer::~Renderer() {

@@ -10,6 +10,7 @@
 #include "io/write_frames.h"
 #include "matrix.h"
 #include "pliant/edit.h"
+#include "pliant/soft_body.h"
 #include "pliant/surface.h"
 #include "render.h"
 
@@ -213,6 +214,7 @@ void add_object(RenderScene& result, const Object& described, const ObjectView& 
   if (!shape.triangles.empty()) {
     if (object.skin) positions = skinned(*object.skin, positions);
     result.meshes.push_back({std::move(positions), shape.triangles, shape.colour, false});
+    if (!object.skin && !tetrahedra_of(object).empty()) result.meshes.back().creased = object.positions;
     if (object.absorbency && !object.skin) result.meshes.back().wetness = wetness_of(object, view);
     return;
   }

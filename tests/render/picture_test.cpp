@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <memory>
 
 #include "pliant/body.h"
@@ -358,6 +359,47 @@ TEST_F(Picture, OfAWavySheetInTheSunHasNoSpecks) {
   EXPECT_LE(specks, 2);
 }
 
+/// A cube of half size 0.5 with one vertex for each corner, turned so that a straight camera sees three faces.
+RenderMesh turned_cube() {
+  const Quatf turn{0.3f, 0.4f, 0, 0.8660254f};
+  RenderMesh cube;
+  for (const float x : {-0.5f, 0.5f})
+    for (const float y : {-0.5f, 0.5f})
+      for (const float z : {-0.5f, 0.5f}) cube.positions.push_back(rotate(turn, Vec3f{x, y, z}));
+  cube.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                    {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+  return cube;
+}
+
+TEST_F(Picture, OfACubeWithCreasesHasFacesOfOneShade) {
+  RenderScene scene;
+  scene.ground.reset();
+  scene.camera = straight();
+  scene.meshes.push_back(turned_cube());
+  const auto most_of_one_shade = [&] {
+    const std::vector<std::uint8_t> picture = renderer->draw(scene);
+    std::map<int, int> counts;
+    for (int y = height / 2 - 25; y < height / 2 + 25; ++y)
+      for (int x = width / 2 - 25; x < width / 2 + 25; ++x) ++counts[at(picture, x, y).brightness() / 16];
+    int most = 0;
+    for (const auto& [shade, count] : counts) most = std::max(most, count);
+    return most;
+  };
+  const int smooth = most_of_one_shade();
+  scene.meshes[0].creased = scene.meshes[0].positions;
+  const int creased = most_of_one_shade();
+  EXPECT_GT(creased, 2 * smooth) << "of 2 500 pixels";
+  scene.meshes[0].creased.pop_back();
+  EXPECT_THROW(renderer->draw(scene), Error) << "too few";
+}
+
+TEST_F(Picture, OfADraftIsNearlyTheSame) {
+  RenderScene scene = with_sphere(0.5f);
+  scene.camera = straight();
+  Renderer draft(width, height, Quality::draft);
+  EXPECT_LT(different(renderer->draw(scene), draft.draw(scene)), 600) << "of 76 800 pixels, at the edge and in shadow";
+}
+
 TEST_F(Picture, OfAnEmptySceneIsSkyAndGround) {
   const auto picture = renderer->draw({});
   ASSERT_EQ(picture.size(), std::size_t{3} * width * height);
@@ -397,7 +439,7 @@ TEST(FrameCamera, HasEveryPointInThePicture) {
     for (const float elevation : {-80.f, 0.f, 18.f, 89.f}) {
       RenderScene scene = with_sphere(0.5f);
       scene.meshes.push_back(square(0.3f, {2, 1, -3}, {}));
-      const Camera camera = frame_camera({scene}, 300, 200, azimuth, elevation);
+      const Camera camera = frame_camera({scene}, 300, 200, {.azimuth = azimuth, .elevation = elevation});
       const Vec3f forward = camera.target - camera.eye;
       const float distance = std::sqrt(length_squared(forward));
       const Vec3f ahead = forward * (1 / distance);

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "pliant/body.h"
+#include "pliant/soft_body.h"
 #include "pliant/surface.h"
 #include "render/render.h"
 
@@ -128,6 +129,18 @@ TEST(SceneView, ShowsALiquidAsItsSurface) {
   const TriangleMesh expected = liquid_surface(object.positions, {.spacing = 0.1f});
   EXPECT_EQ(picture.meshes[0].positions, expected.positions);
   EXPECT_EQ(picture.meshes[0].triangles, expected.triangles);
+}
+
+TEST(SceneView, GivesSolidsTheEdgesOfTheirShapeAndClothNone) {
+  Scene scene;
+  scene.add(make_soft_body({{{0, 1, 0}, {1, 1, 0}, {0, 2, 0}, {0, 1, 1}}, {{0, 1, 2, 3}}}));
+  scene.add_cloth(grid_mesh(4, 3, 1, 1));
+  World world(scene);
+  world.step(1.f / 60);
+  const RenderScene picture = make_render_scene(scene, world);
+  ASSERT_EQ(picture.meshes.size(), 2u);
+  EXPECT_EQ(picture.meshes[0].creased, scene.objects[0].positions);
+  EXPECT_TRUE(picture.meshes[1].creased.empty());
 }
 
 TEST(SceneView, PutsTheGroundUnderEverything) {
