@@ -164,6 +164,29 @@ def no_attribute(kind: type, name: str) -> str:
     return f"'{name}' of {article} {owner} " + ("is a function" if is_function else "can only be read") + f"; {instead}"
 
 
+_MAKES = {
+    "Object": 'world["NAME"]',
+    "Collider": 'world.collider("NAME")',
+    "MeshCollider": 'world.mesh_collider("NAME")',
+    "BatchObject": 'batch["NAME"]',
+    "State": "World.state()",
+    "Report": "World.step()",
+    "Writer": "World.writer()",
+    "Edit": "World.edit()",
+    "Gauges": "World.gauges()",
+    "_Frames": "World.frames()",
+    "Description": "Scene.compiled()",
+}
+
+
+def no_construction(kind: type) -> str:
+    """Why a class cannot be called, and what makes its objects."""
+    names = [base.__name__ for base in kind.__mro__ if base.__name__ in _MAKES]
+    name = names[0] if names else kind.__name__
+    article = "an" if name[0] in "AEIO" else "a"
+    return f"{article} {name} cannot be made by a call; {_MAKES.get(name, 'the package')} returns one"
+
+
 def no_scene_attribute(name: str, is_member: bool) -> str:
     """The same of a Scene."""
     if is_member:

@@ -125,7 +125,8 @@ void restore(const Batch& self, nb::handle given) {
 
 void bind_batch(nb::module_& m) {
   bind_batch_object(m);
-  nb::class_<Batch>(m, "Batch", nb::type_slots(plain_slots()),
+  static PyType_Slot slots[] = {{Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)}, {0, nullptr}};
+  nb::class_<Batch>(m, "Batch", nb::type_slots(slots),
                     "Many worlds of a scene that step side by side, each on one thread, with the bits that it has "
                     "alone.\n\nBatch(scene, n) "
                     "makes n equal worlds. `vary`: values of members that differ, {JSON pointer: n values}, or a function "

@@ -168,24 +168,33 @@ SharedWorld make_world(const std::shared_ptr<const SceneFile>& file, std::option
 /// tp_setattro of all classes: no attribute can be set, and the message says what to do instead.
 int refuse_attribute(PyObject* self, PyObject* name, PyObject* value);
 
-/// The type slots of a class that refers to no World.
+/// tp_init of classes that functions alone make: says which one.
+int refuse_construction(PyObject* self, PyObject* args, PyObject* keywords);
+
+/// The type slots of a class that refers to no World, and which functions alone make.
 inline PyType_Slot* plain_slots() {
-  static PyType_Slot slots[] = {{Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)}, {0, nullptr}};
+  static PyType_Slot slots[] = {{Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)},
+                                {Py_tp_init, reinterpret_cast<void*>(refuse_construction)},
+                                {0, nullptr}};
   return slots;
 }
 
-/// The type slots of a class whose member `world` is a SharedWorld. The cycles that need an end all contain the World's own
+/// tp_traverse of a class whose member `world` is a SharedWorld. The cycles that need an end all contain the World's own
 /// object, which ends them: this needs no tp_clear.
 template <class Ref>
+int traverse_world(PyObject* self, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(self));
+  if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<Ref>(self)->world.core().ptr());
+  return 0;
+}
+
+/// The type slots of such a class, which functions alone make.
+template <class Ref>
 PyType_Slot* collected_slots() {
-  static PyType_Slot slots[] = {
-      {Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)},
-      {Py_tp_traverse, reinterpret_cast<void*>(+[](PyObject* self, visitproc visit, void* arg) -> int {
-         Py_VISIT(Py_TYPE(self));
-         if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<Ref>(self)->world.core().ptr());
-         return 0;
-       })},
-      {0, nullptr}};
+  static PyType_Slot slots[] = {{Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)},
+                                {Py_tp_init, reinterpret_cast<void*>(refuse_construction)},
+                                {Py_tp_traverse, reinterpret_cast<void*>(traverse_world<Ref>)},
+                                {0, nullptr}};
   return slots;
 }
 

@@ -100,6 +100,16 @@ int refuse_attribute(PyObject* self, PyObject* name, PyObject* value) {
   return -1;
 }
 
+int refuse_construction(PyObject* self, PyObject* /*args*/, PyObject* /*keywords*/) {
+  try {
+    const nb::object text = python_part("pliant._calls", "no_construction")(nb::handle(self).type());
+    PyErr_SetObject(PyExc_TypeError, text.ptr());
+  } catch (nb::python_error& other) {
+    other.restore();
+  }
+  return -1;
+}
+
 nb::builtin_exception wrong_type(const std::string& what, nb::handle given, const char* expected) {
   const nb::object text = python_part("pliant._calls", "wrong_type")(what, given, expected);
   return nb::type_error(nb::cast<std::string>(text).c_str());

@@ -201,8 +201,11 @@ Description described(const char* list, const nb::dict& members, const nb::list&
 }
 
 void bind_world(nb::module_& m) {
+  static PyType_Slot slots[] = {{Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)},
+                                {Py_tp_traverse, reinterpret_cast<void*>(traverse_world<WorldRef>)},
+                                {0, nullptr}};
   nb::class_<WorldRef> c(
-      m, "World", nb::type_slots(collected_slots<WorldRef>()),
+      m, "World", nb::type_slots(slots),
       "A simulation to step, read and control: a scene that was compiled, and its State.\n\nWorld(scene) takes a Scene, a "
       "dict "
       "of the scene format, or the path of a scene file, and raises Error if it cannot be simulated. `threads`: 0 for all "

@@ -94,6 +94,27 @@ def test_attributes(world: pliant.World, what: str) -> None:
     assert name in str(caught.value) and instead in str(caught.value)
 
 
+MADE_BY = {
+    pliant.Object: 'world["NAME"]',
+    pliant.Collider: 'world.collider("NAME")',
+    pliant.MeshCollider: 'world.mesh_collider("NAME")',
+    pliant.BatchObject: 'batch["NAME"]',
+    pliant.State: "World.state()",
+    pliant.Report: "World.step()",
+    pliant.Writer: "World.writer()",
+    pliant.Edit: "World.edit()",
+    pliant.Gauges: "World.gauges()",
+}
+
+
+@pytest.mark.parametrize("kind", MADE_BY)
+def test_classes_that_cannot_be_called(kind: type) -> None:
+    for given in ((), (1,), ("a", "b")):
+        with pytest.raises(TypeError) as caught:
+            kind(*given)
+        assert f"{kind.__name__} cannot be made by a call; {MADE_BY[kind]} returns one" in str(caught.value)
+
+
 def test_attributes_of_ones_own_classes() -> None:
     class Mine(pliant.World):
         pass
