@@ -128,11 +128,9 @@ void bind_batch(nb::module_& m) {
   static PyType_Slot slots[] = {{Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)}, {0, nullptr}};
   nb::class_<Batch>(m, "Batch", nb::type_slots(slots),
                     "Many worlds of a scene that step side by side, each on one thread, with the bits that it has "
-                    "alone.\n\nBatch(scene, n) "
-                    "makes n equal worlds. `vary`: values of members that differ, {JSON pointer: n values}, or a function "
-                    "(scene, i) that "
-                    "changes a copy of the scene for world i. `threads`: how many worlds step at once; 0: as many as the "
-                    "machine has threads.")
+                    "alone.\n\nBatch(scene, n) makes n equal worlds. `vary`: values of members that differ, {JSON "
+                    "pointer: n values}, or a function (scene, i) that changes a copy of the scene for world i. "
+                    "`threads`: how many worlds step at once; 0: as many as the machine has threads.")
       .def(
           "__init__",
           [](Batch* self, nb::handle scene, int n, nb::handle vary, int threads) {
@@ -140,19 +138,16 @@ void bind_batch(nb::module_& m) {
           },
           nb::arg("scene"), nb::arg("n"), nb::arg("vary") = nb::none(), nb::arg("threads") = 0,
           nb::sig("def __init__(self, scene: pliant._scene.SceneLike, n: int, vary: pliant._scene.Vary | None = None, "
-                  "threads: int = "
-                  "0) -> None"),
+                  "threads: int = 0) -> None"),
           "Makes the worlds, side by side.")
       .def("step", &step_batch, nb::arg("dt") = nb::none(),
            nb::sig("def step(self, dt: float | None = None) -> list[Report]"),
-           "Advances all worlds by one frame of `dt` seconds; None: the scene's. Returns the Report of each. After Ctrl-C "
-           "the "
-           "worlds may be at different frames: restore states() that you kept.")
+           "Advances all worlds by one frame of `dt` seconds; None: the scene's. Returns the Report of each. After "
+           "Ctrl-C the worlds may be at different frames: restore states() that you kept.")
       .def("run", &run_frames, nb::arg("frames") = nb::none(),
            nb::sig("def run(self, frames: int | None = None) -> list[Report]"),
-           "Runs frames in all worlds, the scene's own number if None, and returns the last Report of each. A world ends "
-           "early where "
-           "its Report is not ok.")
+           "Runs frames in all worlds, the scene's own number if None, and returns the last Report of each. A world "
+           "ends early where its Report is not ok.")
       .def("states", &states, "The State of each world.")
       .def("restore", &restore, nb::arg("state"), nb::sig("def restore(self, state: State | list[State]) -> None"),
            "Restores one State in all worlds, or a list of one for each. If one does not fit, raises Error and changes "

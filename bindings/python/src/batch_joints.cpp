@@ -215,26 +215,21 @@ void set_pose(const BatchObject& self, nb::handle body, nb::handle positions, nb
 
 void bind_batch_joints(nb::class_<BatchObject>& c) {
   c.def("poses", &poses, nb::arg("body") = 0,
-        nb::sig(
-            "def poses(self, body: int | str | collections.abc.Sequence[int | str] = 0) -> tuple[pliant._types.FloatArray, "
-            "pliant._types.FloatArray]"),
-        "Poses of a rigid body: positions [m], shape (worlds, 3), and rotations (x, y, z, w), shape (worlds, 4). Of a list "
-        "of k "
-        "bodies: (worlds, k, 3) and (worlds, k, 4).")
+        nb::sig("def poses(self, body: int | str | collections.abc.Sequence[int | str] = 0) -> "
+                "tuple[pliant._types.FloatArray, pliant._types.FloatArray]"),
+        "Poses of a rigid body: positions [m], shape (worlds, 3), and rotations (x, y, z, w), shape (worlds, 4). Of a "
+        "list of k bodies: (worlds, k, 3) and (worlds, k, 4).")
       .def("set_pose", &set_pose, nb::arg("body"), nb::arg("positions"), nb::arg("rotations") = nb::make_tuple(0, 0, 0, 1),
            nb::sig("def set_pose(self, body: int | str, positions: pliant._types.VectorLike | pliant._types.VectorsLike, "
                    "rotations: pliant._types.VectorLike | pliant._types.VectorsLike = (0, 0, 0, 1)) -> None"),
-           "As Object.set_pose(): positions of shape (worlds, 3) [m] and rotations of shape (worlds, 4), or one for all "
-           "worlds.")
+           "As Object.set_pose(): positions of shape (worlds, 3) [m] and rotations of shape (worlds, 4), or one for "
+           "all worlds.")
       .def("set_motor", &set_motor, nb::arg("joint"), nb::arg("targets"), nb::arg("most") = nb::none(),
            nb::arg("motor") = "",
            nb::sig("def set_motor(self, joint: str | collections.abc.Sequence[str], targets: typing.Any, most: typing.Any "
-                   "= None, motor: str = "
-                   "'') -> "
-                   "None"),
-           "As Object.set_motor(), with a target for each world, shape (worlds,), or one for all. Of a list of k joints: "
-           "shape "
-           "(worlds, k), or one for all. `most` likewise.")
+                   "= None, motor: str = '') -> None"),
+           "As Object.set_motor(), with a target for each world, shape (worlds,), or one for all. Of a list of k "
+           "joints: shape (worlds, k), or one for all. `most` likewise.")
       .def("joint_states", &joint_states, nb::arg("joint"),
            nb::sig("def joint_states(self, joint: int | str | collections.abc.Sequence[int | str]) -> "
                    "pliant._types.JointStates"),

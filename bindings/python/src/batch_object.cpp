@@ -137,8 +137,8 @@ auto writer_of_some(WriteSome write, const char* which) {
 void bind_batch_object(nb::module_& m) {
   nb::class_<BatchObject> c(m, "BatchObject", nb::type_slots(plain_slots()),
                             "The objects of one name in all worlds of a Batch: batch[\"name\"]. Arrays have the shape "
-                            "(worlds, n, 3). What is not "
-                            "finite or of a wrong shape raises Error, and changes no world.");
+                            "(worlds, n, 3). What is not finite or of a wrong shape raises Error, and changes no "
+                            "world.");
   c.def_ro("name", &BatchObject::name, "Their name.")
       .def_ro("particles", &BatchObject::particles, "Number of particles of each.")
       .def("__len__", &BatchObject::size, "Number of worlds.")
@@ -169,13 +169,11 @@ void bind_batch_object(nb::module_& m) {
            nb::arg("positions"),
            nb::sig("def set_targets(self, particles: pliant._types.IntsLike, positions: pliant._types.AnyArray) -> None"),
            "As Object.set_targets(): the same particles in all worlds, positions of shape (worlds, n, 3) [m].")
-      .def(
-          "set_attachment_targets", writer_of_some(&ObjectHandle::set_attachment_targets, "attachments"),
-          nb::arg("attachments"), nb::arg("positions"),
-          nb::sig(
-              "def set_attachment_targets(self, attachments: pliant._types.IntsLike, positions: pliant._types.AnyArray) -> "
-              "None"),
-          "As Object.set_attachment_targets(), positions of shape (worlds, n, 3) [m].")
+      .def("set_attachment_targets", writer_of_some(&ObjectHandle::set_attachment_targets, "attachments"),
+           nb::arg("attachments"), nb::arg("positions"),
+           nb::sig("def set_attachment_targets(self, attachments: pliant._types.IntsLike, positions: "
+                   "pliant._types.AnyArray) -> None"),
+           "As Object.set_attachment_targets(), positions of shape (worlds, n, 3) [m].")
       .def("__repr__", [](const BatchObject& self) {
         return "<pliant.BatchObject '" + self.name + "': " + std::to_string(self.size()) + " worlds, " +
                std::to_string(self.particles) + " particles>";

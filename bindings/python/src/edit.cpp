@@ -225,21 +225,19 @@ void bind_facts(nb::class_<EditRef>& c) {
 
 void bind_holds(nb::class_<EditRef>& c) {
   c.def("pin", &pin, nb::arg("particles"), nb::sig("def pin(self, particles: pliant._types.IntsLike) -> None"),
-        "Pins particles where they are: they become kinematic, and Object.set_targets() moves them. Those that are pinned "
-        "stay so.")
+        "Pins particles where they are: they become kinematic, and Object.set_targets() moves them. Those that are "
+        "pinned stay so.")
       .def(
           "unpin", [](EditRef& e, nb::handle which) { let_go(e.object().pins, e.edit.object, which, "pin"); },
           nb::arg("particles") = nb::none(),
           nb::sig("def unpin(self, particles: pliant._types.IntsLike | None = None) -> None"),
           "Lets pinned particles go; None: all. Raises Error if one is not pinned.")
-      .def(
-          "attach", &attach, nb::arg("particles"), nb::arg("targets"), nb::arg("compliance") = 0, nb::arg("damping") = 0,
-          nb::sig(
-              "def attach(self, particles: pliant._types.IntsLike, targets: pliant._types.VectorsLike, compliance: float = "
-              "0, damping: float = 0) -> None"),
-          "Attaches particles to targets [m], shape (n, 3), by springs of a compliance [m/N]; 0: rigidly. `damping` [N "
-          "s/m] is of "
-          "a spring. The new attachments follow those that there are; Object.set_attachment_targets() moves the targets.")
+      .def("attach", &attach, nb::arg("particles"), nb::arg("targets"), nb::arg("compliance") = 0, nb::arg("damping") = 0,
+           nb::sig("def attach(self, particles: pliant._types.IntsLike, targets: pliant._types.VectorsLike, compliance: "
+                   "float = 0, damping: float = 0) -> None"),
+           "Attaches particles to targets [m], shape (n, 3), by springs of a compliance [m/N]; 0: rigidly. `damping` [N "
+           "s/m] is of a spring. The new attachments follow those that there are; Object.set_attachment_targets() moves "
+           "the targets.")
       .def(
           "detach",
           [](EditRef& e, nb::handle which) { let_go(e.object().attachments, e.edit.object, which, "attachment"); },
@@ -250,9 +248,8 @@ void bind_holds(nb::class_<EditRef>& c) {
 
 void bind_cuts(nb::class_<EditRef>& c) {
   c.def("cut", changed_by(&cut, "path"), nb::arg("path"), nb::sig("def cut(self, path: pliant._types.IntsLike) -> None"),
-        "Cuts a surface along a path of particles, each joined to the next by an edge. Particles inside the path and at "
-        "ends on "
-        "the border are split; the copies follow all others. Mass and momentum are conserved.")
+        "Cuts a surface along a path of particles, each joined to the next by an edge. Particles inside the path and "
+        "at ends on the border are split; the copies follow all others. Mass and momentum are conserved.")
       .def("remove_triangles", changed_by(&remove_triangles, "triangles"), nb::arg("triangles"),
            nb::sig("def remove_triangles(self, triangles: pliant._types.IntsLike) -> None"),
            "Removes triangles of a surface, by index, and the constraints that only they had.")
@@ -271,24 +268,22 @@ void bind_matter(nb::class_<EditRef>& c) {
   c.def("scale_stiffness", &scale_stiffness, nb::arg("type"), nb::arg("factor"),
         nb::sig("def scale_stiffness(self, type: str, factor: float) -> None"),
         "Multiplies the stiffness of all constraints of a type, as \"distance\" (Object.constraints lists them), by a "
-        "factor > 0. "
-        "What is rigid stays rigid.")
+        "factor > 0. What is rigid stays rigid.")
       .def("set_compliance", &set_compliance, nb::arg("type"), nb::arg("compliance"), nb::arg("damping") = nb::none(),
            nb::sig("def set_compliance(self, type: str, compliance: float, damping: float | None = None) -> None"),
-           "Gives all constraints of a type one compliance >= 0, in the unit that docs/reference/constraints.md has for "
-           "the type; "
-           "0: rigid. `damping`: None: as before.")
+           "Gives all constraints of a type one compliance >= 0, in the unit that docs/reference/constraints.md has "
+           "for the type; 0: rigid. `damping`: None: as before.")
       .def("set_masses", &set_masses, nb::arg("masses"),
            nb::sig("def set_masses(self, masses: pliant._types.VectorLike) -> None"),
            "Sets the mass of each particle, > 0 [kg]; velocities stay.")
       .def("describe", &describe, nb::arg("members"), nb::sig("def describe(self, **members: typing.Any) -> None"),
-           "Replaces the description by one as of Scene.add(), with another material, thickness or pins, for example. It "
-           "must have "
-           "as many particles in the same order: each keeps position and velocity. What earlier calls changed is replaced.")
+           "Replaces the description by one as of Scene.add(), with another material, thickness or pins, for example. "
+           "It must have as many particles in the same order: each keeps position and velocity. What earlier calls "
+           "changed is replaced.")
       .def("apply", &apply, nb::sig("def apply(self) -> pliant._types.IntArray"),
            "Makes the changes in the World, once. Returns for each old particle its first new index, or -1 where it is "
-           "gone. If the "
-           "description cannot be simulated, raises Error and changes nothing. The end of a `with` block calls it.");
+           "gone. If the description cannot be simulated, raises Error and changes nothing. The end of a `with` block "
+           "calls it.");
 }
 
 }  // namespace
@@ -296,9 +291,8 @@ void bind_matter(nb::class_<EditRef>& c) {
 void bind_edit(nb::module_& m) {
   nb::class_<EditRef> c(m, "Edit", nb::type_slots(collected_slots<EditRef>()),
                         "Changes of an object of a World, made together by apply() or at the end of a `with` block: "
-                        "World.edit() returns one. "
-                        "Particles keep position and velocity exactly, and the object its name and id. Indices are those "
-                        "after earlier calls.");
+                        "World.edit() returns one. Particles keep position and velocity exactly, and the object its "
+                        "name and id. Indices are those after earlier calls.");
   bind_facts(c);
   bind_holds(c);
   bind_cuts(c);
@@ -323,8 +317,7 @@ void bind_edit(nb::module_& m) {
 void bind_editing(nb::class_<WorldRef>& c) {
   c.def("edit", &edit_of, nb::arg("object"), nb::sig("def edit(self, object: Object | str) -> Edit"),
         "An Edit of an object, which changes nothing yet: pins, attachments, cuts, stiffness, masses or the whole "
-        "description. "
-        "Raises KeyError if there is no object of that name.");
+        "description. Raises KeyError if there is no object of that name.");
 }
 
 }  // namespace pliant::python

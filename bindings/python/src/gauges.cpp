@@ -39,12 +39,11 @@ nb::dict units(const GaugesRef& self) {
 void bind_gauges(nb::module_& m) {
   nb::class_<GaugesRef>(
       m, "Gauges", nb::type_slots(collected_slots<GaugesRef>()),
-      "Reads the gauges of a World's scene (\"gauges\" of the scene format): World.gauges() returns it. Flow and "
-      "force are means since the last read().")
+      "Reads the gauges of a World's scene (\"gauges\" of the scene format): World.gauges() returns it. Flow and force "
+      "are means since the last read().")
       .def("read", &read, nb::sig("def read(self) -> dict[str, float]"),
-           "The value of each gauge by name. Call it once for the initial state and once after each step. A value is nan "
-           "where there "
-           "is none: flow and force in the first call.")
+           "The value of each gauge by name. Call it once for the initial state and once after each step. A value is "
+           "nan where there is none: flow and force in the first call.")
       .def_prop_ro("units", &units, nb::sig("def units(self) -> dict[str, str]"),
                    "The unit of each gauge by name: \"m\", \"m^3/s\" or \"N\".")
       .def("__repr__",
@@ -54,8 +53,8 @@ void bind_gauges(nb::module_& m) {
 void bind_gauge_reading(nb::class_<WorldRef>& c) {
   c.def("gauges", &gauges_of, nb::sig("def gauges(self) -> Gauges"),
         "A reader of the scene's gauges. Starts the recording of contact events where a gauge measures a force. Raises "
-        "Error if "
-        "the scene has no gauges, or what one measures was removed. Gauges are not in a saved or pickled World.");
+        "Error if the scene has no gauges, or what one measures was removed. Gauges are not in a saved or pickled "
+        "World.");
 }
 
 }  // namespace pliant::python

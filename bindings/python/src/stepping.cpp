@@ -122,10 +122,9 @@ void bind_stepping(nb::module_& m, nb::class_<WorldRef>& c) {
       .def("__next__", &next_frame);
   c.def("step", &step_once, nb::arg("dt") = nb::none(), nb::sig("def step(self, dt: float | None = None) -> Report"),
         "Advances by one frame of `dt` seconds; None: the scene's frame_time. Does not raise for values that are not "
-        "finite: see Report.ok. Raises Error if dt is too short for its substeps, and what a force function raises: then "
-        "the "
-        "World is back at the State before this step, as by restore(). Keep dt constant. Other Python threads run "
-        "meanwhile. Ctrl-C ends a long step within a substep; the frame then does not count.")
+        "finite: see Report.ok. Raises Error if dt is too short for its substeps, and what a force function raises: "
+        "then the World is back at the State before this step, as by restore(). Keep dt constant. Other Python threads "
+        "run meanwhile. Ctrl-C ends a long step within a substep; the frame then does not count.")
       .def(
           "run",
           [](const WorldRef& self, std::optional<int> frames) {
@@ -140,12 +139,12 @@ void bind_stepping(nb::module_& m, nb::class_<WorldRef>& c) {
           },
           nb::arg("count") = nb::none(),
           nb::sig("def frames(self, count: int | None = None) -> collections.abc.Iterator[Report]"),
-          "Iterates over frames: each steps once and gives its Report. None: the scene's own number. Ends after a Report "
-          "that is not ok.")
+          "Iterates over frames: each steps once and gives its Report. None: the scene's own number. Ends after a "
+          "Report that is not ok.")
       .def(
           "stop", [](const WorldRef& self) { self.world->ask_to_stop(); },
-          "Ends a step that runs in another thread within a substep: its Report has `stopped`. If none runs, the next one "
-          "ends before it begins. A Report that has `stopped` ends the effect.")
+          "Ends a step that runs in another thread within a substep: its Report has `stopped`. If none runs, the next "
+          "one ends before it begins. A Report that has `stopped` ends the effect.")
       .def(
           "forget_forces", [](const WorldRef& self) { self.world->forget_forces(); },
           "Forgets the functions of `forces`; later steps are without them.")
