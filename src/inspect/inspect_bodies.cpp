@@ -100,7 +100,7 @@ void doubt_bodies(Problems& problems, const Object& object) {
     if (!is_only_moved(object, body) || !may_tip(object, b)) continue;
     problems.doubtful("body " + std::to_string(b) + (body.name.empty() ? "" : " '" + body.name + "'"),
                       "is moved by a pin, which holds its centre of mass but not its rotation, so a load tips it",
-                      "remove the pin, and give the body \"kinematic\": true and the motion (BodyOptions::kinematic)");
+                      "remove the pin, and give the body \"kinematic\": true and the motion");
   }
 }
 

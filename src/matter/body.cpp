@@ -156,7 +156,7 @@ void append_velocity(Object& object, const Vec3f& velocity) {
 int add_body(Object& object, const std::vector<Solid>& solids, const BodyOptions& options) {
   if (options.motion.moves() && !options.kinematic)
     throw Error({"", 0, options.name, "motion"}, "is given to a body that is not kinematic",
-                "set BodyOptions::kinematic, or move the body by joints and forces");
+                "make it kinematic, or move the body by joints and forces");
   const MassProperties own = checked(mass_properties(moments_of_all(solids, options)), options.name);
   const Posed pose{convert<double>(options.position), checked_rotation(options.rotation, {"", 0, options.name, ""})};
   const bool is_fixed = options.kinematic || std::isinf(options.mass);

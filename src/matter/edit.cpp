@@ -88,7 +88,7 @@ Edit part_triangles(const Object& object, std::span<const int> part) {
     throw Error({.object = object.name},
                 "has " + std::to_string(object.triangles.size()) + " triangles and is given " +
                     std::to_string(part.size()) + " numbers of parts",
-                "give one for each of Object::triangles");
+                "give one for each triangle");
   return cut_edges(object, edges_between(object, part));
 }
 

@@ -69,7 +69,7 @@ Edit remove_tetrahedra(const Object& object, std::span<const int> tetrahedra) {
     for (const int corner : all[static_cast<std::size_t>(t)]) reached[static_cast<std::size_t>(corner)] = 1;
   }
   if (std::find(removed.begin(), removed.end(), 0) == removed.end())
-    throw Error({.object = object.name}, "would lose all its tetrahedra", "remove the object with World::remove");
+    throw Error({.object = object.name}, "would lose all its tetrahedra", "remove the object instead");
   return part_solid(object, {std::move(all), std::move(removed), {}, std::move(reached)});
 }
 
@@ -79,7 +79,7 @@ Edit part_tetrahedra(const Object& object, std::span<const int> part) {
     throw Error({.object = object.name},
                 "has " + std::to_string(all.size()) + " tetrahedra and is given " + std::to_string(part.size()) +
                     " numbers of parts",
-                "give one for each of tetrahedra_of");
+                "give one for each tetrahedron");
   std::vector<char> reached = where_parts_meet(all, part, object.positions.size());  // be it in an edge or a point alone
   std::set<Face> open;
   for (const InnerFace& inner : inner_faces(all, reached))

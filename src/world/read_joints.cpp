@@ -90,7 +90,7 @@ JointLoad ObjectView::mean_joint_load(int joint) const {
   (void)joint_of(object, joint);
   if (!read_->workspace.sums_joint_loads)
     throw Error({.object = object.name}, "the loads of its joints are not recorded",
-                "call World::record_joint_loads(true) before the step");
+                "turn record_joint_loads on before the step");
   const auto index = static_cast<std::size_t>(number), j = static_cast<std::size_t>(joint);
   if (index >= read_->workspace.joint_loads.size()) return {};
   const JointLoadSums& sums = read_->workspace.joint_loads[index];
@@ -105,7 +105,7 @@ int ObjectView::joint_index(const std::string& name) const {
   if (count != 1)
     throw Error({.object = object.name, .element = "joint '" + name + "'"},
                 count == 0 ? "does not exist" : "is the name of " + std::to_string(count) + " joints",
-                count == 0 ? "use a name that JointOptions::name gave" : "use the index, or give each joint its own name");
+                count == 0 ? "use the name of one of its joints" : "use the index, or give each joint its own name");
   return static_cast<int>(std::find_if(object.joints.begin(), object.joints.end(), has_name) - object.joints.begin());
 }
 

@@ -13,12 +13,14 @@ True
 (64, 3)
 """
 
-from . import _errors, _types  # noqa: F401  (the compiled part looks for them)
+from . import _calls, _errors, _types  # noqa: F401  (the compiled part looks for them)
 from ._errors import Error
 from ._pliant import (
     Batch,
     BatchObject,
     Collider,
+    Edit,
+    Gauges,
     MeshCollider,
     Object,
     Report,
@@ -34,7 +36,7 @@ from ._pliant import (
 )
 from ._scene import Scene
 from .study import Table, study
-from ._types import BodyTouch, ContactEvent, Finding, ForceArrays, JointState, Load, Pose
+from ._types import BodyTouch, ContactEvent, Finding, ForceArrays, JointState, JointStates, Load, Loads, Pose
 
 __version__ = version()
 
@@ -44,11 +46,15 @@ __all__ = [
     "BodyTouch",
     "Collider",
     "ContactEvent",
+    "Edit",
     "Error",
     "Finding",
     "ForceArrays",
+    "Gauges",
     "JointState",
+    "JointStates",
     "Load",
+    "Loads",
     "MeshCollider",
     "Object",
     "Pose",

@@ -1,7 +1,7 @@
 # Made by scripts/python stubs; do not edit.
 """The compiled part of pliant. Use the names of the package pliant."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 import os
 import types
 from typing import Any
@@ -490,6 +490,135 @@ class MeshCollider:
 
     def __repr__(self) -> str: ...
 
+class Edit:
+    """
+    Changes of an object of a World, made together by apply() or at the end of a `with` block: World.edit() returns one. Particles keep position and velocity exactly, and the object its name and id. Indices are those after earlier calls.
+    """
+
+    @property
+    def name(self) -> str:
+        """Name of the object."""
+
+    @property
+    def particles(self) -> int:
+        """Number of particles now."""
+
+    @property
+    def origins(self) -> pliant._types.IntArray:
+        """For each particle now, the particle of the World from which it comes."""
+
+    @property
+    def triangles(self) -> pliant._types.IntArray:
+        """The triangles now, shape (n, 3)."""
+
+    @property
+    def tetrahedra(self) -> pliant._types.IntArray:
+        """The tetrahedra of a soft body now, shape (n, 4)."""
+
+    @property
+    def pins(self) -> pliant._types.IntArray:
+        """The pinned particles now."""
+
+    @property
+    def attachments(self) -> pliant._types.IntArray:
+        """The particle of each attachment now."""
+
+    @property
+    def masses(self) -> pliant._types.FloatArray:
+        """Masses now [kg], without what pins do."""
+
+    def pin(self, particles: pliant._types.IntsLike) -> None:
+        """
+        Pins particles where they are: they become kinematic, and Object.set_targets() moves them. Those that are pinned stay so.
+        """
+
+    def unpin(self, particles: pliant._types.IntsLike | None = None) -> None:
+        """
+        Lets pinned particles go; None: all. Raises Error if one is not pinned.
+        """
+
+    def attach(self, particles: pliant._types.IntsLike, targets: pliant._types.VectorsLike, compliance: float = 0, damping: float = 0) -> None:
+        """
+        Attaches particles to targets [m], shape (n, 3), by springs of a compliance [m/N]; 0: rigidly. `damping` [N s/m] is of a spring. The new attachments follow those that there are; Object.set_attachment_targets() moves the targets.
+        """
+
+    def detach(self, particles: pliant._types.IntsLike | None = None) -> None:
+        """
+        Removes the attachments of particles; None: all. Raises Error if one has none.
+        """
+
+    def cut(self, path: pliant._types.IntsLike) -> None:
+        """
+        Cuts a surface along a path of particles, each joined to the next by an edge. Particles inside the path and at ends on the border are split; the copies follow all others. Mass and momentum are conserved.
+        """
+
+    def remove_triangles(self, triangles: pliant._types.IntsLike) -> None:
+        """
+        Removes triangles of a surface, by index, and the constraints that only they had.
+        """
+
+    def part_triangles(self, part: pliant._types.IntsLike) -> None:
+        """
+        Parts a surface along edges: triangles of different `part` come apart, one number for each triangle.
+        """
+
+    def remove_tetrahedra(self, tetrahedra: pliant._types.IntsLike) -> None:
+        """Removes tetrahedra of a soft body, by index, with their mass."""
+
+    def part_tetrahedra(self, part: pliant._types.IntsLike) -> None:
+        """
+        Parts a soft body along faces: tetrahedra of different `part` come apart, one number for each.
+        """
+
+    def scale_stiffness(self, type: str, factor: float) -> None:
+        """
+        Multiplies the stiffness of all constraints of a type, as "distance" (Object.constraints lists them), by a factor > 0. What is rigid stays rigid.
+        """
+
+    def set_compliance(self, type: str, compliance: float, damping: float | None = None) -> None:
+        """
+        Gives all constraints of a type one compliance >= 0, in the unit that docs/reference/constraints.md has for the type; 0: rigid. `damping`: None: as before.
+        """
+
+    def set_masses(self, masses: pliant._types.VectorLike) -> None:
+        """Sets the mass of each particle, > 0 [kg]; velocities stay."""
+
+    def describe(self, **members: Any) -> None:
+        """
+        Replaces the description by one as of Scene.add(), with another material, thickness or pins, for example. It must have as many particles in the same order: each keeps position and velocity. What earlier calls changed is replaced.
+        """
+
+    def apply(self) -> pliant._types.IntArray:
+        """
+        Makes the changes in the World, once. Returns for each old particle its first new index, or -1 where it is gone. If the description cannot be simulated, raises Error and changes nothing. The end of a `with` block calls it.
+        """
+
+    def __enter__(self) -> Edit:
+        """Itself."""
+
+    def __exit__(self, type: type[BaseException] | None, value: BaseException | None, trace: types.TracebackType | None) -> None:
+        """
+        Applies the changes, unless an exception ended the block or apply() was called.
+        """
+
+    def __repr__(self) -> str: ...
+
+class Gauges:
+    """
+    Reads the gauges of a World's scene ("gauges" of the scene format): World.gauges() returns it. Flow and force are means since the last read().
+    """
+
+    def read(self) -> dict[str, float]:
+        """
+        The value of each gauge by name. Call it once for the initial state and once after each step. A value is nan where there is none: flow and force in the first call.
+        """
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each gauge by name: "m", "m^3/s" or "N"."""
+
+    def __repr__(self) -> str: ...
+
 class World:
     """
     A simulation to step, read and control: a scene that was compiled, and its State.
@@ -502,7 +631,7 @@ class World:
 
     def step(self, dt: float | None = None) -> Report:
         """
-        Advances by one frame of `dt` seconds; None: the scene's frame_time. Never raises for what happens in it: see Report.ok. Raises Error if dt is too short for its substeps. Keep dt constant. Other Python threads run meanwhile. Ctrl-C ends a long step within a substep; the frame then does not count.
+        Advances by one frame of `dt` seconds; None: the scene's frame_time. Does not raise for values that are not finite: see Report.ok. Raises Error if dt is too short for its substeps, and what a force function raises: then the World is back at the State before this step, as by restore(). Keep dt constant. Other Python threads run meanwhile. Ctrl-C ends a long step within a substep; the frame then does not count.
         """
 
     def run(self, frames: int | None = None) -> Report:
@@ -521,9 +650,7 @@ class World:
         """
 
     def forget_forces(self) -> None:
-        """
-        Forgets the functions of `forces`; later steps are without them. Needed only where such a function refers both to this World and to an Object or other part of it: Python cannot collect that cycle.
-        """
+        """Forgets the functions of `forces`; later steps are without them."""
 
     def state(self) -> State:
         """A copy of the State."""
@@ -633,6 +760,16 @@ class World:
 
     def __repr__(self) -> str: ...
 
+    def edit(self, object: Object | str) -> Edit:
+        """
+        An Edit of an object, which changes nothing yet: pins, attachments, cuts, stiffness, masses or the whole description. Raises KeyError if there is no object of that name.
+        """
+
+    def gauges(self) -> Gauges:
+        """
+        A reader of the scene's gauges. Starts the recording of contact events where a gauge measures a force. Raises Error if the scene has no gauges, or what one measures was removed. Gauges are not in a saved or pickled World.
+        """
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """
         Saves the World as one file: description, settings and State. Forces and targets that wait for the next step, and what is recorded, are not saved. Raises Error if writing fails; an existing file then stays unchanged.
@@ -702,11 +839,6 @@ class BatchObject:
     def velocities(self, out: pliant._types.FloatArray | None = None) -> pliant._types.FloatArray:
         """Velocities in all worlds [m/s], shape (worlds, particles, 3)."""
 
-    def poses(self, body: int | str = 0) -> tuple[pliant._types.FloatArray, pliant._types.FloatArray]:
-        """
-        Poses of a rigid body: positions [m], shape (worlds, 3), and rotations (x, y, z, w), shape (worlds, 4).
-        """
-
     def set_velocities(self, velocities: pliant._types.AnyArray) -> None:
         """As Object.set_velocities() [m/s]."""
 
@@ -726,10 +858,37 @@ class BatchObject:
         As Object.set_attachment_targets(), positions of shape (worlds, n, 3) [m].
         """
 
-    def set_motor(self, joint: str, targets: Any, most: float | None = None, motor: str = '') -> None:
-        """As Object.set_motor(), with a target for each world."""
-
     def __repr__(self) -> str: ...
+
+    def poses(self, body: int | str | Sequence[int | str] = 0) -> tuple[pliant._types.FloatArray, pliant._types.FloatArray]:
+        """
+        Poses of a rigid body: positions [m], shape (worlds, 3), and rotations (x, y, z, w), shape (worlds, 4). Of a list of k bodies: (worlds, k, 3) and (worlds, k, 4).
+        """
+
+    def set_pose(self, body: int | str, positions: pliant._types.VectorLike | pliant._types.VectorsLike, rotations: pliant._types.VectorLike | pliant._types.VectorsLike = (0, 0, 0, 1)) -> None:
+        """
+        As Object.set_pose(): positions of shape (worlds, 3) [m] and rotations of shape (worlds, 4), or one for all worlds.
+        """
+
+    def set_motor(self, joint: str | Sequence[str], targets: Any, most: Any = None, motor: str = '') -> None:
+        """
+        As Object.set_motor(), with a target for each world, shape (worlds,), or one for all. Of a list of k joints: shape (worlds, k), or one for all. `most` likewise.
+        """
+
+    def joint_states(self, joint: int | str | Sequence[int | str]) -> pliant._types.JointStates:
+        """
+        Object.joint_state() in all worlds: arrays of shape (worlds, 3), or (worlds, k, 3) of a list of k joints.
+        """
+
+    def joint_loads(self, joint: int | str | Sequence[int | str]) -> pliant._types.Loads:
+        """
+        Object.joint_load() in all worlds: arrays of shape (worlds, 3), or (worlds, k, 3) of a list of k joints.
+        """
+
+    def mean_joint_loads(self, joint: int | str | Sequence[int | str]) -> pliant._types.Loads:
+        """
+        Object.mean_joint_load() likewise. Raises Error unless Batch.record_joint_loads() is on.
+        """
 
 class Batch:
     """
@@ -765,6 +924,16 @@ class Batch:
     @property
     def worlds(self) -> list[World]:
         """The worlds, to read and control one by one."""
+
+    def record_joint_loads(self, on: bool = True) -> None:
+        """
+        World.record_joint_loads() of each world, for BatchObject.mean_joint_loads().
+        """
+
+    def record_contact_events(self, on: bool = True) -> None:
+        """
+        World.record_contact_events() of each world; batch.worlds have the events.
+        """
 
     def __getitem__(self, name: str, /) -> BatchObject:
         """

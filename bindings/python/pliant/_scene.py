@@ -6,11 +6,12 @@ import copy
 import json
 import math
 import os
-from typing import Any, Callable, Iterable, Mapping, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, Union
 
 import numpy as np
 
 from . import _pliant
+from ._calls import no_scene_attribute
 from ._errors import Error
 from ._types import Finding
 
@@ -25,6 +26,12 @@ _KINDS = (
 )  # fmt: skip
 _SHAPES = ("plane", "sphere", "capsule", "box", "mesh")
 _DEEPEST = 60
+_ATTRIBUTES = frozenset(("arrays", "folder", "file", "_known"))
+
+
+def _members() -> set[str]:
+    """The members that a scene may have."""
+    return set(json.loads(_pliant.scene_schema())["$defs"]["scene"]["properties"])
 
 
 def _step(pointer: str, key: Any) -> str:
@@ -218,6 +225,14 @@ class Scene(dict[str, Any]):
         self.folder = os.fspath(folder) or (inherited.folder if inherited is not None else "")
         self.file = inherited.file if inherited is not None else ""
         self._known: tuple[str, str, _pliant.Description] | None = None  # text, folder, what they say
+
+    if not TYPE_CHECKING:  # type checkers would take any attribute
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            if name in _ATTRIBUTES or (type(self) is not Scene and name not in _members()):
+                super().__setattr__(name, value)
+            else:
+                raise AttributeError(no_scene_attribute(name, name in _members()))
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], arrays: Mapping[str, Any] | None = None) -> Scene:

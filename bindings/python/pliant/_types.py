@@ -60,6 +60,28 @@ class JointState(NamedTuple):
     """Of the second body against the first [rad/s]."""
 
 
+class Loads(NamedTuple):
+    """Load of the joints in all worlds of a Batch."""
+
+    force: FloatArray
+    """[N], shape (worlds, 3), or (worlds, k, 3) of k joints."""
+    torque: FloatArray
+    """About the joints' anchors [N m], of the same shape."""
+
+
+class JointStates(NamedTuple):
+    """JointState of the joints in all worlds of a Batch: arrays of shape (worlds, 3), or (worlds, k, 3) of k joints."""
+
+    displacement: FloatArray
+    """[m]"""
+    rotation: FloatArray
+    """[rad]"""
+    velocity: FloatArray
+    """[m/s]"""
+    angular_velocity: FloatArray
+    """[rad/s]"""
+
+
 class Finding(NamedTuple):
     """What a check found."""
 

@@ -63,8 +63,10 @@ class OwnedWorld {
   void remove(ObjectId id);
   void remove(ColliderId id);
   void remove(MeshColliderId id);
+  /// World::edit. The object keeps its name.
+  std::vector<int> edit(ObjectId id, const Edit& edit);
 
-  /// The description of an object, as it was added. Throws an Error if there is none of that id.
+  /// The description of an object, as it was added or edited. Throws an Error if there is none of that id.
   const Object& described(ObjectId id) const;
   /// True if an object tears, is cut or can break: then all particles can move in memory.
   bool comes_apart() const;
@@ -81,36 +83,58 @@ class OwnedWorld {
   void answer(const Report& report);
   /// Forgets the functions of forces, which then do nothing.
   void forget_forces();
+  /// Takes the functions of forces on, as the World's own.
+  void own_forces(std::vector<std::shared_ptr<PythonForce>> forces);
 
   /// Read by the World after each substep. Set by Ctrl-C while a step runs, and by ask_to_stop().
   std::atomic<bool> stop{false};
   double last_milliseconds = 1e9;  ///< of the last step; large before the first
   int views = 0;                   ///< of records that are alive
-  std::vector<std::shared_ptr<PythonForce>> forces;
 
  private:
   friend class Stepping;
+  friend struct Core;
   World world_;
   std::shared_ptr<const SceneFile> file_;
   std::shared_ptr<const Names> names_;
   bool is_stepping_ = false;
   bool is_asked_to_stop_ = false;  ///< by World.stop(), which no Report has answered
+  std::vector<std::shared_ptr<PythonForce>> forces_;
+  State before_;  ///< the State before the present step, if there are force functions
   /// Descriptions whose index in the scene is not their id.
   std::map<ObjectId, Object> objects_;
   std::map<ColliderId, Collider> colliders_;
   std::map<MeshColliderId, MeshCollider> mesh_colliders_;
 };
 
-using SharedWorld = std::shared_ptr<OwnedWorld>;
+/// A reference to a World. All references go through one Python object, which owns it: so Python's garbage collector
+/// knows them all, and ends a World whose force functions refer to it. Made, copied and destroyed with the GIL.
+class SharedWorld {
+ public:
+  SharedWorld() = default;
+  explicit SharedWorld(std::unique_ptr<OwnedWorld> owned);
+  OwnedWorld& operator*() const { return *owned_; }
+  OwnedWorld* operator->() const { return owned_; }
+  bool operator==(const SharedWorld& other) const { return owned_ == other.owned_; }
+  /// The Python object, for the garbage collector.
+  nb::handle core() const { return core_; }
+
+ private:
+  nb::object core_;
+  OwnedWorld* owned_ = nullptr;
+};
 
 /// Marks a World as stepping from construction to destruction; both with the GIL.
 class Stepping {
  public:
+  /// Throws an Error if it steps already.
   explicit Stepping(OwnedWorld& owned);
   ~Stepping() { owned_.is_stepping_ = false; }
   Stepping(const Stepping&) = delete;
   Stepping& operator=(const Stepping&) = delete;
-  World& world() { return owned_.world_; }
+  /// Steps, without the GIL. Throws an Error if nothing moved because dt is too short. Where a force raises an exception, the
+  /// World goes back to the State before this step, and the exception passes on.
+  Report advance(float dt);
 
  private:
   OwnedWorld& owned_;
@@ -134,36 +158,50 @@ struct NamedReport {
   std::shared_ptr<const Names> names;
 };
 
-/// A step of a World that is marked as stepping. Throws an Error if nothing moved because dt is too short. Needs no GIL.
-Report advance(World& world, float dt);
-
-/// Advances by one frame without the GIL. Throws an Error as advance() does, and nb::python_error if a signal's handler raised, as that of Ctrl-C does.
+/// Advances by one frame without the GIL. Throws what Stepping::advance() does, and nb::python_error if a signal's handler
+/// raised, as that of Ctrl-C does.
 NamedReport step(OwnedWorld& owned, float dt);
 
 /// Makes a World without the GIL. No threads: the scene's number.
 SharedWorld make_world(const std::shared_ptr<const SceneFile>& file, std::optional<int> threads);
 
-/// For Python's garbage collector: visits the force functions of a World that this is the last reference to, since such a
-/// function can refer to the World; and forgets them.
-int traverse(const SharedWorld& world, visitproc visit, void* data);
-void clear(const SharedWorld& world);
+/// tp_setattro of all classes: no attribute can be set, and the message says what to do instead.
+int refuse_attribute(PyObject* self, PyObject* name, PyObject* value);
 
-/// The type slots of a class whose member `world` is a SharedWorld.
-template <class Ref>
-PyType_Slot* collected_slots() {
-  static PyType_Slot slots[] = {
-      {Py_tp_traverse, reinterpret_cast<void*>(+[](PyObject* self, visitproc visit, void* arg) -> int {
-         Py_VISIT(Py_TYPE(self));
-         if (!nb::inst_ready(self)) return 0;
-         return traverse(nb::inst_ptr<Ref>(self)->world, visit, arg);
-       })},
-      {Py_tp_clear, reinterpret_cast<void*>(+[](PyObject* self) -> int {
-         if (nb::inst_ready(self)) clear(nb::inst_ptr<Ref>(self)->world);
-         return 0;
-       })},
-      {0, nullptr}};
+/// tp_init of classes that functions alone make: says which one.
+int refuse_construction(PyObject* self, PyObject* args, PyObject* keywords);
+
+/// The type slots of a class that refers to no World, and which functions alone make.
+inline PyType_Slot* plain_slots() {
+  static PyType_Slot slots[] = {{Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)},
+                                {Py_tp_init, reinterpret_cast<void*>(refuse_construction)},
+                                {0, nullptr}};
   return slots;
 }
+
+/// tp_traverse of a class whose member `world` is a SharedWorld. The cycles that need an end all contain the World's own
+/// object, which ends them: this needs no tp_clear.
+template <class Ref>
+int traverse_world(PyObject* self, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(self));
+  if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<Ref>(self)->world.core().ptr());
+  return 0;
+}
+
+/// The type slots of such a class, which functions alone make.
+template <class Ref>
+PyType_Slot* collected_slots() {
+  static PyType_Slot slots[] = {{Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)},
+                                {Py_tp_init, reinterpret_cast<void*>(refuse_construction)},
+                                {Py_tp_traverse, reinterpret_cast<void*>(traverse_world<Ref>)},
+                                {0, nullptr}};
+  return slots;
+}
+
+/// A TypeError: what was given, of which type, and what is expected.
+nb::builtin_exception wrong_type(const std::string& what, nb::handle given, const char* expected);
+/// A finite or infinite number that was given. Throws wrong_type().
+double number_from(nb::handle given, const char* what);
 
 /// The Description of what a caller gave as a scene: a Scene, a mapping, or a path.
 Description description_of(nb::handle scene);
@@ -176,13 +214,19 @@ nb::object pose_object(const RigidPose& pose);
 RigidPose pose_from(nb::handle position, nb::handle rotation);
 nb::tuple tuple_of(const Vec3f& v);
 
+/// Where a call or type says no more than C++ types, Python says which argument is wrong. Call it last.
+void explain_calls(nb::module_& m);
+
 void bind_errors(nb::module_& m);
 void bind_scene(nb::module_& m);
 void bind_state(nb::module_& m);
 void bind_report(nb::module_& m);
 void bind_object(nb::module_& m);
 void bind_colliders(nb::module_& m);
+void bind_core(nb::module_& m);
 void bind_world(nb::module_& m);
+void bind_edit(nb::module_& m);
+void bind_gauges(nb::module_& m);
 void bind_files(nb::module_& m);
 void bind_batch(nb::module_& m);
 

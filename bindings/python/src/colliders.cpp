@@ -57,7 +57,8 @@ void bind_moves(nb::class_<Ref>& c) {
 
 void bind_colliders(nb::module_& m) {
   nb::class_<ColliderRef> collider(
-      m, "Collider", "A primitive collider of a World, to read and move between steps: world.collider(\"name\").");
+      m, "Collider", nb::type_slots(collected_slots<ColliderRef>()),
+      "A primitive collider of a World, to read and move between steps: world.collider(\"name\").");
   bind_moves(collider);
   collider
       .def(
@@ -66,7 +67,7 @@ void bind_colliders(nb::module_& m) {
       .def("__repr__", [](const ColliderRef& r) { return "<pliant.Collider '" + r.name + "'>"; });
 
   nb::class_<MeshColliderRef> mesh(
-      m, "MeshCollider",
+      m, "MeshCollider", nb::type_slots(collected_slots<MeshColliderRef>()),
       "A mesh collider of a World, to read and move between steps: world.mesh_collider(\"name\"). Poses "
       "move its vertices from where the scene places them: at the start its pose is the identity.");
   bind_moves(mesh);

@@ -14,7 +14,7 @@ namespace {
 
 /// Writes frames of a World, as a context manager.
 struct Writer {
-  SharedWorld owned;
+  SharedWorld world;
   std::unique_ptr<FrameWriter> writer;
   bool is_finished = false;
 
@@ -48,8 +48,11 @@ nb::list written(const Writer& self) {
 /// The path of a str or os.PathLike.
 std::string path_of(nb::handle path) {
   const nb::object text = nb::steal(PyOS_FSPath(path.ptr()));
-  if (!text.is_valid()) throw nb::python_error();
-  if (!nb::isinstance<nb::str>(text)) throw nb::type_error("a path is a str or os.PathLike");
+  if (!text.is_valid()) {
+    PyErr_Clear();
+    throw wrong_type("path", path, "a str or os.PathLike");
+  }
+  if (!nb::isinstance<nb::str>(text)) throw wrong_type("path", path, "a str or os.PathLike");
   return nb::cast<std::string>(text);
 }
 
@@ -61,7 +64,7 @@ void save_world(const WorldRef& self, nb::handle path) {
 WorldRef ref_of(LoadedWorld loaded) {
   auto file = std::make_shared<SceneFile>();
   file->scene = std::move(loaded.scene);
-  return {std::make_shared<OwnedWorld>(std::move(file), std::move(loaded.world))};
+  return {SharedWorld(std::make_unique<OwnedWorld>(std::move(file), std::move(loaded.world)))};
 }
 
 nb::bytes bytes_from(const std::vector<std::byte>& bytes) { return nb::bytes(bytes.data(), bytes.size()); }
@@ -110,9 +113,10 @@ void bind_saving(nb::class_<WorldRef>& c) {
 }
 
 void bind_files(nb::module_& m) {
-  nb::class_<Writer>(m, "Writer", "Writes frames of a World to files: a context manager that World.writer() returns.")
+  nb::class_<Writer>(m, "Writer", nb::type_slots(collected_slots<Writer>()),
+                     "Writes frames of a World to files: a context manager that World.writer() returns.")
       .def(
-          "add", [](Writer& self) { self.open().add(self.owned->idle()); }, "Adds the present state as the next frame.")
+          "add", [](Writer& self) { self.open().add(self.world->idle()); }, "Adds the present state as the next frame.")
       .def("finish", &finish, "Completes the files; the end of a `with` block calls it.")
       .def_prop_ro("written", &written, nb::sig("def written(self) -> list[str]"),
                    "Paths of the files that are written; after finish() all.")

@@ -44,6 +44,20 @@ nb::object arrays_for(PythonForce& force, const ForceField::Arrays& given) {
   return made;
 }
 
+std::string name_of(nb::handle function) {
+  const nb::object name = nb::getattr(function, "__qualname__", nb::none());
+  return nb::cast<std::string>(nb::str(name.is_none() ? nb::repr(function) : name));
+}
+
+/// A function that returns forces would change nothing: it must fill the array.
+void require_nothing(nb::handle returned, nb::handle function) {
+  if (returned.is_none()) return;
+  const auto type = nb::cast<std::string>(nb::object(returned.type().attr("__name__")));
+  throw nb::type_error(("the force function '" + name_of(function) + "' returned a value of type " + type +
+                        "; fill the array instead, as by arrays.forces[:] = ..., and return nothing")
+                           .c_str());
+}
+
 /// Calls Python with the GIL. An exception of it passes through World::step as it is.
 void call(PythonForce& force, const ForceField::Arrays& given) {
   const nb::gil_scoped_acquire acquire;
@@ -55,17 +69,19 @@ void call(PythonForce& force, const ForceField::Arrays& given) {
   copy_in(given.masses, arrays.attr("masses"));  // an object of this name may have been replaced
   copy_in(given.forces, arrays.attr("forces"));
   arrays.attr("time") = given.time;
-  force.function(arrays);
+  const nb::object own = arrays.attr("forces");
+  require_nothing(force.function(arrays), force.function);
   const Numbers result(arrays.attr("forces"), 'f', 3, "forces");
   if (result.rows() != given.forces.size())
     throw Error({.object = std::string(given.object)}, "forces has another number of rows than there are particles",
                 "fill arrays.forces[:] in place");
   const std::span<const Vec3f> all = result.vectors();
   std::copy(all.begin(), all.end(), given.forces.begin());
+  arrays.attr("forces") = own;  // a function may have put an array of its own there
 }
 
 ForceField field_of(nb::handle function, nb::handle only, PythonForces& made) {
-  if (PyCallable_Check(function.ptr()) == 0) throw nb::type_error("a force is a function of pliant.ForceArrays");
+  if (PyCallable_Check(function.ptr()) == 0) throw wrong_type("a force", function, "a function of pliant.ForceArrays");
   const std::shared_ptr<PythonForce> force = shared({nb::borrow(function), nb::borrow(only), nb::dict()});
   made.push_back(force);
   return ForceField::on_arrays([force](const ForceField::Arrays& arrays) { call(*force, arrays); });
@@ -88,7 +104,7 @@ std::shared_ptr<const SceneFile> with_forces(const std::shared_ptr<const SceneFi
     return changed;
   }
   for (const auto& [name, function] : nb::borrow<nb::dict>(forces)) {
-    if (!nb::isinstance<nb::str>(name)) throw nb::type_error("forces are given by names of objects");
+    if (!nb::isinstance<nb::str>(name)) throw wrong_type("a name in forces", name, "the name of an object, as str");
     require_object(changed->scene, nb::cast<std::string>(name));
     changed->scene.forces.push_back(field_of(function, name, made));
   }

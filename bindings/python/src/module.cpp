@@ -13,7 +13,11 @@ NB_MODULE(_pliant, m) {
   bind_report(m);
   bind_object(m);
   bind_colliders(m);
+  bind_core(m);
+  bind_edit(m);
+  bind_gauges(m);
   bind_world(m);
   bind_files(m);
   bind_batch(m);
+  explain_calls(m);
 }

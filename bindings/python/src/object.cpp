@@ -71,29 +71,18 @@ nb::object orientations(const ObjectRef& self) {
   return float_rows(reinterpret_cast<const float*>(all.data()), all.size(), 4);
 }
 
-float finite_float(nb::handle given, const char* what) {
-  double value = 0;
-  if (!nb::try_cast(given, value)) throw nb::type_error((std::string(what) + " is no number").c_str());
-  return static_cast<float>(value);
-}
+float float_from(nb::handle given, const char* what) { return static_cast<float>(number_from(given, what)); }
 
 void set_motor(const ObjectRef& self, const std::string& joint, nb::handle target, nb::handle most,
                const std::string& motor) {
   MotorCommand command;
-  command.target = finite_float(target, "target");
-  if (!most.is_none()) command.most = finite_float(most, "most");
+  command.target = float_from(target, "target");
+  if (!most.is_none()) command.most = float_from(most, "most");
   command.motor = motor;
   self.handle().set_motor(joint, command);
 }
 
-/// The index of a joint that is given by index or name.
-int joint_of(const ObjectRef& self, nb::handle joint) {
-  if (nb::isinstance<nb::str>(joint)) return self.view().joint_index(nb::cast<std::string>(joint));
-  int index = 0;
-  if (PyBool_Check(joint.ptr()) != 0 || !nb::try_cast(joint, index))
-    throw nb::type_error("a joint is its name, or its index");
-  return index;
-}
+int joint_of(const ObjectRef& self, nb::handle joint) { return joint_index(self.view(), joint); }
 
 nb::object load_object(const JointLoad& load) {
   return python_part("pliant._types", "Load")(tuple_of(load.force), tuple_of(load.torque));
@@ -224,7 +213,7 @@ void bind_control_of_bodies(nb::class_<ObjectRef>& c) {
       .def(
           "set_rest_factor",
           [](const ObjectRef& o, int group, nb::handle factor) {
-            o.handle().set_rest_factor(group, finite_float(factor, "factor"));
+            o.handle().set_rest_factor(group, float_from(factor, "factor"));
           },
           nb::arg("group"), nb::arg("factor"), nb::sig("def set_rest_factor(self, group: int, factor: float) -> None"),
           "Multiplies rest lengths or volumes of a group of constraints by a factor >= 0, as a muscle's activation does.");
@@ -287,6 +276,14 @@ void bind_control(nb::class_<ObjectRef>& c) {
 
 std::size_t ObjectRef::particles() const { return static_cast<std::size_t>(view().particle_count()); }
 std::string ObjectRef::name() const { return view().name(); }
+
+int joint_index(const ObjectView& view, nb::handle joint) {
+  if (nb::isinstance<nb::str>(joint)) return view.joint_index(nb::cast<std::string>(joint));
+  int index = 0;
+  if (PyBool_Check(joint.ptr()) != 0 || !nb::try_cast(joint, index))
+    throw wrong_type("joint", joint, "the name of a joint, or its index");
+  return index;
+}
 
 void bind_object(nb::module_& m) {
   nb::class_<ObjectRef> c(m, "Object", nb::type_slots(collected_slots<ObjectRef>()),

@@ -16,12 +16,16 @@ struct ObjectRef {
   std::string name() const;
 };
 
+/// The index of a joint that is given by index or name.
+int joint_index(const ObjectView& view, nb::handle joint);
+
 /// Calls `function` with the index or the name of a body.
 template <class Function>
 auto with_body(nb::handle body, const Function& function) {
   if (nb::isinstance<nb::str>(body)) return function(nb::cast<std::string>(body));
   int index = 0;
-  if (PyBool_Check(body.ptr()) != 0 || !nb::try_cast(body, index)) throw nb::type_error("a body is its name, or its index");
+  if (PyBool_Check(body.ptr()) != 0 || !nb::try_cast(body, index))
+    throw wrong_type("body", body, "the name of a body, or its index");
   return function(index);
 }
 

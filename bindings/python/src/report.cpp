@@ -274,7 +274,7 @@ void bind_mapping(nb::class_<NamedReport>& c) {
 
 void bind_report(nb::module_& m) {
   nb::class_<NamedReport> c(
-      m, "Report",
+      m, "Report", nb::type_slots(plain_slots()),
       "What a step did. Values are attributes, and also items as of a dict: report[\"contacts\"]. Names of objects are "
       "those at the time of the step.");
   c.def_prop_ro("frame", whole(&Report::frame), "Number of complete frames.")

@@ -139,7 +139,8 @@ Description description_of(nb::handle scene) {
 }
 
 void bind_scene(nb::module_& m) {
-  nb::class_<Description>(m, "Description", "A scene that was read and checked: what a World is made from.")
+  nb::class_<Description>(m, "Description", nb::type_slots(plain_slots()),
+                          "A scene that was read and checked: what a World is made from.")
       .def_prop_ro(
           "frame_time", [](const Description& d) { return d.scene().frame_time; }, "Duration of a frame [s].")
       .def_prop_ro(

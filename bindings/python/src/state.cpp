@@ -9,7 +9,7 @@ namespace pliant::python {
 
 void bind_state(nb::module_& m) {
   nb::class_<State>(
-      m, "State",
+      m, "State", nb::type_slots(plain_slots()),
       "All of a World that changes with time, as a value. Restore it, and the next step gives the same bits. It can be "
       "pickled.\n\nWorld.state() returns one; World.restore() takes it.")
       .def_ro("time", &State::time, "Simulated time [s].")

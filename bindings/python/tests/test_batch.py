@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import pathlib
+import subprocess
+import sys
 from typing import Any, Callable
 
 import numpy as np
@@ -217,6 +220,25 @@ def test_a_world_of_a_batch_can_be_changed() -> None:
     batch.worlds[1].remove("cloth")
     with pytest.raises(KeyError):
         batch["cloth"]
+
+
+def test_a_batch_works_after_a_fork() -> None:
+    """The child has none of the threads. Also in a program of its own: other tests leave other threads behind."""
+    program = """
+import os, sys, pliant
+sys.path.insert(0, TESTS)
+from conftest import cloth_scene
+batch = pliant.Batch(cloth_scene(), 3, threads=2)
+batch.step()
+child = os.fork()
+batch.step()
+hashes = batch.state_hashes()
+if child == 0:
+    os._exit(0 if len(set(hashes)) == 1 and batch.worlds[0].frame == 2 else 1)
+assert os.waitpid(child, 0)[1] == 0
+"""
+    text = program.replace("TESTS", repr(str(pathlib.Path(__file__).parent)))
+    subprocess.run([sys.executable, "-c", text], check=True, timeout=120)
 
 
 def test_ctrl_c_ends_a_batch() -> None:

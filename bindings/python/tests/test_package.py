@@ -85,6 +85,8 @@ WRONG = {
     '{"substeps": 5}': '{"substeps": "5"}',
     "pliant.World(scene)": "pliant.World(3)",
     ".particles)": ".particle)",
+    "print(": "pliant.World(scene).gravity = 3; print(",
+    "print(pl": "pliant.Scene().gravity = 3; print(pl",
 }
 
 

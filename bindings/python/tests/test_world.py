@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import copy
-import gc
 import os
 import pathlib
 import pickle
-import signal
 import threading
 import time
-import weakref
 
 import numpy as np
 import pytest
@@ -193,92 +190,6 @@ def test_energies_of_free_fall() -> None:
     assert world.kinetic_energy() == pytest.approx(0.5 * 3 * (9.81 * 0.5) ** 2, rel=1e-4)
 
 
-def test_a_force_on_arrays() -> None:
-    """A particle of 2 kg under 6 N for half a second: 1.5 m/s."""
-    scene = pliant.Scene(gravity=(0, 0, 0))
-    scene.add(particles={"positions": np.zeros((1, 3)), "masses": [2]}, name="ball")
-    scene.add(particles={"positions": np.ones((1, 3)), "masses": [2]}, name="other")
-    seen = []
-
-    def push(arrays: pliant.ForceArrays) -> None:
-        seen.append((arrays.object, arrays.time, float(arrays.masses[0])))
-        arrays.forces[:, 0] = 6
-
-    world = pliant.World(scene, forces={"ball": push})
-    world.run(30)
-    np.testing.assert_allclose(world["ball"].velocities(), [[1.5, 0, 0]], rtol=1e-5)
-    np.testing.assert_array_equal(world["other"].velocities(), [[0, 0, 0]])
-    assert {name for name, _, _ in seen} == {"ball"} and seen[0][2] == 2
-    everywhere = pliant.World(scene, forces=push)
-    everywhere.run(30)
-    np.testing.assert_allclose(everywhere["other"].velocities(), [[1.5, 0, 0]], rtol=1e-5)
-
-
-def test_masses_are_those_of_now() -> None:
-    """Another object of the same name and number of particles, of 50 kg instead of 2."""
-    scene = pliant.Scene(gravity=(0, 0, 0))
-    scene.add(particles={"positions": np.zeros((1, 3)), "masses": [2]}, name="ball")
-    seen = []
-
-    def weigh(arrays: pliant.ForceArrays) -> None:
-        seen.append(float(arrays.masses[0]))
-        arrays.forces[:, 0] = arrays.masses
-
-    world = pliant.World(scene, forces=weigh)
-    world.step()
-    world.remove("ball")
-    world.add(particles={"positions": np.zeros((1, 3)), "masses": [50]}, name="ball")
-    world.step()
-    assert (seen[0], seen[-1]) == (2, 50)
-    np.testing.assert_allclose(world["ball"].velocities(), [[1 / 60, 0, 0]], rtol=1e-5)
-
-
-def test_a_handler_that_a_force_sets_stays() -> None:
-    def is_ignored() -> bool:
-        status = pathlib.Path("/proc/self/status").read_text()
-        return bool(int(status.split("SigIgn:")[1].split()[0], 16) & 1 << (signal.SIGINT - 1))
-
-    def ignore(arrays: pliant.ForceArrays) -> None:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-    world = pliant.World(cloth_scene(), threads=1, forces=ignore)
-    before = signal.getsignal(signal.SIGINT)
-    try:
-        world.run(1)
-        assert is_ignored()
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-def test_an_exception_of_a_force_comes_out_and_a_restore_heals() -> None:
-    class Broken(Exception):
-        pass
-
-    fails = True
-
-    def push(arrays: pliant.ForceArrays) -> None:
-        if fails:
-            raise Broken("no")
-
-    world = pliant.World(cloth_scene(), threads=1, forces=push)
-    start = world.state()
-    with pytest.raises(Broken, match="no"):
-        world.step()
-    assert not world.step().ok
-    fails = False
-    world.restore(start)
-    assert world.step().ok
-
-
-def test_a_force_cannot_use_its_world() -> None:
-    def push(arrays: pliant.ForceArrays) -> None:
-        world["cloth"].positions()
-
-    world = pliant.World(cloth_scene(), threads=1, forces=push)
-    with pytest.raises(pliant.Error, match="is stepping"):
-        world.step()
-
-
 def test_other_threads_run_during_a_step() -> None:
     world = pliant.World(cloth_scene(60), threads=1)
     counted = 0
@@ -366,51 +277,3 @@ def test_records_of_what_tears_are_refused() -> None:
     world = pliant.World(ROOT / "scenes" / "tears" / "block.json")
     with pytest.raises(pliant.Error, match="move in memory"):
         next(iter(world.objects)).records()
-
-
-def test_a_force_that_refers_to_its_world_is_collected() -> None:
-    class Held:
-        pass
-
-    held = Held()
-    gone = weakref.ref(held)
-
-    def make() -> None:
-        def push(arrays: pliant.ForceArrays) -> None:
-            assert held is not None and world is not None
-
-        world = pliant.World(cloth_scene(), threads=1, forces=push)
-        world.step()
-
-    make()
-    del held
-    gc.collect()
-    assert gone() is None
-
-
-def test_a_force_that_refers_to_its_world_and_an_object_is_collected_once_forgotten() -> None:
-    class Held:
-        pass
-
-    held = Held()
-    gone = weakref.ref(held)
-
-    def make() -> None:
-        def push(arrays: pliant.ForceArrays) -> None:
-            assert held is not None and world is not None and cloth is not None
-            arrays.forces[:, 1] = 1
-
-        world = pliant.World(cloth_scene(), threads=1, forces=push)
-        cloth = world["cloth"]
-        world.step()
-        world.forget_forces()
-        alone = pliant.World(cloth_scene(), threads=1)
-        alone.restore(world.state())
-        world.step()
-        alone.step()
-        assert world.state_hash() == alone.state_hash()
-
-    make()
-    del held
-    gc.collect()
-    assert gone() is None

@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import keyword
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -31,6 +32,9 @@ from typing_extensions import Required
 from ._types import AnyArray, MeshLike
 
 '''
+
+# The functions that refuse attributes: with them in a stub, type checkers would take any attribute.
+REFUSES = re.compile(r'    def __(?:set|del)attr__\(self, .*\):\n        """Implement .*"""\n\n')
 
 # Where the format has one of these, arrays of the caller may stand.
 FROM_MEMORY = {"mesh": "MeshLike", "tetrahedra": "MeshLike", "points": "AnyArray"}
@@ -115,7 +119,8 @@ def main() -> None:
     stub = folder / "_pliant.pyi"
     command = [sys.executable, "-m", "nanobind.stubgen", "-q", "-m", "pliant._pliant", "-o", str(stub)]
     subprocess.run(command, check=True, cwd=tempfile.gettempdir())  # not where ./pliant is the sources
-    stub.write_text(HEAD + stub.read_text(encoding="utf-8").rstrip() + "\n", encoding="utf-8")
+    text = REFUSES.sub("", stub.read_text(encoding="utf-8")).rstrip()
+    stub.write_text(HEAD + text + "\n", encoding="utf-8")
     (folder / "format.pyi").write_text(HEAD + format_types(), encoding="utf-8")
 
 
