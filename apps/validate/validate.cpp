@@ -69,7 +69,7 @@ const std::vector<Group>& groups() {
       {"heavy_chain", "a load 100 000 times as heavy as a link, by exact chains"},
       {"sweeps", "the same known answers with every sweep, and the exceptions"},
       {"liquids", "a dam break against an experiment, a column at rest, pressure, sloshing, a jet, momentum"},
-      {"solids", "bars in tension and bent, with the default settings against many substeps"},
+      {"solids", "bars in tension and bent, blocks that stand, with the default settings"},
       {"grains", "a silo by Janssen, an hourglass by Beverloo"},
       {"woven", "stretch and shear of woven cloth by its weight"},
   };

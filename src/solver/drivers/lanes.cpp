@@ -1,5 +1,12 @@
 #include "solver/drivers/lanes.h"
 
+#include <algorithm>
+#include <numeric>
+
+#include "constraints/gives_shape.h"
+#include "core/at.h"
+#include "solver/contact_kernels.h"
+
 namespace pliant {
 
 namespace {
@@ -19,6 +26,52 @@ void for_segments(Substep& s, const Phase& phase, FunctionRef<void(int, const Se
             [&](const Task& task) { body(task.object, s.model.objects[task.object].segments.data() + task.item); });
 }
 
+/// In how many pieces the constraints of a solid's tile are projected where it touches a collider. More leave thin slabs
+/// too stiff and fewer too soft (docs/internals/solids.md).
+constexpr int pieces_in_contact = 4;
+
+/// True if contacts take turns with the constraints of an object. If they only came last, they would compress what
+/// stands on a collider a second time, by all that its constraints push through the collider in one pass.
+bool takes_turns_with_contacts(const Substep& s, int object) {
+  const CompiledObject& of = s.model.objects[object];
+  if (of.volume.keeps_momentum || !(arguments(s, object, false).lead > 0)) return false;
+  return std::any_of(of.pools.begin(), of.pools.end(), [](const Pool& pool) { return belongs_to_solid(pool.type); });
+}
+
+/// Projects a tile's contacts in lanes, those of one collider at a time, because they share no particle.
+void project_contacts_in_lanes(const Substep& s, int task) {
+  std::vector<Contact>& contacts = s.work.tiles[task].contacts;
+  Record* displacements = particles(s, task).displacements;
+  static constexpr std::int32_t order[batch_width] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const int count = static_cast<int>(contacts.size());
+  for (int first = 0, last = 0; first < count; first = last) {
+    const std::int32_t collider = contacts[at(first)].collider;
+    while (last < count && last < first + batch_width && contacts[at(last)].collider == collider) ++last;
+    s.kernels.contacts.project(contacts.data() + first, order, 0, last - first, displacements, 0);
+  }
+}
+
+/// Projects the constraints of a tile in pieces of about as many batches, each followed by the tile's contacts with
+/// colliders. Those that follow the last piece are left to their own driver, unless inter-tile constraints come first.
+void project_with_contacts(const Substep& s, int task, bool first_pass) {
+  const int object = s.model.tiles()[task].object;
+  const Tile& tile = tile_of(s, task);
+  const std::vector<Segment>& segments = s.model.objects[object].segments;
+  const bool has_inter_tile = s.model.objects[object].tiles.size() > 1;
+  const auto add_batches = [](int sum, const Segment& segment) { return sum + segment.batches; };
+  const int all =
+      std::accumulate(segments.begin() + tile.first_segment, segments.begin() + tile.last_segment, 0, add_batches);
+  int first = tile.first_segment, done = 0;
+  for (int piece = 1; piece <= pieces_in_contact; ++piece) {
+    int last = first;
+    for (; last < tile.last_segment && pieces_in_contact * done < piece * all; ++last) done += segments[at(last)].batches;
+    if (last == first) continue;
+    project_segments(s, object, first, last, first_pass);
+    first = last;
+    if (last < tile.last_segment || has_inter_tile) project_contacts_in_lanes(s, task);
+  }
+}
+
 }  // namespace
 
 /// A backward walk visits the segments in reverse order. The order within a segment is irrelevant, because constraints
@@ -26,6 +79,8 @@ void for_segments(Substep& s, const Phase& phase, FunctionRef<void(int, const Se
 void project_tile(const Substep& s, int task, bool first_pass, Order order) {
   const int object = s.model.tiles()[task].object;
   const Tile& tile = tile_of(s, task);
+  if (order == Order::forward && !s.work.tiles[task].contacts.empty() && takes_turns_with_contacts(s, object))
+    return project_with_contacts(s, task, first_pass);
   if (order == Order::forward) return project_segments(s, object, tile.first_segment, tile.last_segment, first_pass);
   for (int i = tile.last_segment; i-- > tile.first_segment;) project_segments(s, object, i, i + 1, first_pass);
 }
