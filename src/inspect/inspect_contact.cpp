@@ -10,6 +10,7 @@
 
 #include "collision/fields/solid_fields.h"
 #include "constraints/registry.h"
+#include "inspect/inspect_scene.h"
 #include "inspect/problems.h"
 #include "math/vector.h"
 #include "model/soft_body_substeps.h"
@@ -178,22 +179,52 @@ double particle_mass(const Object& object) {
   return count > 0 ? sum / count : 0;
 }
 
-/// Warns of a sheet whose particles are so much heavier than those of one that it can press on that contact hardly
-/// converges: the light sheet yields in each projection, and the filter holds both in round after round.
-void doubt_masses(Problems& problems, const Object& object, const Scene& scene) {
+/// A sheet whose particles are so much heavier than those of one that it can press on that contact hardly converges: the
+/// light sheet yields in each projection, and the filter holds both in round after round.
+struct HeavySheet {
+  const Object* object;
+  std::string problem, advice;
+};
+
+HeavySheet words_of_heavy(const Object& heavy, const Object& light, double ratio, double most_ratio) {
+  return {&heavy,
+          "are " + words(std::round(ratio)) + " times those of '" + light.name +
+              "', on which it can press: contact between them yields, and frames may take ten times as long",
+          "let the masses of a particle differ by less than " + words(most_ratio) +
+              " times, hold the heavy one by pins or a collider, or let masks keep them apart; the setting "
+              "`most_substeps` bounds what frames take"};
+}
+
+std::vector<HeavySheet> find_heavy_sheets(const Scene& scene) {
   constexpr double most_ratio = 1e4;
-  const double mass = particle_mass(object);
-  if (!object.collides || !(mass > 0)) return;
-  for (const Object& other : scene.objects) {
-    const double light = particle_mass(other);
-    if (!other.collides || !(light > 0) || mass < most_ratio * light || !masks_allow(object, other)) continue;
-    problems.doubtful("masses",
-                      "are " + words(std::round(mass / light)) + " times those of '" + other.name +
-                          "', on which it can press: contact between them yields, and frames may take ten times as long",
-                      "let the masses of a particle differ by less than " + words(most_ratio) +
-                          " times, hold the heavy one by pins or a collider, or let masks keep them apart; the setting "
-                          "`most_substeps` bounds what frames take");
-    return;
+  struct Sheet {
+    const Object* object;
+    double mass;
+  };
+  std::vector<Sheet> sheets;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Object& object : scene.objects) {
+    const double mass = object.collides ? particle_mass(object) : 0;
+    if (!(mass > 0)) continue;
+    sheets.push_back({&object, mass});
+    least = std::min(least, mass);
+  }
+  std::vector<HeavySheet> found;
+  for (const Sheet& heavy : sheets) {
+    if (heavy.mass < most_ratio * least) continue;
+    const auto light = std::find_if(sheets.begin(), sheets.end(), [&](const Sheet& other) {
+      return heavy.mass >= most_ratio * other.mass && masks_allow(*heavy.object, *other.object);
+    });
+    if (light != sheets.end())
+      found.push_back(words_of_heavy(*heavy.object, *light->object, heavy.mass / light->mass, most_ratio));
+  }
+  return found;
+}
+
+void doubt_masses(Problems& problems, const Scene& scene) {
+  for (const HeavySheet& found : find_heavy_sheets(scene)) {
+    problems.at(found.object->name);
+    problems.doubtful("masses", found.problem, found.advice);
   }
 }
 
@@ -310,11 +341,18 @@ void doubt_contact(Problems& problems, const Scene& scene) {
     doubt_thickness(problems, object);
     doubt_cost(problems, object);
     doubt_company(problems, object, scene);
-    doubt_masses(problems, object, scene);
     if (object.self_collision) doubt_folds(problems, object.positions, object.triangles);
   }
+  doubt_masses(problems, scene);
   doubt_tangles(problems, scene);
   problems.at("");
+}
+
+std::vector<std::string> warnings_of_masses(const Scene& scene) {
+  std::vector<std::string> warnings;
+  for (const HeavySheet& found : find_heavy_sheets(scene))
+    warnings.push_back("object '" + found.object->name + "', masses: " + found.problem + "; " + found.advice);
+  return warnings;
 }
 
 }  // namespace pliant

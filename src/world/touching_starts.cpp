@@ -89,7 +89,10 @@ class TouchingStarts {
   void add_demands(Part& moving, Part& fixed, std::vector<Demand>& demands);
   void meet_demands(const std::vector<Demand>& demands);
   void keep_to_room(const Part& part);
-  float room(int vertex, const Part& part);
+  float room(int vertex, const Part& part, bool has_own_layers = true);
+  float room(const Triangle& element, const Part& part);
+  bool move_as_one(const Part& part, const std::vector<Demand>& demands);
+  bool is_free_and_whole(const Part& part) const;
   void move(const Part& part);
 
   const Model& model_;
@@ -284,14 +287,16 @@ void TouchingStarts::meet_demands(const std::vector<Demand>& demands) {
   for (const int vertex : between) shifts_[at(vertex)] = {};
 }
 
-/// The share of its displacement for which a vertex has room before other surfaces and other layers of its own.
-float TouchingStarts::room(int vertex, const Part& part) {
+/// The share of its displacement for which a vertex has room before other surfaces and, where it moves otherwise than
+/// these, other layers of its own.
+float TouchingStarts::room(int vertex, const Part& part, bool has_own_layers) {
   const Vec3f from = xyz(places_[at(vertex)]), along = convert<float>(shifts_[at(vertex)]) * looked_ahead;
   const Vec3f edge[2] = {from, from + along};
   const BoxBounds box = BoxBounds::of(edge, 2);
   float share = 1;
   for (Part& other : parts_) {
     if (!other.has_sides || !meet(part, other) || !overlap(other.bounds, box)) continue;
+    if (&other == &part && !has_own_layers) continue;
     build(other);
     other.tree.query(box, [&](int number) {
       const Triangle& t = other.elements[at(number)];
@@ -307,11 +312,76 @@ float TouchingStarts::room(int vertex, const Part& part) {
   return share;
 }
 
-void TouchingStarts::keep_to_room(const Part& part) {
-  for (int v = part.first; v < part.end; ++v) {
-    if (length_squared(shifts_[at(v)]) == 0) continue;
-    shifts_[at(v)] = shifts_[at(v)] * static_cast<double>(room(v, part));
+/// The same for an element, before vertices of others: what is over the middle of a triangle is on the way of none of
+/// its corners.
+float TouchingStarts::room(const Triangle& element, const Part& part) {
+  const Vec3d mean = (shifts_[at(element[0])] + shifts_[at(element[1])] + shifts_[at(element[2])]) * (1. / 3);
+  const Vec3f along = convert<float>(mean) * looked_ahead;
+  const Vec3f corners[3] = {xyz(places_[at(element[0])]), xyz(places_[at(element[1])]), xyz(places_[at(element[2])])};
+  const Vec3f swept[6] = {corners[0], corners[1], corners[2], corners[0] + along, corners[1] + along, corners[2] + along};
+  const BoxBounds box = BoxBounds::of(swept, 6);
+  const Vec3d normal = normal_of(element);
+  const double rise = dot(normal, convert<double>(along));
+  float share = 1;
+  if (!part.has_sides || rise == 0) return share;
+  for (Part& other : parts_) {
+    if (&other == &part || !meet(part, other) || !overlap(other.bounds, box)) continue;
+    build(other);
+    other.tree.query(box, [&](int number) {
+      for (const int v : other.elements[at(number)]) {
+        const double height = dot(normal, place(v) - place(element[0]));
+        const bool touches = std::abs(height) < 2 * static_cast<double>(std::max(part.tolerance, other.tolerance));
+        const Vec3f edge[2] = {xyz(places_[at(v)]), xyz(places_[at(v)]) - along};
+        if (touches || !(height / rise > 0) || how_edge_meets_triangle(edge, corners) == EdgeTriangle::apart) continue;
+        share = std::min(share, static_cast<float>(height / rise));
+      }
+    });
   }
+  return share;
+}
+
+void TouchingStarts::keep_to_room(const Part& part) {
+  std::vector<float> shares(at(part.end - part.first), 1.f);
+  for (int v = part.first; v < part.end; ++v)
+    if (length_squared(shifts_[at(v)]) > 0) shares[at(v - part.first)] = room(v, part);
+  for (const Triangle& element : part.elements) {
+    const float share = room(element, part);
+    for (const int v : element) shares[at(v - part.first)] = std::min(shares[at(v - part.first)], share);
+  }
+  for (int v = part.first; v < part.end; ++v)
+    shifts_[at(v)] = shifts_[at(v)] * static_cast<double>(shares[at(v - part.first)]);
+}
+
+/// True for one closed surface of which nothing is held, with all particles inside of it: a soft body, or a balloon.
+bool TouchingStarts::is_free_and_whole(const Part& part) const {
+  if (!part.is_closed) return false;
+  for (int v = part.first; v < part.end; ++v)
+    if (!(places_[at(v)].w > 0)) return false;
+  DisjointSets pieces(at(part.end - part.first));
+  for (const Triangle& t : part.elements)
+    for (const int corner : {t[1], t[2]}) pieces.join(at(t[0] - part.first), at(corner - part.first));
+  const std::size_t first = pieces.root(at(part.elements.front()[0] - part.first));
+  return std::all_of(part.elements.begin(), part.elements.end(),
+                     [&](const Triangle& t) { return pieces.root(at(t[0] - part.first)) == first; });
+}
+
+/// Moves a body as a whole, so that it is not squeezed. False if its particles have to move on their own.
+bool TouchingStarts::move_as_one(const Part& part, const std::vector<Demand>& demands) {
+  if (!is_free_and_whole(part)) return false;
+  Vec3d shift{};
+  for (int pass = 0; pass < passes; ++pass)
+    for (const Demand& demand : demands) shift += demand.normal * std::max(0., demand.least - dot(shift, demand.normal));
+  const bool is_between = std::any_of(demands.begin(), demands.end(),
+                                      [&](const Demand& demand) { return dot(shift, demand.normal) < 0.5 * demand.least; });
+  if (is_between) return false;
+  std::fill(shifts_.begin() + part.first, shifts_.begin() + part.end, shift);
+  float share = 1;
+  for (const Triangle& element : part.elements) {
+    share = std::min(share, room(element, part));
+    for (const int v : element) share = std::min(share, room(v, part, false));
+  }
+  std::fill(shifts_.begin() + part.first, shifts_.begin() + part.end, shift * static_cast<double>(share));
+  return true;
 }
 
 void TouchingStarts::move(const Part& part) {
@@ -342,7 +412,7 @@ void TouchingStarts::run(int only) {
     std::vector<Demand> demands;
     for (std::size_t k = 0; k < (only < 0 ? i : parts_.size()); ++k)
       if (k != i && parts_[k].has_sides && are_near(parts_[i], parts_[k])) add_demands(parts_[i], parts_[k], demands);
-    if (demands.empty()) continue;
+    if (demands.empty() || move_as_one(parts_[i], demands)) continue;
     meet_demands(demands);
     keep_to_room(parts_[i]);
   }

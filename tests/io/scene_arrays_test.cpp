@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "pliant/error.h"
 #include "pliant/io.h"
 
 namespace pliant {

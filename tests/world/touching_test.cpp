@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "pliant/error.h"
+#include "pliant/soft_body.h"
 #include "world/surface_support.h"
 
 namespace pliant {
@@ -253,6 +254,49 @@ TEST(TouchingStart, DoesNotPassALayerThatIsNear) {
   run_held(scene, world);
   EXPECT_GT(heights(world, 1).lowest, heights(world, 0).lowest);
   EXPECT_GT(heights(world, 0).lowest, 0);
+}
+
+/// A patch over the middle of a triangle is on the way of none of its corners.
+TEST(TouchingStart, DoesNotPassASmallThingOverTheMiddleOfATriangle) {
+  Scene scene = lying(0, false);
+  scene.objects[0] = named_cloth(sheet(2, 0.2f, 0), "coarse");
+  Object patch = named_cloth(sheet(3, 0.01f, 5e-4f), "patch");
+  for (Vec3f& p : patch.positions) p += {0.03f, 0, 0.02f};
+  scene.add(patch);
+  World world(scene);
+  EXPECT_GT(heights(world, 1).lowest, heights(world, 0).lowest);
+  run_held(scene, world);
+  EXPECT_GT(heights(world, 1).lowest, heights(world, 0).lowest);
+}
+
+/// A soft body that stands exactly on a mesh is lifted as a whole: squeezed from below, it would jump.
+TEST(TouchingStart, OfASoftBodyDoesNotSqueezeIt) {
+  Scene scene;
+  scene.settings = settings_of(20);
+  SoftBodyOptions options;
+  options.name = "jelly";
+  options.material.youngs_modulus = 2e5f;
+  Object jelly = make_soft_body(box_tetrahedra({0.05f, 0.05f, 0.05f}, {3, 3, 3}), options);
+  jelly.thickness = 0.004f;
+  float lowest = 1;
+  for (const Vec3f& p : jelly.positions) lowest = std::min(lowest, p.y);
+  for (Vec3f& p : jelly.positions) p.y -= lowest;
+  scene.add(jelly);
+  MeshCollider table;
+  table.name = "table";
+  table.mesh = sheet(3, 0.6f, 0);
+  scene.add(table);
+  World world(scene);
+  const std::vector<Vec3f> start = world.object(0).positions();
+  const float lifted = start[0].y - jelly.positions[0].y;
+  EXPECT_NEAR(lifted, 0.004f, 1e-6f) << "both thicknesses";
+  for (std::size_t i = 0; i < start.size(); ++i) EXPECT_NEAR(start[i].y - jelly.positions[i].y, lifted, 1e-6f) << i;
+  float fastest = 0;
+  for (int frame = 0; frame < 20; ++frame) {
+    world.step(1.f / 60);
+    for (const Vec3f& v : world.object(0).velocities()) fastest = std::max(fastest, v.y);
+  }
+  EXPECT_LT(fastest, 0.02f) << "it jumps";
 }
 
 TEST(TouchingStart, IsTheSameInAWorldOfItsLayout) {

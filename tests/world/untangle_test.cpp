@@ -343,6 +343,45 @@ TEST(Untangle, LeadsComponentsOfOneMeshApart) {
   }
 }
 
+/// A leg, of two that part from a common hip inside the skirts.
+TriangleMesh leg(float side) {
+  TriangleMesh mesh = sphere_mesh(2);
+  for (Vec3f& p : mesh.positions) {
+    p = {0.15f * p.x, 0.4f * p.y - 0.5f, 0.15f * p.z + 0.0123f};
+    p.x += side * (0.07f - 0.12f * p.y);
+    p.z += 0.05f * p.x;
+  }
+  return mesh;
+}
+
+/// Crossings of a mesh with itself.
+std::size_t own_crossings(const TriangleMesh& mesh) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& t : mesh.triangles) triangles.push_back({t[0], t[1], t[2]});
+  return IntersectionFinder(triangles, static_cast<int>(mesh.positions.size())).find(mesh.positions).size();
+}
+
+/// Garments around a body that intersects itself come apart and out of it, be they one object or two.
+TEST(Untangle, LeadsGarmentsOutOfABodyThatIntersectsItself) {
+  for (const bool as_one : {false, true}) {
+    Scene scene = nested_skirts(as_one);
+    MeshCollider body;
+    body.name = "body";
+    body.mesh = both(leg(1), leg(-0.95f));
+    const std::size_t of_body = own_crossings(body.mesh);
+    EXPECT_GT(of_body, 20U);
+    scene.add(body);
+    const std::vector<std::size_t> counts = crossings_of_frames(scene, 24);
+    const std::string what = as_one ? "one object" : "two objects";
+    EXPECT_GT(counts.front(), of_body + 800) << what;
+    EXPECT_LT(counts[8], of_body + (counts.front() - of_body) / 2) << what;
+    EXPECT_EQ(counts.back(), of_body) << what;
+    for (std::size_t frame = 4; frame < counts.size(); ++frame)
+      EXPECT_LE(counts[frame], counts[frame - 4]) << what << ", frame " << frame;
+  }
+}
+
 /// Two sheets slotted into each other halfway: neither is cut into pieces.
 TEST(Untangle, SaysWhatItDoesNotLeadApart) {
   Scene scene = crossed(Intersections::untangle);

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "collision/bodies/triangle_nearest.h"
+#include "geometry/triangle.h"
 #include "math/vector.h"
 
 namespace pliant {
@@ -34,7 +35,8 @@ struct Way {
     return false;
   }
 
-  /// True if a path takes the solid lower over the plane of a triangle than `height` [m].
+  /// True if a path may take the solid lower over a triangle than `height` [m]: neither along the triangle's normal nor
+  /// along that from the triangle to the solid's centre does it stay higher. Hills beside a wheel are below its plane.
   bool passes(const ContactPath& path, int triangle, const BoxBounds& swept, double height) const {
     const MeshFace& face = mesh.face(triangle);
     if (!(length_squared(face.normal) > 0)) return false;
@@ -43,8 +45,16 @@ struct Way {
       if (most < low(swept, axis) || least > high(swept, axis)) return false;
     }
     const Vec3d normal = facing_normal(face, solid.centre(), mesh.is_terrain());
-    const double gap = dot(normal, solid.support(-normal) - face.corners[0]) - radii();
-    return gap + path.least_along(normal) < height;
+    if (!(least_along(path, face, normal) < height)) return false;
+    const auto& [a, b, c] = face.corners;
+    const Vec3d away = solid.centre() - closest_on_triangle(solid.centre(), a, b, c).point;
+    return !(length_squared(away) > 0) || least_along(path, face, away * (1 / length(away))) < height;
+  }
+  /// How far a path keeps the solid from a triangle along a direction, at least [m].
+  double least_along(const ContactPath& path, const MeshFace& face, const Vec3d& normal) const {
+    const auto& [a, b, c] = face.corners;
+    const double top = std::max({dot(normal, a), dot(normal, b), dot(normal, c)});
+    return dot(normal, solid.support(-normal)) - top - radii() + path.least_along(normal);
   }
   static double low(const BoxBounds& box, const double Vec3d::*axis) { return convert<double>(box.low).*axis; }
   static double high(const BoxBounds& box, const double Vec3d::*axis) { return convert<double>(box.high).*axis; }
@@ -86,11 +96,13 @@ std::vector<Met> met_on(const Way& way, const ContactPath& path, const std::vect
   return all;
 }
 
-PathContact first_of(std::vector<Met>& met, const Way& way, const ContactPath& path) {
+/// The first touch of any. `is_enough`: the others are not asked for where none can be earlier.
+PathContact first_of(std::vector<Met>& met, const Way& way, const ContactPath& path, bool is_enough) {
   PathContact first;
   for (Met& one : met) {
     one.at = way.meet(path, one.triangle);
     if (one.at.touches && (!first.touches || one.at.time < first.time)) first = one.at;
+    if (is_enough && first.touches && first.time <= 0) return first;
   }
   return first;
 }
@@ -123,11 +135,11 @@ PathContact put_on_path(const SolidInMesh& solid, const BodyMesh& mesh, const st
   ContactPath path = on.path;
   std::vector<Met> met = met_on(way, path, near, points, -on.slop);
   if (met.empty()) return {};
-  const PathContact first = first_of(met, way, path);
+  const PathContact first = first_of(met, way, path, met.size() > 1);
   if (first.touches && met.size() > 1) {
     path.turn(first.time, first.normal * -std::min(dot(first.normal, path.speed_at(first.time)), 0.));
     met = met_on(way, path, near, points, on.slop);  // what has been touched is not passed, yet holds the solid
-    first_of(met, way, path);
+    first_of(met, way, path, false);
   }
   std::vector<TrianglePoint> out;
   std::size_t next = 0;
