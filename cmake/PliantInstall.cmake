@@ -26,7 +26,7 @@ install(TARGETS ${PLIANT_INSTALLED_LIBRARIES} pliant_pliant EXPORT pliant-target
 # The C library, which needs none of the others: `cmake --install FOLDER --component c` installs it alone.
 if(TARGET pliant_c)
   install(TARGETS pliant_c EXPORT pliant-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT c NAMELINK_COMPONENT c)
-  install(FILES ${PROJECT_SOURCE_DIR}/bindings/c/include/pliant_c.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT c)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/c/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT c)
   file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
   string(REGEX REPLACE "/$" "" up "${up}")
   configure_file(${PROJECT_SOURCE_DIR}/bindings/c/pliant_c.pc.in ${PROJECT_BINARY_DIR}/pliant_c.pc @ONLY)

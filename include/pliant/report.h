@@ -193,10 +193,10 @@ struct TouchSide {
 };
 
 /// The contacts between a rigid body and another one, a collider or particles in a frame. `push` over the duration of the
-/// frame is the mean force between them. Friction is not in it, nor is the pressure of liquids (ContactEvent has that).
+/// frame is the mean force between them. The pressure of liquids is in it; friction is not.
 struct BodyTouch {
   TouchSide first, second;  ///< first < second
-  int contacts = 0;         ///< largest number of active contacts in a substep
+  int contacts = 0;         ///< largest number of active contacts in a substep; can be 0 for a liquid
   double impulse = 0;       ///< sum of the magnitudes of their normal impulses over the frame [N s]
   Vec3f position{};         ///< mean position of the contacts, weighted by impulse [m]
   Vec3d push{};             ///< sum of their normal impulses on `first` [N s]

@@ -71,12 +71,15 @@ void add_push(const ContactPush& push, ContactLog& log) {
   add_to(log.bodies[std::minmax(on, by)], push, on <= by ? 1 : -1);
 }
 
-void add_pressure(int on, int by, const Vec3d& impulse, const Vec3d& at, ContactLog& log) {
-  ContactSum& sum = log.things[std::minmax(on, by)];
+void add_pressure(const ContactSide& on, const ContactSide& by, const Vec3d& impulse, const Vec3d& at, ContactLog& log) {
   const double size = length(impulse);
-  sum.impulse += size;
-  sum.push += impulse * (on <= by ? 1. : -1.);
-  sum.moment += at * size;
+  const auto add = [&](ContactSum& sum, double sign) {
+    sum.impulse += size;
+    sum.push += impulse * sign;
+    sum.moment += at * size;
+  };
+  add(log.things[std::minmax(on.thing, by.thing)], on.thing <= by.thing ? 1 : -1);
+  if (on.body >= 0 || by.body >= 0) add(log.bodies[std::minmax(on, by)], on <= by ? 1 : -1);
 }
 
 void finish_substep(ContactLog& log) {

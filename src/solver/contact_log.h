@@ -49,8 +49,8 @@ struct ContactPush {
 
 /// Adds a push to the sums of the current substep.
 void add_push(const ContactPush& push, ContactLog& log);
-/// Adds the pressure of a liquid, which is no contact: the impulse on body `on` at the place `at`.
-void add_pressure(int on, int by, const Vec3d& impulse, const Vec3d& at, ContactLog& log);
+/// Adds the pressure of a liquid, which is no contact: the impulse on side `on` at the place `at`.
+void add_pressure(const ContactSide& on, const ContactSide& by, const Vec3d& impulse, const Vec3d& at, ContactLog& log);
 /// Ends the counting of a substep's contacts.
 void finish_substep(ContactLog& log);
 

@@ -25,7 +25,8 @@ Output called(const std::string& arguments) {
   Output output;
   FILE* pipe = popen((PLIANT_C_CALLS " " + arguments + " 2>&1").c_str(), "r");
   std::array<char, 4096> block{};
-  for (std::size_t n = 0; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;) output.text.append(block.data(), n);
+  for (std::size_t n = 0; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;)
+    output.text.append(block.data(), n);
   output.status = pclose(pipe);
   return output;
 }
@@ -53,7 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, CBits,
                          });
 
 TEST(C, EveryFunctionDoesWhatItsCommentSays) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("pliant_c_" + std::to_string(getpid()));
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("pliant_c_" + std::to_string(getpid()));
   std::filesystem::create_directory(folder);
   const Output output = called("check " + folder.string());
   std::filesystem::remove_all(folder);

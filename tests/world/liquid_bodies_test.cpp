@@ -138,6 +138,42 @@ TEST(LiquidBodies, ThatAreHeavierSink) {
       << "one layer of particles may stay below";
 }
 
+// What floats at rest is borne by the liquid: its pressure on each body, over the frame, is the body's weight.
+TEST(LiquidBodies, AreBorneByThePressureThatTheirTouchesTell) {
+  constexpr float width = 0.9f, depth = 0.4f, side = 0.2f, density[] = {0.3f, 0.6f};
+  Scene scene;
+  scene.add(make_liquid(fill_box({0, 0, 0}, {width, depth, 0.5f}, liquid_spacing), {.fluid = {.spacing = liquid_spacing}}));
+  add_tank(scene, {width, depth, 0.5f});
+  Object buoys;
+  for (int i = 0; i < 2; ++i) {
+    Solid solid{.shape = Box{{side / 2, side / 2, side / 2}}};
+    solid.density = 1000 * density[i];
+    add_body(buoys, {solid}, {.position = {i == 0 ? 0.25f : 0.65f, depth + side / 2 - side * density[i], 0.25f}});
+  }
+  scene.add(buoys);
+  scene.settings.threads = 1;
+  World world(scene);
+  for (int i = 0; i < 30; ++i) world.step(1.f / 60);
+  world.record_contact_events(true);
+  double push[2] = {}, of_things = 0;
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_TRUE(world.step(1.f / 60).ok());
+    for (const BodyTouch& touch : world.body_touches())
+      if (touch.first.thing == Thing(ObjectId{0})) {
+        ASSERT_EQ(touch.first.body, -1);
+        ASSERT_GE(touch.second.body, 0);
+        push[touch.second.body] += touch.push.y;
+      }
+    for (const ContactEvent& event : world.contact_events())
+      if (event.first == Thing(ObjectId{0}) && event.second == Thing(ObjectId{1})) of_things += event.push.y;
+  }
+  for (int i = 0; i < 2; ++i) {
+    const double weight = 1000 * static_cast<double>(density[i]) * side * side * side * 9.81;
+    EXPECT_NEAR(push[i], -weight, 0.03 * weight) << "buoy " << i;
+  }
+  EXPECT_NEAR(push[0] + push[1], of_things, 1e-9 * std::abs(of_things)) << "the events sum what the touches have";
+}
+
 TEST(LiquidBodies, AndLiquidKeepTheirMomentum) {
   Scene scene;
   scene.gravity = {};

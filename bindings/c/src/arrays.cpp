@@ -50,7 +50,9 @@ void add_array(const pliant_array& array, SceneArrays& to) {
         "give 3 for triangles, 4 for tetrahedra, 0 for points");
 }
 
-bool same(const TriangleMesh& a, const TriangleMesh& b) { return a.positions == b.positions && a.triangles == b.triangles; }
+bool same(const TriangleMesh& a, const TriangleMesh& b) {
+  return a.positions == b.positions && a.triangles == b.triangles;
+}
 bool same(const TetrahedralMesh& a, const TetrahedralMesh& b) {
   return a.positions == b.positions && a.tetrahedra == b.tetrahedra;
 }

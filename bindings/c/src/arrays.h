@@ -6,11 +6,12 @@
 
 namespace pliant::c {
 
-/// Copies arrays. Throws a StatusError for null pointers, sizes and numbers of corners that do not exist, and for a name that occurs twice.
+/// Copies arrays. Throws a StatusError for null pointers, wrong sizes, numbers of corners that do not exist, and for a
+/// name that occurs twice.
 SceneArrays arrays_of(const pliant_array* arrays, size_t count);
 
-/// Adds arrays to others, and returns the names of those that were not there. Throws a StatusError if a name is taken by another array; then
-/// nothing is added.
+/// Adds arrays to others, and returns the names of those that were not there. Throws a StatusError if a name is taken
+/// by another array; then nothing is added.
 std::vector<std::string> add_arrays(SceneArrays& to, SceneArrays&& from);
 void remove_arrays(SceneArrays& from, const std::vector<std::string>& names);
 

@@ -23,6 +23,12 @@ void require_index(const std::vector<Named>& list, std::int32_t index, const cha
                       "it has " + std::to_string(list.size()) + ", counted from 0");
 }
 
+template <class Named>
+void give_name(const std::vector<Named>& list, std::int32_t index, const char* what, const Room<char>& room) {
+  require_index(list, index, what);
+  give_text(list[static_cast<size_t>(index)].name, room);
+}
+
 }  // namespace
 
 }  // namespace pliant::c
@@ -39,6 +45,15 @@ pliant_status pliant_object_find_body(const pliant_world* world, pliant_id objec
   });
 }
 
+pliant_status pliant_object_body_name(const pliant_world* world, pliant_id object, int32_t body, char* into,
+                                      size_t capacity, size_t* length) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    const std::vector<ObjectBody>& bodies = use.object().description().bodies;
+    give_name(bodies, body, "body", {into, capacity, length});
+  });
+}
+
 pliant_status pliant_object_body_pose(const pliant_world* world, pliant_id object, int32_t body, pliant_pose* pose) {
   return guarded([&] {
     const ObjectUse use(world, object);
@@ -47,7 +62,8 @@ pliant_status pliant_object_body_pose(const pliant_world* world, pliant_id objec
   });
 }
 
-pliant_status pliant_object_set_body_pose(pliant_world* world, pliant_id object, int32_t body, const pliant_pose* pose) {
+pliant_status pliant_object_set_body_pose(pliant_world* world, pliant_id object, int32_t body,
+                                          const pliant_pose* pose) {
   return guarded([&] {
     const ObjectUse use(world, object);
     require_index(use.object().description().bodies, body, "body");
@@ -82,6 +98,29 @@ pliant_status pliant_object_find_joint(const pliant_world* world, pliant_id obje
   });
 }
 
+pliant_status pliant_object_joint_name(const pliant_world* world, pliant_id object, int32_t joint, char* into,
+                                       size_t capacity, size_t* length) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    const std::vector<ObjectJoint>& joints = use.object().description().joints;
+    give_name(joints, joint, "joint", {into, capacity, length});
+  });
+}
+
+pliant_status pliant_object_joint_state(const pliant_world* world, pliant_id object, int32_t joint,
+                                        pliant_joint_state* state) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require(state, "state");
+    require_index(use.object().description().joints, joint, "joint");
+    const JointState found = use.object().joint_state(joint);
+    put3(found.displacement, state->displacement);
+    put3(found.rotation, state->rotation);
+    put3(found.velocity, state->velocity);
+    put3(found.angular_velocity, state->angular_velocity);
+  });
+}
+
 pliant_status pliant_object_joint_load(const pliant_world* world, pliant_id object, int32_t joint, float* force,
                                        float* torque, int32_t* broken) {
   return guarded([&] {
@@ -91,9 +130,22 @@ pliant_status pliant_object_joint_load(const pliant_world* world, pliant_id obje
     require_index(use.object().description().joints, joint, "joint");
     const JointLoad load = use.object().joint_load(joint);
     const bool is_broken = use.object().joint_is_broken(joint);
-    force[0] = load.force.x, force[1] = load.force.y, force[2] = load.force.z;
-    torque[0] = load.torque.x, torque[1] = load.torque.y, torque[2] = load.torque.z;
+    put3(load.force, force);
+    put3(load.torque, torque);
     if (broken != nullptr) *broken = is_broken ? 1 : 0;
+  });
+}
+
+pliant_status pliant_object_mean_joint_load(const pliant_world* world, pliant_id object, int32_t joint, float* force,
+                                            float* torque) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require(force, "force");
+    require(torque, "torque");
+    require_index(use.object().description().joints, joint, "joint");
+    const JointLoad load = use.object().mean_joint_load(joint);
+    put3(load.force, force);
+    put3(load.torque, torque);
   });
 }
 

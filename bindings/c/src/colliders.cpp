@@ -30,7 +30,8 @@ pliant_status pliant_collider_pose(const pliant_world* world, pliant_id collider
 }
 
 pliant_status pliant_collider_set_pose(pliant_world* world, pliant_id collider, const pliant_pose* pose) {
-  return guarded([&] { with_collider(world, collider, [&](auto handle) { handle.set_pose(c::pose_of(pose, "pose")); }); });
+  return guarded(
+      [&] { with_collider(world, collider, [&](auto handle) { handle.set_pose(c::pose_of(pose, "pose")); }); });
 }
 
 pliant_status pliant_collider_teleport(pliant_world* world, pliant_id collider, const pliant_pose* by) {
@@ -54,7 +55,8 @@ pliant_status pliant_collider_positions(const pliant_world* world, pliant_id col
   });
 }
 
-pliant_status pliant_collider_set_positions(pliant_world* world, pliant_id collider, const float* positions, size_t count) {
+pliant_status pliant_collider_set_positions(pliant_world* world, pliant_id collider, const float* positions,
+                                            size_t count) {
   return guarded([&] {
     const auto of = at(world);
     const MeshColliderId id = mesh_collider_id(of->world, collider);

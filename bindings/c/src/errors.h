@@ -36,7 +36,8 @@ pliant_status guarded(const Body& body) noexcept {
 /// Throws a StatusError unless the pointer is there. `what` is the name of the parameter.
 inline void require(const void* pointer, const char* what) {
   if (pointer == nullptr)
-    throw StatusError(PLIANT_NULL, std::string("'") + what + "' is a null pointer", "pass the address of what is meant");
+    throw StatusError(PLIANT_NULL, std::string("'") + what + "' is a null pointer",
+                      "pass the address of what is meant");
 }
 
 }  // namespace pliant::c

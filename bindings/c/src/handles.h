@@ -1,5 +1,5 @@
-// Handles are numbers in the guise of pointers: a slot of a table, its generation and a kind. What was freed is found out
-// without touching its memory, so that a stale handle gives a status.
+// Handles are numbers in the guise of pointers: a slot of a table, its generation and a kind. A stale handle is
+// recognised without touching the memory of what was freed, and gives a status.
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@ namespace pliant::c {
 
 enum class Kind : std::uint8_t { none, scene, world, state, writer };
 
-/// What a slot of the table holds, and the flag that stops it if it is a World: it lives as long as the process, so that
-/// signal handlers can set it without a lock.
+/// What a slot of the table holds, and the flag that stops it if it is a World. The flag lives as long as the process,
+/// so that signal handlers can set it without a lock.
 struct Kept {
   std::shared_ptr<void> what;
   std::atomic<bool>* stop = nullptr;
@@ -21,8 +21,8 @@ struct Kept {
 
 /// Puts something into the table and returns its handle. Throws std::bad_alloc if the table is full.
 void* put(std::shared_ptr<void> what, Kind kind);
-/// Finds it again. It stays until the caller lets it go, even if another thread frees its handle. Throws a StatusError if the handle
-/// is null, stale or of another kind.
+/// Finds it again. It stays until the caller lets it go, even if another thread frees its handle. Throws a StatusError
+/// if the handle is null, stale or of another kind.
 Kept find(const void* handle, Kind kind);
 /// Takes it out of the table, so that the handle is stale. Throws as find() does.
 std::shared_ptr<void> take(const void* handle, Kind kind);
@@ -34,28 +34,23 @@ struct WorldHandle;
 struct StateHandle;
 struct WriterHandle;
 
+/// What handles of a C type refer to, and their kind.
+template <class What, Kind of_kind>
+struct Refers {
+  using Type = What;
+  static constexpr Kind kind = of_kind;
+};
+
 template <class Handle>
 struct HandleOf;
 template <>
-struct HandleOf<pliant_scene> {
-  using Type = SceneHandle;
-  static constexpr Kind kind = Kind::scene;
-};
+struct HandleOf<pliant_scene> : Refers<SceneHandle, Kind::scene> {};
 template <>
-struct HandleOf<pliant_world> {
-  using Type = WorldHandle;
-  static constexpr Kind kind = Kind::world;
-};
+struct HandleOf<pliant_world> : Refers<WorldHandle, Kind::world> {};
 template <>
-struct HandleOf<pliant_state> {
-  using Type = StateHandle;
-  static constexpr Kind kind = Kind::state;
-};
+struct HandleOf<pliant_state> : Refers<StateHandle, Kind::state> {};
 template <>
-struct HandleOf<pliant_writer> {
-  using Type = WriterHandle;
-  static constexpr Kind kind = Kind::writer;
-};
+struct HandleOf<pliant_writer> : Refers<WriterHandle, Kind::writer> {};
 
 /// What a handle refers to.
 template <class Handle>

@@ -22,11 +22,13 @@ struct Room {
   size_t* count;
 };
 
-/// Tells the number of elements; returns true if they are to be copied. Throws a StatusError if there is too little room.
+/// Tells the number of elements. Returns true if they are to be copied. Throws a StatusError if there is too little
+/// room.
 template <class T>
 bool tell(const Room<T>& room, size_t needed, const char* elements) {
   if (room.into == nullptr && room.capacity > 0)
-    throw StatusError(PLIANT_NULL, "'into' is a null pointer, and its capacity is not 0", "pass 0 to ask for the length");
+    throw StatusError(PLIANT_NULL, "'into' is a null pointer, and its capacity is not 0",
+                      "pass 0 to ask for the length");
   if (room.count != nullptr) *room.count = needed;
   if (room.into == nullptr) return false;
   if (room.capacity >= needed) return true;
@@ -59,7 +61,7 @@ inline void require_size(size_t given, size_t least, const char* what) {
         "set its member `size` to sizeof the structure");
 }
 
-/// Copies facts to a structure of the caller's, which may be of a later or, once structures have grown, of an earlier version.
+/// Copies facts to a structure of the caller's, which may be of a later version of the header.
 template <class T>
 void give(const T& facts, T* into, const char* what) {
   require(into, what);
@@ -99,6 +101,12 @@ inline void give_pose(const RigidPose& pose, pliant_pose* into) {
   require(into, "pose");
   *into = {{pose.position.x, pose.position.y, pose.position.z},
            {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w}};
+}
+
+/// Copies a vector to three floats or doubles.
+template <class Vector, class T>
+void put3(const Vector& from, T* to) {
+  to[0] = from.x, to[1] = from.y, to[2] = from.z;
 }
 
 inline Vec3f vector_of(const float* from, const char* what) {

@@ -75,14 +75,16 @@ pliant_status pliant_object_triangles(const pliant_world* world, pliant_id objec
   });
 }
 
-pliant_status pliant_object_mesh(const pliant_world* world, pliant_id object, float* positions, size_t position_capacity,
-                                 size_t* position_count, int32_t* triangles, size_t triangle_capacity,
-                                 size_t* triangle_count) {
+pliant_status pliant_object_mesh(const pliant_world* world, pliant_id object, float* positions,
+                                 size_t position_capacity, size_t* position_count, int32_t* triangles,
+                                 size_t triangle_capacity, size_t* triangle_count) {
   return guarded([&] {
     const ObjectUse use(world, object);
     const TriangleMesh mesh = use.object().mesh();
-    if (triangle_count != nullptr) *triangle_count = mesh.triangles.size();  // told even if the points have too little room
-    const bool has_points = tell<float>({positions, position_capacity, position_count}, mesh.positions.size(), "points");
+    if (triangle_count != nullptr)
+      *triangle_count = mesh.triangles.size();  // told even if the points have too little room
+    const bool has_points =
+        tell<float>({positions, position_capacity, position_count}, mesh.positions.size(), "points");
     const bool has_triangles =
         tell<int32_t>({triangles, triangle_capacity, triangle_count}, mesh.triangles.size(), "triangles");
     if (has_points) std::copy(mesh.positions.begin(), mesh.positions.end(), reinterpret_cast<Vec3f*>(positions));
@@ -90,7 +92,45 @@ pliant_status pliant_object_mesh(const pliant_world* world, pliant_id object, fl
   });
 }
 
-pliant_status pliant_object_set_velocities(pliant_world* world, pliant_id object, const float* velocities, size_t count) {
+pliant_status pliant_object_orientations(const pliant_world* world, pliant_id object, float* into, size_t capacity,
+                                         size_t* count) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    const std::vector<Quatf> frames = use.object().orientations();
+    if (!tell<float>({into, capacity, count}, frames.size(), "orientations")) return;
+    for (const Quatf& q : frames) *into++ = q.x, *into++ = q.y, *into++ = q.z, *into++ = q.w;
+  });
+}
+
+pliant_status pliant_object_angular_velocities(const pliant_world* world, pliant_id object, float* into,
+                                               size_t capacity, size_t* count) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    const std::vector<Vec3f> spins = use.object().angular_velocities();
+    if (!tell<float>({into, capacity, count}, spins.size(), "angular velocities")) return;
+    std::copy(spins.begin(), spins.end(), reinterpret_cast<Vec3f*>(into));
+  });
+}
+
+pliant_status pliant_object_multipliers(const pliant_world* world, pliant_id object, const char* type, float* into,
+                                        size_t capacity, size_t* count) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require(type, "type");
+    give_list<float>(use.object().multipliers(type), {into, capacity, count}, "multipliers");
+  });
+}
+
+pliant_status pliant_object_enclosed_volume(const pliant_world* world, pliant_id object, double* volume) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require(volume, "volume");
+    *volume = use.object().enclosed_volume();
+  });
+}
+
+pliant_status pliant_object_set_velocities(pliant_world* world, pliant_id object, const float* velocities,
+                                           size_t count) {
   return guarded([&] {
     const ObjectUse use(world, object);
     use.object().set_velocities(points(velocities, count, "velocities"));
@@ -123,7 +163,8 @@ pliant_status pliant_object_set_attachment_targets(pliant_world* world, pliant_i
                                                    const float* positions, size_t count) {
   return guarded([&] {
     const ObjectUse use(world, object);
-    use.object().set_attachment_targets(integers(attachments, count, "attachments"), points(positions, count, "positions"));
+    use.object().set_attachment_targets(integers(attachments, count, "attachments"),
+                                        points(positions, count, "positions"));
   });
 }
 

@@ -83,17 +83,17 @@ pliant_status pliant_report_number(const pliant_world* world, const char* name, 
     const auto of = at(world);
     require(name, "name");
     require(value, "value");
-    for (const auto& number : numbers)
-      if (std::strcmp(number.name, name) == 0) {
-        *value = number.value(of->report);
-        return;
-      }
-    throw StatusError(PLIANT_NOT_FOUND, std::string("a report has no number '") + name + "'",
-                      "pliant_report_number_name lists them");
+    const auto* number = find_number(numbers, name);
+    if (number == nullptr)
+      throw StatusError(PLIANT_NOT_FOUND, std::string("a report has no number '") + name + "'",
+                        "pliant_report_number_name lists them");
+    *value = number->value(of->report);
   });
 }
 
-const char* pliant_report_number_name(size_t index) { return index < std::size(numbers) ? numbers[index].name : nullptr; }
+const char* pliant_report_number_name(size_t index) {
+  return index < std::size(numbers) ? numbers[index].name : nullptr;
+}
 
 pliant_status pliant_report_explain(const pliant_world* world, char* into, size_t capacity, size_t* length) {
   return guarded([&] { give_text(at(world)->report.explain(), {into, capacity, length}); });

@@ -45,7 +45,7 @@ std::shared_ptr<SceneHandle> scene_from(std::function<SceneFile(const SceneReadO
 /// True if an object has to be read together with the rest of the scene: a fill leaves out the solids around it.
 bool depends_on_others(const std::string& json) { return json.find("\"fill\"") != std::string::npos; }
 
-/// Takes the values that the scene was read with out of its options, which then suit a part of it, until it is destroyed.
+/// While it lives, the scene's options have no values to set: those are of the whole scene, not of a part of it.
 class WithoutValues {
  public:
   explicit WithoutValues(SceneReadOptions& options) : options_(options) { values_.swap(options.values); }
@@ -58,7 +58,15 @@ class WithoutValues {
   std::vector<std::pair<std::string, std::string>> values_;
 };
 
-/// Adds to a scene by `add`, and writes it down for the next reading. If that throws, the scene is as it was.
+/// Reads an object or collider with the arrays of the scene.
+template <class Parse>
+auto parse_part(SceneHandle& scene, const Parse& parse, const std::string& json, const char* name,
+                std::vector<std::string>& repairs) {
+  const WithoutValues without(scene.options);
+  return parse(json, name, scene.folder, scene.options, &repairs);
+}
+
+/// Adds to a scene by `add`, and keeps the text for the next reading. If that throws, the scene is as it was.
 template <class Add>
 pliant_id add_to(SceneHandle& scene, const std::pair<const char*, const char*>& value, SceneArrays&& arrays,
                  const Add& add) {
@@ -78,11 +86,7 @@ pliant_id add_to(SceneHandle& scene, const std::pair<const char*, const char*>& 
 
 pliant_id add_object(SceneHandle& scene, const std::string& json) {
   std::vector<std::string> repairs;
-  Object object;
-  {
-    const WithoutValues without(scene.options);
-    object = parse_object(json, "object", scene.folder, scene.options, &repairs);
-  }
+  Object object = parse_part(scene, parse_object, json, "object", repairs);
   if (scene.source && depends_on_others(json)) {
     read_again(scene);
     return {PLIANT_OBJECT, static_cast<std::int32_t>(scene.scene.objects.size()) - 1, 0};
@@ -92,13 +96,24 @@ pliant_id add_object(SceneHandle& scene, const std::string& json) {
 }
 
 pliant_id add_collider(SceneHandle& scene, const std::string& json) {
-  const WithoutValues without(scene.options);
   std::vector<std::string> repairs;
-  auto collider = parse_collider(json, "collider", scene.folder, scene.options, &repairs);
+  auto collider = parse_part(scene, parse_collider, json, "collider", repairs);
   scene.notes.insert(scene.notes.end(), repairs.begin(), repairs.end());
   if (auto* primitive = std::get_if<Collider>(&collider))
     return {PLIANT_COLLIDER, scene.scene.add(std::move(*primitive)), 0};
   return {PLIANT_MESH_COLLIDER, scene.scene.add(std::get<MeshCollider>(std::move(collider))), 0};
+}
+
+/// The body of pliant_scene_add_object and _collider. `value` is a JSON pointer and the JSON to add there.
+template <class Add>
+pliant_status add_by_handle(pliant_scene* scene, const std::pair<const char*, const char*>& value,
+                            const std::pair<const pliant_array*, size_t>& arrays, pliant_id* id, const Add& add) {
+  return guarded([&] {
+    const auto to = at(scene);
+    require(value.second, "json");
+    const pliant_id made = add_to(*to, value, arrays_of(arrays.first, arrays.second), add);
+    if (id != nullptr) *id = made;
+  });
 }
 
 }  // namespace
@@ -122,8 +137,8 @@ pliant_status pliant_scene_parse(const char* text, const pliant_scene_options* o
     require(text, "text");
     require(scene, "scene");
     const SceneReadOptions read = options_of(options);
-    const std::string name = text_or(options == nullptr ? nullptr : options->name, "scene");
-    const std::string folder = text_or(options == nullptr ? nullptr : options->folder, ".");
+    const pliant_scene_options given = options == nullptr ? pliant_scene_options{} : *options;
+    const std::string name = text_or(given.name, "scene"), folder = text_or(given.folder, ".");
     const auto source = [text = std::string(text), name, folder](const SceneReadOptions& with) {
       return parse_scene_file(text, name, folder, with);
     };
@@ -135,7 +150,9 @@ pliant_status pliant_scene_read(const char* path, const pliant_scene_options* op
   return guarded([&] {
     require(path, "path");
     require(scene, "scene");
-    const auto source = [path = std::string(path)](const SceneReadOptions& with) { return read_scene_file(path, with); };
+    const auto source = [path = std::string(path)](const SceneReadOptions& with) {
+      return read_scene_file(path, with);
+    };
     const std::string folder = std::filesystem::path(path).parent_path().string();
     give_handle(scene_from(source, folder, options_of(options)), scene);
   });
@@ -165,22 +182,12 @@ pliant_status pliant_scene_free(pliant_scene* scene) { return free_handle(scene)
 
 pliant_status pliant_scene_add_object(pliant_scene* scene, const char* json, const pliant_array* arrays, size_t count,
                                       pliant_id* id) {
-  return guarded([&] {
-    const auto to = at(scene);
-    require(json, "json");
-    const pliant_id made = add_to(*to, {"/objects/-", json}, arrays_of(arrays, count), add_object);
-    if (id != nullptr) *id = made;
-  });
+  return add_by_handle(scene, {"/objects/-", json}, {arrays, count}, id, add_object);
 }
 
 pliant_status pliant_scene_add_collider(pliant_scene* scene, const char* json, const pliant_array* arrays, size_t count,
                                         pliant_id* id) {
-  return guarded([&] {
-    const auto to = at(scene);
-    require(json, "json");
-    const pliant_id made = add_to(*to, {"/colliders/-", json}, arrays_of(arrays, count), add_collider);
-    if (id != nullptr) *id = made;
-  });
+  return add_by_handle(scene, {"/colliders/-", json}, {arrays, count}, id, add_collider);
 }
 
 pliant_status pliant_scene_add_force(pliant_scene* scene, pliant_force force, void* user) {

@@ -32,6 +32,10 @@ pliant_status pliant_state_restore(pliant_world* world, const pliant_state* stat
   });
 }
 
+pliant_status pliant_state_hash(const pliant_state* state, char* into, size_t capacity, size_t* length) {
+  return guarded([&] { give_text(hash(at(state)->state), {into, capacity, length}); });
+}
+
 pliant_status pliant_state_bytes(const pliant_state* state, void* into, size_t capacity, size_t* count) {
   return guarded([&] {
     const std::vector<std::byte> bytes = save_bytes(at(state)->state);

@@ -80,8 +80,8 @@ pliant_status pliant_world_create(const pliant_scene* scene, int32_t threads, pl
     const int own = from->scene.settings.threads;
     if (threads > 0) from->scene.settings.threads = threads;
     try {
-      auto made =
-          std::make_shared<WorldHandle>(World(from->scene, KeepDescription{}), from->scene.frame_time, from->scene.frames);
+      auto made = std::make_shared<WorldHandle>(World(from->scene, KeepDescription{}), from->scene.frame_time,
+                                                from->scene.frames);
       from->scene.settings.threads = own;
       give_world(std::move(made), world);
     } catch (...) {
@@ -160,12 +160,11 @@ pliant_status pliant_world_measure(const pliant_world* world, const char* name, 
     const auto of = at(world);
     require(name, "name");
     require(value, "value");
-    for (const auto& measure : measures)
-      if (std::strcmp(measure.name, name) == 0) {
-        *value = measure.value(of->world.measure());
-        return;
-      }
-    throw StatusError(PLIANT_NOT_FOUND, std::string("there is no measure '") + name + "'", "pliant_c.h lists them");
+    const auto* measure = find_number(measures, name);
+    if (measure == nullptr)
+      throw StatusError(PLIANT_NOT_FOUND, std::string("there is no measure '") + name + "'",
+                        "the comment on pliant_world_measure lists them");
+    *value = measure->value(of->world.measure());
   });
 }
 

@@ -59,11 +59,23 @@ pliant_contact contact_of(const ContactEvent& event) {
   contact.second = id_of(event.second);
   contact.contacts = event.contacts;
   contact.impulse = event.impulse;
-  const auto put3 = [](const auto& from, auto* to) { to[0] = from.x, to[1] = from.y, to[2] = from.z; };
   put3(event.position, contact.position);
   put3(event.normal, contact.normal);
   put3(event.push, contact.push_on_first);
   return contact;
+}
+
+pliant_body_touch touch_of(const BodyTouch& from) {
+  pliant_body_touch touch{};
+  touch.first = id_of(from.first.thing);
+  touch.first_body = from.first.body;
+  touch.second = id_of(from.second.thing);
+  touch.second_body = from.second.body;
+  touch.contacts = from.contacts;
+  touch.impulse = from.impulse;
+  put3(from.position, touch.position);
+  put3(from.push, touch.push_on_first);
+  return touch;
 }
 
 SceneReadOptions with_arrays(const pliant_array* arrays, size_t count) {
@@ -97,7 +109,8 @@ pliant_status pliant_world_find(const pliant_world* world, int32_t kind, const c
   });
 }
 
-pliant_status pliant_world_ids(const pliant_world* world, int32_t kind, pliant_id* into, size_t capacity, size_t* count) {
+pliant_status pliant_world_ids(const pliant_world* world, int32_t kind, pliant_id* into, size_t capacity,
+                               size_t* count) {
   return guarded([&] {
     const auto of = at(world);
     const Room<pliant_id> room{into, capacity, count};
@@ -158,4 +171,18 @@ pliant_status pliant_world_contacts(const pliant_world* world, pliant_contact* i
     if (!tell<pliant_contact>({into, capacity, count}, events.size(), "contacts")) return;
     std::transform(events.begin(), events.end(), into, contact_of);
   });
+}
+
+pliant_status pliant_world_body_touches(const pliant_world* world, pliant_body_touch* into, size_t capacity,
+                                        size_t* count) {
+  return guarded([&] {
+    const auto of = at(world);
+    const std::vector<BodyTouch>& touches = of->world.body_touches();
+    if (!tell<pliant_body_touch>({into, capacity, count}, touches.size(), "touches")) return;
+    std::transform(touches.begin(), touches.end(), into, touch_of);
+  });
+}
+
+pliant_status pliant_world_record_joint_loads(pliant_world* world, int32_t on) {
+  return guarded([&] { at(world)->world.record_joint_loads(on != 0); });
 }

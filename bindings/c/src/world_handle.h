@@ -1,7 +1,9 @@
 // What a World's handle refers to.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <thread>
 
 #include "handles.h"
@@ -34,6 +36,14 @@ struct NamedNumber {
   const char* name;
   double (*value)(Of...);
 };
+
+/// The number of that name in a list; null if there is none.
+template <size_t count, class... Of>
+const NamedNumber<Of...>* find_number(const NamedNumber<Of...> (&numbers)[count], const char* name) {
+  const auto has_name = [&](const NamedNumber<Of...>& number) { return std::strcmp(number.name, name) == 0; };
+  const auto* found = std::find_if(numbers, numbers + count, has_name);
+  return found == numbers + count ? nullptr : found;
+}
 
 /// The id of an object that exists. Throws a StatusError if it is stale or of another kind.
 ObjectId object_id(const World& world, pliant_id id);

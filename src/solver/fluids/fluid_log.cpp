@@ -9,13 +9,14 @@ namespace pliant {
 
 namespace {
 
-/// The number of a wall as a body of the contact log.
-int body_of(const Substep& s, const FluidBounds& bounds, std::int32_t wall) {
+/// A wall as a side of the contact log.
+ContactSide side_of(const Substep& s, const FluidBounds& bounds, std::int32_t wall) {
   const int colliders = bounds.number_of_colliders(), primitives = static_cast<int>(s.model.colliders.size());
-  if (wall < primitives) return body_of_collider(wall);
-  if (wall < colliders) return s.model.fields[static_cast<std::size_t>(wall - primitives)].object;
+  if (wall < primitives) return {body_of_collider(wall), -1};
+  if (wall < colliders) return {s.model.fields[static_cast<std::size_t>(wall - primitives)].object, -1};
   const int body = s.bodies->solids().body_of_solid()[static_cast<std::size_t>(wall - colliders)];
-  return s.model.object_of(s.bodies->touched_bodies()[static_cast<std::size_t>(body)].particle);
+  const TouchedBody& touched = s.bodies->touched_bodies()[static_cast<std::size_t>(body)];
+  return {touched.object, touched.body};
 }
 
 void log_slot(const Substep& s, const FluidPool& pool, const FluidBounds& bounds, int slot, ContactLog& log) {
@@ -26,7 +27,8 @@ void log_slot(const Substep& s, const FluidPool& pool, const FluidBounds& bounds
   const Vec3f at{place.x, place.y, place.z};
   for (const WallGradient& wall : pool.walls.gradients(pool.law, bounds, at, slot / NeighbourLists::lanes)) {
     const double size = static_cast<double>(pool.mass) * static_cast<double>(place.w) / static_cast<double>(s.h);
-    add_pressure(liquid, body_of(s, bounds, wall.which), convert<double>(wall.gradient) * size, convert<double>(at), log);
+    add_pressure({liquid, -1}, side_of(s, bounds, wall.which), convert<double>(wall.gradient) * size, convert<double>(at),
+                 log);
   }
 }
 

@@ -18,8 +18,8 @@ int check(int holds, const char* what, const char* file, int line) {
 
 int check_status(pliant_status given, pliant_status expected, const char* call, const char* file, int line) {
   if (given != expected) {
-    printf("%s:%d: %s instead of %s: %s\n  %s\n", file, line, pliant_status_name(given), pliant_status_name(expected), call,
-           pliant_last_error());
+    printf("%s:%d: %s instead of %s: %s\n  %s\n", file, line, pliant_status_name(given), pliant_status_name(expected),
+           call, pliant_last_error());
     ++failed;
   }
   return given == expected;
@@ -38,8 +38,8 @@ int is_near(double a, double b, double within) { return fabs(a - b) <= within; }
 
 pliant_scene* empty_scene(void) {
   pliant_scene* scene = NULL;
-  OK(pliant_scene_parse("{\"gravity\": [0, 0, 0], \"settings\": {\"substeps\": 2, \"threads\": 1}, \"objects\": []}", NULL,
-                        &scene));
+  OK(pliant_scene_parse("{\"gravity\": [0, 0, 0], \"settings\": {\"substeps\": 2, \"threads\": 1}, \"objects\": []}",
+                        NULL, &scene));
   return scene;
 }
 
@@ -72,10 +72,11 @@ pliant_array sheet_array(void) {
 pliant_world* sheet_world(void) {
   const pliant_array array = sheet_array();
   pliant_scene* scene = empty_scene();
-  OK(pliant_scene_add_object(scene,
-                             "{\"name\": \"flag\", \"cloth\": {\"mesh\": {\"array\": \"sheet\"}, \"material\": \"cotton\"},"
-                             " \"pins\": [{\"particles\": [0]}], \"attachments\": [{\"particles\": [8]}]}",
-                             &array, 1, NULL));
+  OK(pliant_scene_add_object(
+      scene,
+      "{\"name\": \"flag\", \"cloth\": {\"mesh\": {\"array\": \"sheet\"}, \"material\": \"cotton\"},"
+      " \"pins\": [{\"particles\": [0]}], \"attachments\": [{\"particles\": [8]}]}",
+      &array, 1, NULL));
   return world_of(scene);
 }
 

@@ -1,4 +1,5 @@
-/* hash SCENE FRAMES: prints the hash after so many frames. report SCENE FRAMES: prints the report of the last one as JSON, then its numbers.
+/* hash SCENE FRAMES: prints the hash after so many frames.
+ * report SCENE FRAMES: prints the report of the last one as JSON, then its numbers.
  * check FOLDER: calls every function, and prints what does not hold. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -37,6 +37,8 @@ static void with_world(pliant_world* world, pliant_status expected) {
   GIVES(expected, pliant_world_measure(world, "stretch.mean", &value));
   GIVES(expected, pliant_world_record_contacts(world, 1));
   GIVES(expected, pliant_world_contacts(world, NULL, 0, &count));
+  GIVES(expected, pliant_world_body_touches(world, NULL, 0, &count));
+  GIVES(expected, pliant_world_record_joint_loads(world, 1));
   GIVES(expected, pliant_world_scene(world, &scene));
   GIVES(expected, pliant_world_save(world, "never.world"));
   GIVES(expected, pliant_world_bytes(world, NULL, 0, &count));
@@ -53,8 +55,10 @@ static void with_world(pliant_world* world, pliant_status expected) {
 /* Every function of an object with this World and id. */
 static void with_object(pliant_world* world, pliant_id id, pliant_status expected) {
   pliant_object_info info = {sizeof info, 0, 0, 0, 0, 0, 0, 0, 0};
+  pliant_joint_state state;
   size_t count = 0;
   int32_t one;
+  double volume;
   GIVES(expected, pliant_object_get_info(world, id, &info));
   GIVES(expected, pliant_object_positions(world, id, floats, 9));
   GIVES(expected, pliant_object_velocities(world, id, floats, 9));
@@ -62,6 +66,10 @@ static void with_object(pliant_world* world, pliant_id id, pliant_status expecte
   GIVES(expected, pliant_object_channel(world, id, "water", NULL, 0, &count));
   GIVES(expected, pliant_object_triangles(world, id, NULL, 0, &count));
   GIVES(expected, pliant_object_mesh(world, id, NULL, 0, &count, NULL, 0, &count));
+  GIVES(expected, pliant_object_orientations(world, id, NULL, 0, &count));
+  GIVES(expected, pliant_object_angular_velocities(world, id, NULL, 0, &count));
+  GIVES(expected, pliant_object_multipliers(world, id, "distance", NULL, 0, &count));
+  GIVES(expected, pliant_object_enclosed_volume(world, id, &volume));
   GIVES(expected, pliant_object_set_velocities(world, id, floats, 9));
   GIVES(expected, pliant_object_add_impulses(world, id, floats, 9));
   GIVES(expected, pliant_object_set_forces(world, id, floats, 9));
@@ -70,12 +78,16 @@ static void with_object(pliant_world* world, pliant_id id, pliant_status expecte
   GIVES(expected, pliant_object_teleport(world, id, &pose));
   GIVES(expected, pliant_object_set_rest_factor(world, id, 0, 1));
   GIVES(expected, pliant_object_find_body(world, id, "leaf", &one));
+  GIVES(expected, pliant_object_body_name(world, id, 0, NULL, 0, &count));
   GIVES(expected, pliant_object_body_pose(world, id, 0, &pose));
   GIVES(expected, pliant_object_set_body_pose(world, id, 0, &pose));
   GIVES(expected, pliant_object_set_body_surface_velocity(world, id, 0, floats));
   GIVES(expected, pliant_object_body_asleep(world, id, 0, &one));
   GIVES(expected, pliant_object_find_joint(world, id, "hinge", &one));
+  GIVES(expected, pliant_object_joint_name(world, id, 0, NULL, 0, &count));
+  GIVES(expected, pliant_object_joint_state(world, id, 0, &state));
   GIVES(expected, pliant_object_joint_load(world, id, 0, floats, floats, NULL));
+  GIVES(expected, pliant_object_mean_joint_load(world, id, 0, floats, floats));
   GIVES(expected, pliant_object_set_motor(world, id, "hinge", NULL, 0, 0));
 }
 
@@ -148,6 +160,13 @@ static void test_null(void) {
   GIVES(PLIANT_NULL, pliant_object_positions(world, object_at(0), NULL, 9));
   GIVES(PLIANT_NULL, pliant_object_set_targets(world, object_at(0), NULL, floats, 1));
   GIVES(PLIANT_NULL, pliant_object_teleport(world, object_at(0), NULL));
+  GIVES(PLIANT_NULL, pliant_object_multipliers(world, object_at(0), NULL, NULL, 0, &count));
+  GIVES(PLIANT_NULL, pliant_object_enclosed_volume(world, object_at(0), NULL));
+  SAYS(PLIANT_NULL, "'state'", pliant_object_joint_state(world, object_at(0), 0, NULL));
+  SAYS(PLIANT_NULL, "'force'", pliant_object_mean_joint_load(world, object_at(0), 0, NULL, floats));
+  SAYS(PLIANT_NULL, "'torque'", pliant_object_mean_joint_load(world, object_at(0), 0, floats, NULL));
+  GIVES(PLIANT_NULL, pliant_world_body_touches(world, NULL, 1, &count));
+  GIVES(PLIANT_NULL, pliant_state_hash(NULL, NULL, 0, &count));
   GIVES(PLIANT_NULL, pliant_writer_add(NULL, world));
   GIVES(PLIANT_NULL, pliant_writer_finish(NULL));
   OK(pliant_world_free(world));
@@ -200,7 +219,8 @@ void test_misuse(void) {
   test_values();
 }
 
-/* Handles that were freed, were never handles, or are of another kind; ids that were removed, never were, or are of another kind. */
+/* Handles that were freed, were never handles, or are of another kind; ids that were removed, never were, or are of
+ * another kind. */
 void test_stale(void) {
   const pliant_id mesh = {PLIANT_MESH_COLLIDER, 0, 0}, no_such = {PLIANT_COLLIDER, -5, 2}, no_kind = {7, 0, 0};
   pliant_id old = object_at(0);
@@ -226,6 +246,7 @@ void test_stale(void) {
   GIVES(PLIANT_STALE, pliant_scene_free(scene));
   OK(pliant_state_free(state));
   GIVES(PLIANT_STALE, pliant_state_free(state));
+  GIVES(PLIANT_STALE, pliant_state_hash(state, NULL, 0, &count));
   GIVES(PLIANT_STALE, pliant_state_bytes(state, NULL, 0, &count));
   GIVES(PLIANT_STALE, pliant_state_restore(world, state));
   GIVES(PLIANT_STALE, pliant_writer_add(writer, freed));

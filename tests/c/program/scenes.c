@@ -71,7 +71,8 @@ static void test_options(void) {
   OK(pliant_scene_parse("{\"objects\": [{\"cloth\": {\"mesh\": {\"array\": \"sheet\"}}}]}", &options, &scene));
   info.size = sizeof info;
   OK(pliant_scene_get_info(scene, &info));
-  CHECK(info.frames == 7 && info.objects == 1 && info.particles == 9 && info.colliders == 1 && info.mesh_colliders == 0);
+  CHECK(info.frames == 7 && info.objects == 1 && info.particles == 9 && info.colliders == 1 &&
+        info.mesh_colliders == 0);
   CHECK(is_near(info.frame_time, 1.0 / 60, 1e-7));
   OK(pliant_scene_describe(scene, text, sizeof text, NULL));
   CHECK(strstr(text, "9 particles") != NULL);
@@ -89,14 +90,16 @@ static void test_adding(void) {
   pliant_world* world;
   OK(pliant_scene_add_object(scene, cloth, &array, 1, &id));
   CHECK(id.kind == PLIANT_OBJECT && id.slot == 0 && id.generation == 0);
-  OK(pliant_scene_add_collider(scene, "{\"name\": \"ground\", \"plane\": {}, \"position\": [0, -0.1, 0]}", NULL, 0, &id));
+  OK(pliant_scene_add_collider(scene, "{\"name\": \"ground\", \"plane\": {}, \"position\": [0, -0.1, 0]}", NULL, 0,
+                               &id));
   CHECK(id.kind == PLIANT_COLLIDER && id.slot == 0);
   OK(pliant_scene_add_collider(scene, "{\"mesh\": {\"array\": \"sheet\", \"translate\": [0, -1, 0]}}", &array, 1, &id));
   CHECK(id.kind == PLIANT_MESH_COLLIDER && id.slot == 0);
   other.position_count = 8;
   SAYS(PLIANT_REFUSED, "'sheet' is taken", pliant_scene_add_object(scene, cloth, &other, 1, NULL));
   other.name = "small";
-  GIVES(PLIANT_REFUSED, pliant_scene_add_object(scene, "{\"cloth\": {\"mesh\": {\"array\": \"small\"}}}", &other, 1, NULL));
+  GIVES(PLIANT_REFUSED,
+        pliant_scene_add_object(scene, "{\"cloth\": {\"mesh\": {\"array\": \"small\"}}}", &other, 1, NULL));
 
   OK(pliant_scene_set(scene, "/gravity", "[0, -5, 0]"));
   OK(pliant_scene_copy(scene, &copy));

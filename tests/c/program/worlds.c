@@ -139,8 +139,8 @@ void test_contents(void) {
 
   OK(pliant_world_remove(world, second));
   SAYS(PLIANT_STALE, "no object 1 of generation 0", pliant_world_remove(world, second));
-  OK(pliant_world_add_object(world, "{\"cloth\": {\"mesh\": {\"array\": \"sheet\", \"translate\": [0, 3, 0]}}}", &array, 1,
-                             &third));
+  OK(pliant_world_add_object(world, "{\"cloth\": {\"mesh\": {\"array\": \"sheet\", \"translate\": [0, 3, 0]}}}", &array,
+                             1, &third));
   CHECK(third.slot == second.slot && third.generation == second.generation + 1);
   OK(pliant_world_remove(world, ground));
   GIVES(PLIANT_STALE, pliant_world_name(world, ground, text, sizeof text, NULL));
@@ -153,6 +153,9 @@ void test_states(void) {
   char first[65] = "1", again[65] = "2";
   size_t count = 0;
   OK(pliant_state_copy(world, &state));
+  OK(pliant_state_hash(state, again, sizeof again, NULL));
+  hash_of(world, first);
+  CHECK(strcmp(first, again) == 0);
   OK(pliant_state_bytes(state, bytes, sizeof bytes, &count));
   OK(pliant_state_from_bytes(bytes, count, &copy));
   OK(pliant_world_run(world, 4, NULL));

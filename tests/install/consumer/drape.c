@@ -37,11 +37,10 @@ int main(void) {
   make_sheet();
   const pliant_array sheet = {sizeof sheet, "sheet", 3, positions, points, triangles, 2 * cells};
   must(pliant_scene_parse("{\"objects\": []}", NULL, &scene));
-  must(
-      pliant_scene_add_object(scene,
-                              "{\"name\": \"scarf\", \"cloth\": {\"mesh\": {\"array\": \"sheet\"}, \"material\": \"silk\"},"
-                              " \"self_collision\": true}",
-                              &sheet, 1, &cloth));
+  must(pliant_scene_add_object(scene,
+                               "{\"name\": \"scarf\", \"self_collision\": true,"
+                               " \"cloth\": {\"mesh\": {\"array\": \"sheet\"}, \"material\": \"silk\"}}",
+                               &sheet, 1, &cloth));
   must(pliant_scene_add_collider(scene, "{\"plane\": {}}", NULL, 0, NULL));
   must(pliant_scene_add_collider(scene, "{\"sphere\": {\"radius\": 0.3}, \"position\": [0, 0.5, 0]}", NULL, 0, NULL));
 
