@@ -236,7 +236,7 @@ void ObjectHandle::set_targets(std::span<const int> particles, std::span<const V
   for (const int particle : particles) {
     if (of.positions[of.place[particle]].w > 0)
       refuse(of.name, "particle " + std::to_string(particle), "is dynamic, so it cannot have a target",
-             "pin it first (World::edit), or use an attachment");
+             "pin it first, or use an attachment");
   }
   wake_bodies(*world_, number);
   put_targets(listed, particles, positions, first, world_->state, world_->workspace.control.objects[number].targets);
@@ -264,7 +264,7 @@ void ObjectHandle::set_pose(int body, const RigidPose& pose) {
   const std::size_t frame = at(std::int64_t{world_->model.first_frame[number]} + place.frame);
   if (state.positions[first + place.particle].w > 0 || !is_zero(state.frames.inverse_inertias[frame]))
     refuse(of.name, element, "is dynamic, so its pose cannot be set",
-           "make it kinematic: BodyOptions::kinematic, or \"kinematic\": true in a scene file");
+           "make it kinematic: \"kinematic\": true in a scene, BodyOptions::kinematic in C++");
   const Posed& described = of.bodies.labels[index].described;
   const Posed wanted = pose_of(pose);
   const Quatd axes = normalise(multiply(wanted.rotation, conjugate(described.rotation)));

@@ -29,10 +29,10 @@ std::vector<Vec3f> in_given_order(const WorldData& world, int number, const Reco
 
 void read(const CompiledObject& from, const Record* records, std::span<Vec3f> into) {
   if (into.size() != static_cast<std::size_t>(from.user_particles)) {
-    throw Error({.object = from.name},
-                "has " + std::to_string(from.user_particles) + " particles, but the span has room for " +
-                    std::to_string(into.size()),
-                "give a span of that size");
+    throw Error(
+        {.object = from.name},
+        "has " + std::to_string(from.user_particles) + " particles, but there is room for " + std::to_string(into.size()),
+        "give room for each particle");
   }
   for (int user = 0; user < from.user_particles; ++user) {
     const Record& r = records[from.place[user]];
@@ -215,7 +215,7 @@ int body_of_name(const CompiledObject& object, const std::string& name) {
   if (count != 1)
     throw Error({.object = object.name, .element = "body '" + name + "'"},
                 count == 0 ? "does not exist" : "is the name of " + std::to_string(count) + " bodies",
-                count == 0 ? "use a name that BodyOptions::name gave" : "use the index, or give each body its own name");
+                count == 0 ? "use the name of one of its bodies" : "use the index, or give each body its own name");
   return static_cast<int>(std::find_if(labels.begin(), labels.end(), has_name) - labels.begin());
 }
 

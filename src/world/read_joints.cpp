@@ -105,7 +105,7 @@ int ObjectView::joint_index(const std::string& name) const {
   if (count != 1)
     throw Error({.object = object.name, .element = "joint '" + name + "'"},
                 count == 0 ? "does not exist" : "is the name of " + std::to_string(count) + " joints",
-                count == 0 ? "use a name that JointOptions::name gave" : "use the index, or give each joint its own name");
+                count == 0 ? "use the name of one of its joints" : "use the index, or give each joint its own name");
   return static_cast<int>(std::find_if(object.joints.begin(), object.joints.end(), has_name) - object.joints.begin());
 }
 
