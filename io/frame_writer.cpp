@@ -194,4 +194,9 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
                                        options, has_all_points);
 }
 
+std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const World& world,
+                                               const FrameWriterOptions& options) {
+  return make_frame_writer(path, world.description(), world, options);
+}
+
 }  // namespace pliant

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pliant/io.h"
+#include "pliant/parse.h"
 
 namespace pliant {
 
@@ -48,8 +48,5 @@ std::vector<std::array<int, 3>> triangulate(const PolygonMesh& mesh, const std::
 
 /// Makes the repairs that `options` requests, and describes each in `file.repairs`.
 void repair(MeshFile& file, bool is_soup, const MeshReadOptions& options);
-
-/// Reads a mesh from bytes: finds the format by the suffix of `name` and by the bytes, parses, triangulates and repairs.
-MeshFile parse_mesh(std::string_view bytes, const std::string& name, const MeshReadOptions& options = {});
 
 }  // namespace pliant

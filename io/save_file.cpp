@@ -163,7 +163,7 @@ void Contents::check_header(Content expected) const {
   if (content == static_cast<std::uint32_t>(expected)) return;
   const bool known = content == 1 || content == 2;
   fail(fmt::format("holds {}, not {}", known ? words(static_cast<Content>(content)) : "something unknown", words(expected)),
-       expected == Content::state ? "read a World with load_world()" : "read a State with load_state()");
+       expected == Content::state ? "load it as a World" : "load it as a State");
 }
 
 void Contents::check_sum() const {

@@ -182,9 +182,9 @@ const typename Map::mapped_type& array_named(const JsonDocument& document, const
   if (arrays != nullptr)
     for (const auto& [name, array] : *arrays) names.push_back(name);
   const std::string nearest = nearest_name(at.text, names);
-  document.fail(
-      at, "there is no array " + printable(at.text) + " of this kind",
-      nearest.empty() ? "give it with the scene, or name a 'file'" : "the nearest name is '" + printable(nearest) + "'");
+  document.fail(at, "there is no array " + printable(at.text) + " of this kind",
+                nearest.empty() ? "give an array of this name with the scene, or name a 'file'"
+                                : "the nearest name is '" + printable(nearest) + "'");
 }
 
 /// Throws an Error if a triangle or tetrahedron has a vertex that is not there.

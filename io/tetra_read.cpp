@@ -6,6 +6,7 @@
 
 #include "file_bytes.h"
 #include "pliant/error.h"
+#include "pliant/parse.h"
 #include "tetra_formats.h"
 
 namespace pliant {
@@ -40,20 +41,39 @@ TetrahedralMeshFile read_pair(const std::string& node, const std::string& ele) {
               "give .node or .ele, .msh, .vtk, .vtu, .mesh, .meshb or .t");
 }
 
+using TetrahedraReader = TetrahedralMeshFile (*)(std::string_view, const std::string&);
+
+/// The reader of a format that is one file. Throws an Error if no format has the suffix.
+TetrahedraReader reader_of(const std::string& path, const std::string& suffix) {
+  static const std::map<std::string, TetrahedraReader> readers{
+      {".msh", read_gmsh},           {".vtk", read_vtk},     {".vtu", read_vtu}, {".mesh", read_medit},
+      {".meshb", read_binary_medit}, {".t", read_vertex_tet}};
+  const auto reader = readers.find(suffix);
+  if (reader == readers.end()) refuse(path, suffix);
+  return reader->second;
+}
+
 }  // namespace
+
+TetrahedralMeshFile parse_tetrahedral_mesh(std::string_view bytes, const std::string& name) {
+  const std::string suffix = suffix_of(name);
+  if (suffix == ".ele" || suffix == ".node")
+    throw Error({.file = name}, "is one of the two files of a mesh of TetGen", "give both to parse_tetgen");
+  const TetrahedraReader reader = reader_of(name, suffix);
+  if (bytes.empty()) throw Error({.file = name}, "is empty", "export the mesh again");
+  return reader(bytes, name);
+}
+
+TetrahedralMeshFile parse_tetgen(std::string_view nodes, std::string_view elements, const std::string& name) {
+  return read_tetgen({nodes, name + ".node"}, {elements, name + ".ele"});
+}
 
 TetrahedralMeshFile read_tetrahedral_mesh(const std::string& path) {
   const std::string suffix = suffix_of(path);
   if (suffix == ".ele") return read_pair(beside(path, ".node"), path);
   if (suffix == ".node") return read_pair(path, beside(path, ".ele"));
-  static const std::map<std::string, TetrahedralMeshFile (*)(std::string_view, const std::string&)> readers{
-      {".msh", read_gmsh},           {".vtk", read_vtk},     {".vtu", read_vtu}, {".mesh", read_medit},
-      {".meshb", read_binary_medit}, {".t", read_vertex_tet}};
-  const auto reader = readers.find(suffix);
-  if (reader == readers.end()) refuse(path, suffix);
-  const std::string bytes = read_file_bytes(path);
-  if (bytes.empty()) throw Error({.file = path}, "is empty", "export the mesh again");
-  return reader->second(bytes, path);
+  reader_of(path, suffix);  // before the file is read
+  return parse_tetrahedral_mesh(read_file_bytes(path), path);
 }
 
 }  // namespace pliant

@@ -9,6 +9,7 @@
 #include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/joint.h"
+#include "pliant/parse.h"
 #include "scene_hints.h"
 #include "scene_mesh.h"
 #include "urdf_model.h"
@@ -59,8 +60,10 @@ std::string listed(const std::vector<std::string>& names) {
 /// Makes the object. Bodies are links; links without mass that a fixed joint holds belong to their parent's body.
 class RobotBuilder {
  public:
-  RobotBuilder(const std::string& path, const UrdfOptions& options, std::vector<std::string>& warnings)
-      : path_(path), options_(options), warnings_(warnings), robot_(urdf::read(path, warnings)) {}
+  /// `path` names the file in errors; `home` is the folder of the meshes.
+  RobotBuilder(urdf::Robot robot, const std::string& path, std::string home, const UrdfOptions& options,
+               std::vector<std::string>& warnings)
+      : path_(path), home_(std::move(home)), options_(options), warnings_(warnings), robot_(std::move(robot)) {}
 
   Object build() {
     object_.name = robot_.name;
@@ -285,6 +288,10 @@ class RobotBuilder {
   }
 
   bool set_hull(const urdf::Link& link, const urdf::Geometry& geometry, Solid& solid) {
+    if (const auto given = options_.meshes.find(geometry.file); given != options_.meshes.end()) {
+      solid.shape = hull_of(given->second.positions, geometry.scale);
+      return true;
+    }
     const std::string mesh = "mesh '" + geometry.file + "' of link '" + link.name + "'";
     std::string suffix = std::filesystem::path(geometry.file).extension().string();
     std::transform(suffix.begin(), suffix.end(), suffix.begin(),
@@ -294,17 +301,21 @@ class RobotBuilder {
       return false;
     }
     const std::string file = found_file(geometry.file);
-    if (!options_.allow_outside && !scene_file::lies_below(file, home()))
+    if (!options_.allow_outside && !scene_file::lies_below(file, home_))
       fail(geometry.line, mesh + " leaves the folder of the file", "put it there, or permit files outside");
     if (!std::filesystem::is_regular_file(file)) {
       warn(geometry.line, mesh + " is ignored: there is no file '" + file + "'" + other_places(geometry.file));
       return false;
     }
-    Hull hull{read_mesh(file).positions, 0};
-    for (Vec3f& p : hull.points) p = {p.x * geometry.scale.x, p.y * geometry.scale.y, p.z * geometry.scale.z};
-    hull.points = mesh_of({{hull}}).positions;  // its corners alone
-    solid.shape = std::move(hull);
+    solid.shape = hull_of(read_mesh(file).positions, geometry.scale);
     return true;
+  }
+
+  static Hull hull_of(std::vector<Vec3f> points, const Vec3f& scale) {
+    for (Vec3f& p : points) p = {p.x * scale.x, p.y * scale.y, p.z * scale.z};
+    Hull hull{std::move(points), 0};
+    hull.points = mesh_of({{hull}}).positions;  // its corners alone
+    return hull;
   }
 
   static constexpr const char* package_ = "package://";
@@ -317,25 +328,20 @@ class RobotBuilder {
     return ", and no '" + name.substr(std::string(package_).size()) + "' in this folder or one above";
   }
 
-  std::string home() const {
-    const std::string folder = std::filesystem::path(path_).parent_path().string();
-    return folder.empty() ? "." : folder;
-  }
-
   /// "package://NAME/PATH" is PATH in the option's folder of packages, else in the nearest folder above the file that has it.
   std::string found_file(const std::string& name) const {
     namespace fs = std::filesystem;
     const std::string file = "file://";
     if (name.rfind(file, 0) == 0) return name.substr(file.size());
-    if (name.rfind(package_, 0) != 0) return fs::path(name).is_absolute() ? name : (fs::path(home()) / name).string();
+    if (name.rfind(package_, 0) != 0) return fs::path(name).is_absolute() ? name : (fs::path(home_) / name).string();
     const std::string inside = name.substr(std::string(package_).size());
     if (!options_.packages.empty()) return (fs::path(options_.packages) / inside).string();
     const std::string rest = inside.substr(std::min(inside.size(), inside.find('/') + 1));
-    for (fs::path folder = fs::absolute(home()).lexically_normal(); folder.has_relative_path();
+    for (fs::path folder = fs::absolute(home_).lexically_normal(); folder.has_relative_path();
          folder = folder.parent_path())
       for (const std::string& tail : {inside, rest})
         if (fs::is_regular_file(folder / tail)) return (folder / tail).string();
-    return (fs::path(home()) / rest).string();
+    return (fs::path(home_) / rest).string();
   }
 
   void set_colour() {
@@ -431,6 +437,7 @@ class RobotBuilder {
   }
 
   const std::string& path_;
+  std::string home_;
   const UrdfOptions& options_;
   std::vector<std::string>& warnings_;
   urdf::Robot robot_;
@@ -445,7 +452,16 @@ class RobotBuilder {
 
 Object read_urdf(const std::string& path, const UrdfOptions& options, std::vector<std::string>* warnings) {
   std::vector<std::string> ignored;
-  return RobotBuilder(path, options, warnings != nullptr ? *warnings : ignored).build();
+  std::vector<std::string>& into = warnings != nullptr ? *warnings : ignored;
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return RobotBuilder(urdf::read(path, into), path, folder.empty() ? "." : folder, options, into).build();
+}
+
+Object parse_urdf(std::string_view text, const std::string& name, const std::string& folder, const UrdfOptions& options,
+                  std::vector<std::string>* warnings) {
+  std::vector<std::string> ignored;
+  std::vector<std::string>& into = warnings != nullptr ? *warnings : ignored;
+  return RobotBuilder(urdf::parse(text, name, into), name, folder, options, into).build();
 }
 
 }  // namespace pliant

@@ -244,7 +244,7 @@ const char* xml_error_in_words(tinyxml2::XMLError error) {
 }
 
 /// Throws an Error with the line at which tinyxml2 stopped, and its words.
-[[noreturn]] void refuse_xml(const Reader& reader, const tinyxml2::XMLDocument& document, const std::string& bytes) {
+[[noreturn]] void refuse_xml(const Reader& reader, const tinyxml2::XMLDocument& document, std::string_view bytes) {
   const int line = document.ErrorLineNum();
   LineReader lines(bytes);
   while (lines.number() < line && lines.next()) continue;
@@ -258,17 +258,15 @@ const char* xml_error_in_words(tinyxml2::XMLError error) {
 
 }  // namespace
 
-Robot read(const std::string& path, std::vector<std::string>& warnings) {
-  constexpr std::uint64_t largest = std::uint64_t{16} << 20;
-  const std::string bytes = read_file_bytes(path, largest);
-  Reader reader(path, warnings);
+Robot parse(std::string_view bytes, const std::string& name, std::vector<std::string>& warnings) {
+  Reader reader(name, warnings);
   tinyxml2::XMLDocument document;
   if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) refuse_xml(reader, document, bytes);
   const Element* root = document.FirstChildElement("robot");
   if (root == nullptr) reader.fail(1, "has no element 'robot'", "give a URDF file; xacro files are expanded first");
   Robot robot;
   robot.name = reader.text(*root, "name");
-  name_ignored(*root, path, warnings);
+  name_ignored(*root, name, warnings);
   for (const Element* child = root->FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
     const std::string kind = child->Name();
     if (kind == "link")
@@ -281,11 +279,16 @@ Robot read(const std::string& path, std::vector<std::string>& warnings) {
 
 #else
 
-Robot read(const std::string& path, std::vector<std::string>&) {
-  throw Error({.file = path, .line = 0, .object = {}, .element = {}}, "cannot be read: this build has no XML reader",
+Robot parse(std::string_view, const std::string& name, std::vector<std::string>&) {
+  throw Error({.file = name, .line = 0, .object = {}, .element = {}}, "cannot be read: this build has no XML reader",
               "install Debian's libtinyxml2-dev and build again");
 }
 
 #endif
+
+Robot read(const std::string& path, std::vector<std::string>& warnings) {
+  constexpr std::uint64_t largest = std::uint64_t{16} << 20;
+  return parse(read_file_bytes(path, largest), path, warnings);
+}
 
 }  // namespace pliant::urdf

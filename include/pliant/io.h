@@ -143,6 +143,8 @@ struct UrdfOptions {
   std::map<std::string, float> targets;  ///< positions to which motors move joints, by name [rad or m]
   bool allow_outside = true;             ///< false: meshes outside the file's folder are refused
   std::string packages;                  ///< folder of the packages of "package://" paths; empty: searched above the file
+  /// Meshes in memory by the `filename` that the file gives for them. They are taken instead of files.
+  std::map<std::string, TriangleMesh> meshes{};
 };
 
 /// Reads a robot description in URDF as one object: links become rigid bodies, joints joints. Collision shapes, or else visual
@@ -188,5 +190,9 @@ struct FrameWriterOptions {
 /// Makes a writer with options.
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world,
                                                const FrameWriterOptions& options);
+
+/// Makes a writer for a World that was made with KeepDescription, which needs no scene. Throws an Error if it was not.
+std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const World& world,
+                                               const FrameWriterOptions& options = {});
 
 }  // namespace pliant

@@ -21,6 +21,7 @@
 #include "pliant/mesh.h"
 #include "pliant/motion.h"
 #include "pliant/object.h"
+#include "pliant/parse.h"
 #include "pliant/queries.h"
 #include "pliant/random.h"
 #include "pliant/reference.h"

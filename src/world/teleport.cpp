@@ -39,7 +39,7 @@ Posed motion_of(const std::string& name, const RigidPose& by) {
 
 /// Throws an Error that names what holds an object back where it is.
 void require_no_anchor(const CompiledObject& of) {
-  const std::string advice = "change or remove that by an edit first, or remove the object and add it elsewhere";
+  const std::string advice = "edit the object first to change or remove that, or remove the object and add it elsewhere";
   if (!of.kinematics.empty()) {
     const int number = of.order[at(of.kinematics.front().particle)];
     const std::string element = number < of.user_particles ? "the pin of particle " + std::to_string(number)

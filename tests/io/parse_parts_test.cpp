@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pliant/describe.h"
+#include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/save.h"
 #include "pliant/version.h"

@@ -379,7 +379,7 @@ TEST(Save, TheReasonIsNamed) {
   const Scene scene = full_scene();
   const World world(scene);
   save(path, world, scene);
-  says(reason([&] { load_state(path); }), "holds a World, not a State; read a World with load_world()");
+  says(reason([&] { load_state(path); }), "holds a World, not a State; load it as a World");
   save(path, State{});
   says(reason([&] { load_world(path); }), "holds a State, not a World");
   says(reason([&] { load_state(folder.path()); }), "is a folder");

@@ -97,8 +97,8 @@ TEST(SceneArrays, AnUnknownNameIsRefusedWithTheNearest) {
   EXPECT_EQ(refusal_with(cloth, arrays),
             "test:1:43: /objects/0/cloth/mesh/array: there is no array shrit of this kind; the nearest name is 'shirt'");
   EXPECT_EQ(refusal_with(cloth, {}),
-            "test:1:43: /objects/0/cloth/mesh/array: there is no array shrit of this kind; give it with the scene, "
-            "or name a 'file'");
+            "test:1:43: /objects/0/cloth/mesh/array: there is no array shrit of this kind; give an array of this name "
+            "with the scene, or name a 'file'");
 }
 
 TEST(SceneArrays, IndicesAndValuesAreChecked) {

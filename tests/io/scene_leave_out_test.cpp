@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "pliant/error.h"
 #include "pliant/io.h"
 #include "pliant/world.h"
 

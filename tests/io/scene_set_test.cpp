@@ -1,6 +1,7 @@
 // Members of a scene that are set by JSON pointer before it is read.
 #include <gtest/gtest.h>
 
+#include "pliant/error.h"
 #include "pliant/io.h"
 
 namespace pliant {

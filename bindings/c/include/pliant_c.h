@@ -58,11 +58,11 @@ PLIANT_API const char* pliant_version(void);
 /* The name of a status, as "PLIANT_STALE"; "unknown status" for other numbers. Never NULL. */
 PLIANT_API const char* pliant_status_name(pliant_status status);
 
-/* What is wrong, where, and what to do: of the last call of this thread that failed. Empty before any did. Valid
- * until the next one that fails. Never NULL. */
+/* The message of the last call of this thread that failed: what is wrong, where, and what to do. Empty before any call
+ * failed. Valid until the next call that fails. Never NULL. */
 PLIANT_API const char* pliant_last_error(void);
 
-/* The parts of the same. */
+/* The parts of that message. */
 PLIANT_API pliant_status pliant_last_error_parts(pliant_error_parts* parts);
 
 /* The scene format as a JSON Schema (2020-12). */

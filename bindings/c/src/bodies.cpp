@@ -143,6 +143,9 @@ pliant_status pliant_object_mean_joint_load(const pliant_world* world, pliant_id
     require(force, "force");
     require(torque, "torque");
     require_index(use.object().description().joints, joint, "joint");
+    if (!use.world().records_joint_loads)
+      throw StatusError(PLIANT_REFUSED, "the loads of joints are not recorded",
+                        "call pliant_world_record_joint_loads before the step");
     const JointLoad load = use.object().mean_joint_load(joint);
     put3(load.force, force);
     put3(load.torque, torque);

@@ -64,7 +64,7 @@ pliant_status failure() noexcept {
   } catch (const std::exception& error) {
     return remember(PLIANT_INTERNAL, error.what());
   } catch (...) {
-    return remember(PLIANT_INTERNAL, "an exception of no known type");
+    return remember(PLIANT_INTERNAL, "a fault of an unknown kind");
   }
 }
 

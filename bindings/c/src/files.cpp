@@ -31,7 +31,7 @@ pliant_status pliant_writer_open(const pliant_world* world, const char* path, pl
     require(writer, "writer");
     auto made = std::make_shared<WriterHandle>();
     made->world = of;
-    made->writer = make_frame_writer(path, of->world.description(), of->world);
+    made->writer = make_frame_writer(path, of->world);
     give_handle(std::move(made), writer);
   });
 }

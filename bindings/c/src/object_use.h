@@ -12,6 +12,7 @@ class ObjectUse {
   ObjectUse(const pliant_world* world, pliant_id id)
       : world_(at(world)), handle_(world_->world.object(object_id(world_->world, id))) {}
   ObjectHandle& object() const { return handle_; }
+  const WorldHandle& world() const { return *world_; }
 
  private:
   std::shared_ptr<WorldHandle> world_;

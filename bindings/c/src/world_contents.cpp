@@ -184,5 +184,9 @@ pliant_status pliant_world_body_touches(const pliant_world* world, pliant_body_t
 }
 
 pliant_status pliant_world_record_joint_loads(pliant_world* world, int32_t on) {
-  return guarded([&] { at(world)->world.record_joint_loads(on != 0); });
+  return guarded([&] {
+    const auto of = at(world);
+    of->world.record_joint_loads(on != 0);
+    of->records_joint_loads = on != 0;
+  });
 }

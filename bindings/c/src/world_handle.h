@@ -18,6 +18,7 @@ struct WorldHandle {
   float frame_time;  ///< [s]
   int frames;
   Report report{};
+  bool records_joint_loads = false;
   /// The thread that steps it; of no thread between steps.
   std::atomic<std::thread::id> stepper{};
   bool is_stepping() const { return stepper.load() != std::thread::id(); }

@@ -21,7 +21,7 @@ PLIANT_API pliant_status pliant_object_positions(const pliant_world* world, plia
 PLIANT_API pliant_status pliant_object_velocities(const pliant_world* world, pliant_id object, float* into,
                                                   size_t count);
 
-/* Which particles are there, ascending: all, unless particles come and go. */
+/* The particles that are present, ascending: all, unless emitters and drains add and remove particles. */
 PLIANT_API pliant_status pliant_object_present(const pliant_world* world, pliant_id object, int32_t* into,
                                                size_t capacity, size_t* count);
 
@@ -148,7 +148,7 @@ PLIANT_API pliant_status pliant_collider_pose(const pliant_world* world, pliant_
 /* Moves a collider of either kind to a pose that it reaches at the end of the next step. */
 PLIANT_API pliant_status pliant_collider_set_pose(pliant_world* world, pliant_id collider, const pliant_pose* pose);
 
-/* Moves it at once, from its present place: what it touches gets no velocity. */
+/* Moves it at once: a point p gets to by.rotation p + by.position. What it touches gets no velocity. */
 PLIANT_API pliant_status pliant_collider_teleport(pliant_world* world, pliant_id collider, const pliant_pose* by);
 
 /* Sets the velocity with which its surface moves along itself, as that of a conveyor belt: 3 floats in its own frame

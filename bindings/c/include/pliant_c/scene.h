@@ -59,7 +59,7 @@ PLIANT_API pliant_status pliant_scene_get_finding(const pliant_scene* scene, siz
  * it has forces. */
 PLIANT_API pliant_status pliant_scene_json(const pliant_scene* scene, char* into, size_t capacity, size_t* length);
 
-/* What a scene holds, in a few lines for people. */
+/* A summary of the contents of a scene for people, in a few lines. */
 PLIANT_API pliant_status pliant_scene_describe(const pliant_scene* scene, char* into, size_t capacity, size_t* length);
 
 #ifdef __cplusplus

@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/* What became of a call. */
+/* The result of a call. */
 typedef int32_t pliant_status;
 enum {
   PLIANT_OK = 0,
@@ -31,11 +31,11 @@ enum {
   PLIANT_BUSY = 10     /* the World is in a step: called by its own force, or by another thread */
 };
 
-/* What an id refers to. */
+/* The kinds of things that an id refers to. */
 enum { PLIANT_OBJECT = 0, PLIANT_COLLIDER = 1, PLIANT_MESH_COLLIDER = 2 };
 
-/* An object or collider of a World. What a scene held has generation 0 and as slot its index among those of its
- * kind. */
+/* An object or collider of a World. Those of its scene have generation 0, and as slot their index among those of the
+ * same kind. */
 typedef struct pliant_id {
   int32_t kind; /* PLIANT_OBJECT, PLIANT_COLLIDER or PLIANT_MESH_COLLIDER */
   int32_t slot;
@@ -73,7 +73,7 @@ typedef struct pliant_body_touch {
   double push_on_first[3]; /* sum of the normal impulses on `first` over the frame [N s] */
 } pliant_body_touch;
 
-/* Where the two bodies of a joint are to one another, and how fast they move. Axes are those of the joint, fixed in its
+/* The relative pose and velocity of the two bodies of a joint. Axes are those of the joint, fixed in its
  * first body: x along the axis of a hinge, slider or cylindrical joint (docs/guide/joints.md). All is 0 at time 0. */
 typedef struct pliant_joint_state {
   float displacement[3]; /* of the second body's anchor from its place in the first body [m] */
@@ -125,7 +125,7 @@ typedef struct pliant_scene_info {
   int64_t particles; /* of all objects */
 } pliant_scene_info;
 
-/* What pliant_scene_check found. The texts are valid until the scene is checked again, changed or freed. */
+/* A finding of pliant_scene_check. The texts are valid until the scene is checked again, changed or freed. */
 typedef struct pliant_finding {
   size_t size;         /* sizeof(pliant_finding) */
   int32_t is_grave;    /* 1: no World can be made */

@@ -39,7 +39,7 @@ PLIANT_API pliant_status pliant_world_get_info(const pliant_world* world, pliant
 /* The SHA-256 hash of its state, of 64 hexadecimal digits: the same on every machine and by every number of threads. */
 PLIANT_API pliant_status pliant_world_hash(const pliant_world* world, char* into, size_t capacity, size_t* length);
 
-/* What it holds, in a few lines for people. */
+/* A summary of its contents for people, in a few lines. */
 PLIANT_API pliant_status pliant_world_describe(const pliant_world* world, char* into, size_t capacity, size_t* length);
 
 /* Finds an object or collider by its kind (PLIANT_OBJECT, ...) and name; the first by slot if several have it. */
@@ -78,7 +78,7 @@ PLIANT_API pliant_status pliant_world_record_contacts(pliant_world* world, int32
 PLIANT_API pliant_status pliant_world_contacts(const pliant_world* world, pliant_contact* into, size_t capacity,
                                                size_t* count);
 
-/* What each rigid body touched in the last step, ordered by participants, if contacts are recorded. */
+/* The contacts of each rigid body in the last step, ordered by participants, if contacts are recorded. */
 PLIANT_API pliant_status pliant_world_body_touches(const pliant_world* world, pliant_body_touch* into, size_t capacity,
                                                    size_t* count);
 
@@ -86,8 +86,8 @@ PLIANT_API pliant_status pliant_world_body_touches(const pliant_world* world, pl
  * costs one evaluation of all joints in each substep. */
 PLIANT_API pliant_status pliant_world_record_joint_loads(pliant_world* world, int32_t on);
 
-/* A scene of what the World holds: as given and added, and torn objects as they are now. As pliant_scene_from_json
- * gives it. */
+/* Makes a scene of the present contents of a World: objects as they were added, and torn ones as they are now. Like one
+ * of pliant_scene_from_json, it has no members to set. */
 PLIANT_API pliant_status pliant_world_scene(const pliant_world* world, pliant_scene** scene);
 
 /* Writes the World to a file. After loading, the next step gives the same bits. Forces and targets that were set for
@@ -101,7 +101,7 @@ PLIANT_API pliant_status pliant_world_load(const char* path, pliant_world** worl
 /* The bytes of such a file. `into` has room for `capacity` bytes. */
 PLIANT_API pliant_status pliant_world_bytes(const pliant_world* world, void* into, size_t capacity, size_t* count);
 
-/* Makes a World of such bytes. */
+/* Makes a World from such bytes. */
 PLIANT_API pliant_status pliant_world_from_bytes(const void* bytes, size_t count, pliant_world** world);
 
 /* ---------------------------------------------------------------- states */
@@ -119,7 +119,7 @@ PLIANT_API pliant_status pliant_state_hash(const pliant_state* state, char* into
 /* A state as bytes. */
 PLIANT_API pliant_status pliant_state_bytes(const pliant_state* state, void* into, size_t capacity, size_t* count);
 
-/* Makes a state of such bytes. */
+/* Makes a state from such bytes. */
 PLIANT_API pliant_status pliant_state_from_bytes(const void* bytes, size_t count, pliant_state** state);
 
 /* Frees a state. NULL is accepted. */
