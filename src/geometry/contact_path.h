@@ -94,11 +94,12 @@ struct PathContact {
 };
 
 /// Finds where solids whose separation is `gap_at(displacement)` first touch, if they go in by more than `slop` [m]
-/// then; else where they pass nearest.
+/// then; else where they pass nearest. In the frames that follow, what comes nearer by less than `slow` in one passes [m].
 template <class GapAt>
 class PathSearch {
  public:
-  PathSearch(const ContactPath& path, double slop, const GapAt& gap_at) : path_(path), slop_(slop), gap_at_(gap_at) {}
+  PathSearch(const ContactPath& path, double slop, const GapAt& gap_at, double slow = 0)
+      : path_(path), slop_(slop), slow_(slow), gap_at_(gap_at) {}
 
   /// `now`, a plane that separates the solids at the start by so much, saves steps.
   PathContact find(const PathGap& now = {}) {
@@ -136,7 +137,8 @@ class PathSearch {
   bool along(const ContactPath::Leg& leg, const PathGap& now) {
     const Vec3d motion = leg.speed * leg.duration;
     comes_at_end_ = false;
-    const double level = sideways * length(motion), slope_now = dot(now.normal, motion);
+    const double slow = leg.start < 1 ? 0 : slow_ * leg.duration;
+    const double level = std::fmax(sideways * length(motion), slow), slope_now = dot(now.normal, motion);
     const bool is_plane = slope_now < -level && now.separation > -slop_;
     bool touched = is_plane && now.separation <= accuracy * slop_;
     if (touched) first_ = {true, leg.start, leg.from, now.normal};
@@ -189,7 +191,7 @@ class PathSearch {
   }
 
   const ContactPath& path_;
-  double slop_;
+  double slop_, slow_;
   const GapAt& gap_at_;
   double least_ = 1e300;
   bool comes_at_end_ = false;

@@ -15,10 +15,13 @@ namespace {
 
 /// A feature is flat to the other solid if its points differ in height by no more than this share of its size, or by the margin.
 constexpr double flat_share = 0.1;
-/// The nearest place is a point of contact where all others are higher by this share of the solids' sizes.
-constexpr double higher = 0.01;
+/// The nearest place is a point of contact where all others are higher by this share of the smaller solid's size.
+constexpr double higher = 0.001;
 /// Polygons that face each other less than this serve no clipping [cosine].
 constexpr double least_facing = 0.9;
+
+/// Directions that differ by less are one, and by less are equal but for rounding [1 - cosine]: 0.08 degrees, 0.5 seconds.
+constexpr double nearly = 1e-6, exactly = 3e-12;
 
 constexpr std::uint32_t nearest_point_feature = 0x20000000u;  ///< TouchPoint::feature of the nearest places
 
@@ -60,6 +63,15 @@ bool are_parallel(const Feature& a, const Feature& b) {
   return dot(u, v) * dot(u, v) > 0.99 * length_squared(u) * length_squared(v);
 }
 
+/// Takes a face's normal for a direction that differs from it by more than rounding and less than a contact counts. What
+/// lies across the edges of flush solids, tilted by as much as soft contacts yield, would slide down them.
+void take_normal(const Feature& face, double sign, ConvexDistance& nearest) {
+  const double away = face.count > 2 ? 1 - sign * dot(face.normal, nearest.normal) : 1;
+  if (!(away > exactly && away < nearly)) return;
+  nearest.normal = face.normal * sign;
+  nearest.on_a = nearest.on_b - nearest.normal * nearest.separation;
+}
+
 /// The points of two features, between cores; none if one of them is a point, or segments cross.
 std::vector<TouchPoint> points_between(const Feature& a, const Feature& b, const Vec3d& normal, double margin) {
   if (a.count < 2 || b.count < 2) return {};
@@ -90,15 +102,17 @@ Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, 
     move(*b.polyhedron, convert<float>(pose_of_b), placed);
     return touch(*a.polyhedron, placed, static_cast<float>(margin));
   }
-  const ConvexDistance nearest = convex_distance(a, b, pose_of_b, margin);
+  ConvexDistance nearest = convex_distance(a, b, pose_of_b, margin);
   if (nearest.separation > margin) return {};
-  const Vec3d normal = nearest.normal;
   if (a.kind == ConvexShape::Kind::point || b.kind == ConvexShape::Kind::point)
-    return four_of({{nearest.on_a, nearest.on_b, nearest.separation, nearest_point_feature}}, normal);
+    return four_of({{nearest.on_a, nearest.on_b, nearest.separation, nearest_point_feature}}, nearest.normal);
   const double radius_a = static_cast<double>(a.radius), radius_b = static_cast<double>(b.radius);
-  std::vector<TouchPoint> points =
-      points_between(facing_feature(a, {}, normal, margin, turning), facing_feature(b, pose_of_b, -normal, margin, turning),
-                     normal, margin + radius_a + radius_b);
+  const Feature of_a = facing_feature(a, {}, nearest.normal, margin, turning),
+                of_b = facing_feature(b, pose_of_b, -nearest.normal, margin, turning);
+  take_normal(of_a, 1, nearest);
+  take_normal(of_b, -1, nearest);
+  const Vec3d normal = nearest.normal;
+  std::vector<TouchPoint> points = points_between(of_a, of_b, normal, margin + radius_a + radius_b);
   double deepest = margin;
   for (TouchPoint& point : points) {
     point.on_a += normal * radius_a;
@@ -106,7 +120,7 @@ Touch touch(const ConvexShape& a, const ConvexShape& b, const Posed& pose_of_b, 
     point.separation -= radius_a + radius_b;
     deepest = std::min(deepest, point.separation);
   }
-  const double error = higher * (size_of(a) + size_of(b)) + 1e-6;
+  const double error = higher * std::min(size_of(a), size_of(b)) + 1e-6;
   const bool has_all = !points.empty() && deepest <= nearest.separation + error;
   if (!has_all) points.push_back({nearest.on_a, nearest.on_b, nearest.separation, nearest_point_feature});
   return four_of(points, normal);

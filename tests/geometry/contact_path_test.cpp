@@ -59,6 +59,14 @@ TEST(ContactPath, WhatPassesSoonIsHeldAcrossItsMotionToo) {
   EXPECT_NEAR(later.normal.x, -0.28, 1e-12) << "but in the next one";
 }
 
+/// As what lies on soft contacts does. It is a millimetre before the flat place beyond the edge when the frame ends.
+TEST(ContactPath, WhatHardlySinksPassesAnEdge) {
+  const Planes edge{{{0.028 - 0.96e-4, {-0.28, 0.96, 0}}, {-1e-4, {0, 1, 0}}}};
+  const ContactPath path({0.099, -2e-5, 0});
+  EXPECT_NEAR(PathSearch(path, 1e-3, edge, 3e-5).find().normal.x, 0, 1e-12);
+  EXPECT_NEAR(PathSearch(path, 1e-3, edge, 1e-5).find().normal.x, -0.28, 1e-12) << "sinks faster than that";
+}
+
 TEST(ContactPath, WhatPartsIsNearestWhereItBegins) {
   const PathContact nearest = found(tip(0.01), {-0.2, 0, 0}, 1e-3);
   EXPECT_FALSE(nearest.touches);

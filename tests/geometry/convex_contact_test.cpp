@@ -58,6 +58,37 @@ TEST_F(Contact, ACapsuleTouchesAtOnePointStandingAndTwoLying) {
   EXPECT_NEAR(widest(lying), 0.8, 1e-5);
 }
 
+/// Half of it lies beyond the edge, below which it is tilted by 0.04 degrees: perpendicular to it is no direction of its
+/// own, else it would slide down flush solids.
+TEST_F(Contact, ACapsuleAcrossAnEdgeTouchesAlongTheFacesNormal) {
+  const ConvexShape capsule{Kind::segment, 0.1f, 0, 0.4f, nullptr};
+  const double half_tilt = 0.35e-3;
+  const Quatd turned = multiply(Quatd{0, 0, -std::sin(half_tilt), std::cos(half_tilt)}, quarter_turn);
+  const Touch across = touch(floor_, capsule, {{5, 1.0999, 0.3}, turned}, 0.01);
+  ASSERT_GE(across.count, 1);
+  EXPECT_NEAR(across.normal.x, 0, 1e-9);
+}
+
+/// With the slack of what moves fast, a tilted cylinder touches with its whole disc, an octagon, between whose corners is
+/// the lowest place of the rim.
+TEST_F(Contact, ATiltedCylinderTouchesWhereItsRimIsLowest) {
+  const ConvexShape cylinder{Kind::cylinder, 0, 0.3f, 0.5f, nullptr};
+  for (const double tilt : {0.03, 0.08, 0.15})
+    for (const double heading : {0.1, 0.3, 0.39}) {
+      const Quatd turned = multiply(Quatd{0, 0, std::sin(tilt / 2), std::cos(tilt / 2)},
+                                    Quatd{0, std::sin(heading / 2), 0, std::cos(heading / 2)});
+      const Touch found = touch(floor_, cylinder, {{0, 1.6, 0}, turned}, 0.2, 0.3);
+      double deepest = 1;
+      for (int i = 0; i < found.count; ++i) deepest = std::min(deepest, found.points[i].separation);
+      const double lowest = 0.6 - 0.5 * std::cos(tilt) - double(0.3f) * std::sin(tilt);
+      EXPECT_NEAR(deepest, lowest, 1e-3) << tilt << ", " << heading;
+      const Touch on_plane = touch_half_space(cylinder, {{0, 0.6, 0}, turned}, 0.2, 0.3);
+      deepest = 1;
+      for (int i = 0; i < on_plane.count; ++i) deepest = std::min(deepest, on_plane.points[i].separation);
+      EXPECT_NEAR(deepest, lowest, 1e-3) << "on a plane, " << tilt << ", " << heading;
+    }
+}
+
 TEST_F(Contact, ACylinderTouchesAtFourPointsStandingAndTwoLying) {
   const ConvexShape cylinder{Kind::cylinder, 0, 0.3f, 0.5f, nullptr};
   const Touch standing = on_floor(cylinder, 0.5);

@@ -235,6 +235,34 @@ int shoot(const Floor& target, float size, float speed, float across, int seed) 
   return static_cast<int>(std::count_if(lowest.begin(), lowest.end(), [&](float y) { return !(y > -size); }));
 }
 
+/// What another solid hits in a frame is held by a mesh that it would not have reached by itself, whose contact was not
+/// looked for when the frame began.
+TEST(BodyPath, WhatIsHitIsHeldByAMeshBelow) {
+  for (const float speed : {10.f, 20.f, 30.f})
+    for (const float gap : {0.01f, 0.02f}) {
+      Scene scene;
+      scene.gravity = {};
+      scene.settings.threads = 1;
+      scene.add(grid(8, 1));
+      Object balls;
+      BodyOptions options;
+      options.position = {0.1f, 0.05f + gap, 0.2f};
+      add_body(balls, {{Sphere{0.05f}}}, options);
+      options.position = {0.11f, 0.18f + gap, 0.2f};
+      options.velocity = {0, -speed, 0};
+      options.name = "hammer";
+      add_body(balls, {{Sphere{0.05f}}}, options);
+      scene.add(balls);
+      World world(scene);
+      float lowest = 1;
+      for (int frame = 0; frame < 20; ++frame) {
+        EXPECT_TRUE(world.step(1.f / 60).ok());
+        lowest = std::min(lowest, world.object(0).positions()[0].y);
+      }
+      EXPECT_GT(lowest, 0) << speed << " m/s, " << gap << " m";
+    }
+}
+
 /// How often all shots are taken, each time with other places and tilts: 7 168 of them.
 int rounds_of_shots() {
   const char* const wanted = std::getenv("PLIANT_SHOTS");
@@ -242,8 +270,7 @@ int rounds_of_shots() {
 }
 
 /// What is hit at an end at 100 m/s turns by more than a radian in a substep, in which contacts are linear. The ball
-/// about its centre holds it: without that 60 of 896 small solids and 3 of the large ones go in by their size. In 20
-/// rounds one does, a capsule that is left spinning at some hundred radians a second.
+/// about its centre holds it: without that 60 of 896 small solids and 3 of the large ones go in by their size.
 TEST(BodyPath, NoTiltedSolidPassesThroughASurface) {
   int seed = 1, passed = 0;
   const int rounds = rounds_of_shots();
@@ -258,7 +285,7 @@ TEST(BodyPath, NoTiltedSolidPassesThroughASurface) {
                           static_cast<double>(speed), seed);
             passed += now;
           }
-  EXPECT_LE(passed, rounds / 20) << "of " << 7168 * rounds;
+  EXPECT_EQ(passed, 0) << "of " << 7168 * rounds;
 }
 
 }  // namespace

@@ -230,16 +230,21 @@ int rounds_of_bounces() {
 }
 
 /// An impulse that was computed with the spin of the substep's middle and added to that of its end brought up to 449 %.
-/// Three of 1 280 still gain more than 0.1 %, at most 0.4 %, in one frame; none of the first 32 does.
 TEST(BouncingBody, OfRandomShapeGainsNoEnergy) {
   const int bodies = kinds_of_bouncers * kinds_of_grounds * rounds_of_bounces();
-  int above = 0;
   for (int seed = 0; seed < bodies; ++seed) {
     const Bounces bounces = random_bounces(seed, 20);
-    EXPECT_LT(bounces.gained, 5e-3) << bounces.what;
-    above += bounces.gained < 1e-3 ? 0 : 1;
+    EXPECT_LT(bounces.gained, 1e-3) << bounces.what;
   }
-  EXPECT_LE(above, bodies / 200);
+}
+
+/// Those two of 1 280 gained 0.19 and 0.13 %: the lowest place of a rim was left out where others were less than 1 % of
+/// the size higher, went in, and was pushed out in the next frame.
+TEST(BouncingBody, ACylinderOnItsRimGainsNoEnergy) {
+  for (const int seed : {1052, 1164}) {
+    const Bounces bounces = random_bounces(seed, 20);
+    EXPECT_LT(bounces.gained, 1e-3) << bounces.what;
+  }
 }
 
 }  // namespace

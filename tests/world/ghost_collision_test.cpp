@@ -372,12 +372,20 @@ struct Ghosts {
 
 bool slides(const GhostPath& path) { return path.rise < 1e-4f && path.lost < 1e-3f && path.sunk < 5e-3f; }
 
-/// Of 4 000 two rise by more than 0.1 mm or lose more than a thousandth of their speed: a ball that goes nearly along a
-/// joint, and a capsule whose contacts are so soft, with four substeps of 7 ms, that the next solid is a step.
 TEST(BodyGhosts, RandomSolidsSlideOverFlushSolids) {
   const Ghosts found(
       ghosts(), [](int seed) { return slide(seed); }, slides);
-  EXPECT_LE(found.turned, found.count / 1000);
+  EXPECT_EQ(found.turned, 0);
+}
+
+/// The last two of 4 000 to rise by 0.1 mm or lose a thousandth of their speed: a ball that goes nearly along a joint,
+/// whose direction of contact was off by 0.06 degrees, and a capsule on contacts so soft, with four substeps of 7 ms, that
+/// it lay tilted, and sank as it came to the next solid.
+TEST(BodyGhosts, ABallAlongAJointAndASoftCapsuleSlide) {
+  for (const int seed : {3709, 1078}) {
+    const GhostPath path = slide(seed);
+    EXPECT_TRUE(slides(path)) << path.what << ": rise " << path.rise << " m, lost " << path.lost;
+  }
 }
 
 TEST(BodyGhosts, NoHullOnACornerIsThrown) {
@@ -386,13 +394,21 @@ TEST(BodyGhosts, NoHullOnACornerIsThrown) {
   EXPECT_EQ(found.turned, 0);
 }
 
-/// Of 4 000 four are turned aside, by free solids at which they come slowly, for which no path is searched
-/// (BodyContacts).
+bool goes_straight(const GhostPath& path) { return path.aside < 2e-5f && path.lost < 1e-5f; }
+
 TEST(BodyGhosts, RandomSolidsPassWhatTheyMiss) {
   const Ghosts found(
-      ghosts(), [](int seed) { return pass_by(seed); },
-      [](const GhostPath& path) { return path.aside < 2e-5f && path.lost < 1e-5f; });
-  EXPECT_LE(found.turned, found.count / 500);
+      ghosts(), [](int seed) { return pass_by(seed); }, goes_straight);
+  EXPECT_EQ(found.turned, 0);
+}
+
+/// The last four of 4 000 to be turned aside: no path was searched between free solids that move by less than 0.15 of
+/// their size in a frame.
+TEST(BodyGhosts, SlowSolidsPassFreeOnesThatTheyMiss) {
+  for (const int seed : {2082, 2531, 2939, 3065}) {
+    const GhostPath path = pass_by(seed);
+    EXPECT_TRUE(goes_straight(path)) << path.what << ": aside " << path.aside << " m, lost " << path.lost;
+  }
 }
 
 }  // namespace

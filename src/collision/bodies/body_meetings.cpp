@@ -24,6 +24,15 @@ constexpr double slop_share = 0.005, slop_of_fall = 0.1;
 /// What comes nearer in a frame by less than this share of the path that gravity adds is at rest; of what moves by less
 /// than half of that path it may be more, since piles come to rest so.
 constexpr double approach_of_fall = 0.003, slow_approach_of_fall = 0.03, slow_way_of_fall = 0.5;
+/// Of two free solids the directions are searched on paths longer than this share of the smaller part's size where they
+/// do not press one another: these may pass each other, and are few in piles.
+constexpr double passing_share = 0.04;
+
+bool is_pressed(std::span<const BodyContact> contacts) {
+  return std::any_of(contacts.begin(), contacts.end(), [](const BodyContact& contact) {
+    return *std::max_element(contact.impulse.begin(), contact.impulse.end()) > 0;
+  });
+}
 
 /// Where two bodies are in one place, no direction separates them. They count as a little apart, each pair in a direction of its own.
 Posed apart(Posed relative, int a, int b, double size) {
@@ -91,7 +100,8 @@ BodyContacts::Task::Meeting BodyContacts::Task::meeting_of(int number, std::span
   const double way = static_cast<double>(dt * length(velocity)), least = least_approach(way);
   const SolidPath on{path_of(one.body, other.body, number), slop_share * size + slop_of_fall * fall(), 0.5 * fall(), least};
   const double least_fast = one_is_held(a, b) ? least : fast_share * size;
-  const bool is_fast = length(on.path.end()) > least_fast, starts_fast = way > least_fast;
+  const double least_searched = one_is_held(a, b) || is_pressed(old) ? least_fast : passing_share * size;
+  const bool is_fast = length(on.path.end()) > least_searched, starts_fast = way > least_fast;
   return {number, one, other, a, b, old, relative, size, reach_of(pair, approach), turning, on, is_fast, starts_fast};
 }
 

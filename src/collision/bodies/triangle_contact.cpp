@@ -18,7 +18,7 @@ constexpr double straight = 1 - 1e-6;
 /// Flat parts that face each other less than this serve no clipping [cosine].
 constexpr double facing = 0.9;
 /// The deepest place is a point of contact where all others are higher by this share of the solid's size.
-constexpr double higher = 0.01;
+constexpr double higher = 0.001;
 /// Flat parts of a solid may differ in height by shares of its size between these.
 constexpr double least_slack = 0.01, most_slack = 0.1;
 

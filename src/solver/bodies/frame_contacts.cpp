@@ -16,12 +16,17 @@ constexpr float far_turned = 0.2f, soon_far_turned = 0.5f * far_turned;
 /// The same if two bodies, of which some bounce, have moved against each other by more than this share of half of the smaller one's
 /// thickness: the direction of an impact is that of the place where they meet.
 constexpr float far_moved = 0.1f;
+/// The same if a body leaves the path by which pairs were found by more than this share of half of its thickness, as one
+/// that another one hits: nothing else would hold it on its new path.
+constexpr float far_strayed = 0.5f;
 
 }  // namespace
 
 FrameContacts::FrameContacts(ContactBodies& bodies) : bodies_(&bodies), finder_(bodies.take_parts()) {}
 
 void FrameContacts::read_states(const Substep& s) {
+  left_ = static_cast<float>(time_left(s));
+  faster_ = left_ * length(s.model.gravity);
   states_.clear();
   is_fixed_.clear();
   for (int place = 0; place < static_cast<int>(bodies_->places().size()); ++place) {
@@ -34,11 +39,8 @@ void FrameContacts::read_states(const Substep& s) {
 }
 
 void FrameContacts::update(Substep& s, const std::vector<BodyContact>& before) {
-  const double left = time_left(s);
-  const float gravity = static_cast<float>(left) * length(s.model.gravity);
   finder_.update(
-      s.context.executor, states_, static_cast<float>(left), gravity, [&](int a, int b) { return bodies_->meet(s, a, b); },
-      before, contacts_);
+      s.context.executor, states_, left_, faster_, [&](int a, int b) { return bodies_->meet(s, a, b); }, before, contacts_);
 }
 
 /// Contacts with a body that sleeps wake it, and are found once more with those of its island.
@@ -127,12 +129,24 @@ bool FrameContacts::any_moved_far(const BodyMotions& motions, const Visit& visit
   return false;
 }
 
+/// Of what moves as it did, or more slowly, the first test is all that counts.
+bool FrameContacts::has_strayed(const BodyMotions& motions, int body) const {
+  const float far = far_strayed * finder_.size_of_body(body);
+  const Vec3f moved = motions.all()[at(body)].displacement;
+  if (!(length_squared(moved) > far * far)) return false;
+  const Vec3f way = states_[at(body)].velocity * left_, none{};
+  return largest(max(max(moved - max(way, none), min(way, none) - moved), none)) > far + left_ * faster_;
+}
+
 bool FrameContacts::are_outdated(const BodyMotions& motions, bool some_bounce) const {
   const auto turned = [&](int body) {
     return body < bodies_->dynamic() && turned_[at(body)] + motions.turned(body) > far_turned;
   };
   bool any = false;  // bodies first: they are fewer than contacts
-  for (int body = 0; body < bodies_->dynamic() && !any; ++body) any = turned(body);
+  for (int body = 0; body < bodies_->dynamic(); ++body) {
+    if (has_strayed(motions, body)) return true;
+    any = any || turned(body);
+  }
   const auto& pairs = finder_.bodies();
   if (any &&
       std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return turned(pair.first) || turned(pair.second); }))
@@ -146,7 +160,7 @@ void FrameContacts::find_outdated(const BodyMotions& motions, bool some_bounce) 
   for (int body = 0; body < bodies_->dynamic(); ++body) {
     float& turned = turned_[at(body)];
     turned += motions.turned(body);
-    is_outdated_[at(body)] = turned > soon_far_turned ? 1 : 0;
+    is_outdated_[at(body)] = turned > soon_far_turned || has_strayed(motions, body) ? 1 : 0;
   }
   if (some_bounce)
     any_moved_far(motions, [&](int a, int b) {
@@ -163,10 +177,9 @@ void FrameContacts::renew(Substep& s, const BodyMotions& motions, bool some_boun
   read_states(s);
   for (std::size_t place = 0; place < states_.size(); ++place)  // the contacts of what is driven round turn with it
     if (states_[place].is_driven_round) is_outdated_[place] = 1;
-  const double left = time_left(s);
   finder_.renew(
-      s.context.executor, states_, static_cast<float>(left), static_cast<float>(left) * length(s.model.gravity),
-      [&](int a, int b) { return bodies_->meet(s, a, b); }, is_outdated_, some_bounce ? far_moved : 1e30f, contacts_);
+      s.context.executor, states_, left_, faster_, [&](int a, int b) { return bodies_->meet(s, a, b); }, is_outdated_,
+      some_bounce ? far_moved : 1e30f, contacts_);
 }
 
 }  // namespace pliant

@@ -51,6 +51,8 @@ class FrameContacts {
   void find_beside_sleepers(Substep& s, BodySleep& sleep);
   void warn(Substep& s);
   void find_outdated(const BodyMotions& motions, bool some_bounce);
+  /// True if a body has left the path on which its contacts were found.
+  bool has_strayed(const BodyMotions& motions, int body) const;
   template <class Visit>
   bool any_moved_far(const BodyMotions& motions, const Visit& visit) const;
 
@@ -58,6 +60,8 @@ class FrameContacts {
   BodyContacts finder_;
   DeepOverlaps overlaps_;
   std::vector<BodyState> states_;
+  float left_ = 0,
+        faster_ = 0;  ///< of the frame when they were read [s]; by which gravity changes speeds in that time [m/s]
   std::vector<char> is_fixed_;
   std::vector<BodyContact> contacts_;
   std::vector<float>
