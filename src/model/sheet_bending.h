@@ -35,7 +35,7 @@ inline constexpr int sheet_block = 1024;
 inline constexpr int coarsest_sheet_rows = 32;
 
 /// The matrices of one level in compressed rows. Rows with the same offsets and, but for rounding, the same values
-/// share a pattern: a grid of 256 x 256 has 1 052 of them, which a cache holds. A pattern has first the columns below the
+/// share a pattern: a grid of 256 x 256 has 1 102 of them, which a cache holds. A pattern has first the columns below the
 /// row in its block, then those above it in its block, then those of other blocks, each part ascending.
 struct SheetLevel {
   int rows = 0;
@@ -113,7 +113,7 @@ struct SparseRows {
   std::vector<std::vector<Entry>> row;  ///< columns ascending
 };
 
-/// Appends a matrix to a level as patterns: the mean of rows that differ by rounding alone. `of_masses`: with M_ij.
+/// Appends a matrix to a level as patterns: the first of rows that differ by rounding alone. `of_masses`: with M_ij.
 void append_patterns(const SparseRows& matrix, bool of_masses, SheetLevel& level);
 /// Appends the levels below a draft of the finest one.
 void append_levels(SheetDraft draft, SparseRows stiffness, std::vector<SheetLevel>& levels);
