@@ -34,14 +34,16 @@ inline constexpr int sheet_block = 1024;
 /// Rows at which coarsening ends, and the largest number that is solved directly.
 inline constexpr int coarsest_sheet_rows = 32;
 
-/// The stiffness between the vertices of one level, in compressed rows. A row has first the columns below it in its
-/// block, then those above it in its block, then those of other blocks.
+/// The matrices of one level in compressed rows. Rows with the same offsets and, but for rounding, the same values
+/// share a pattern: a grid of 256 x 256 has 1 102 of them, which a cache holds. A pattern has first the columns below the
+/// row in its block, then those above it in its block, then those of other blocks, each part ascending.
 struct SheetLevel {
   int rows = 0;
-  std::vector<std::int32_t> begin, above, outside;  ///< of each row: its first entry, and the first of each other part
-  std::vector<std::int32_t> column;
+  std::vector<std::int32_t> pattern;                ///< of each row
+  std::vector<std::int32_t> begin, above, outside;  ///< of each pattern: its first entry, and the first of other parts
+  std::vector<float> diagonal;                      ///< of each pattern: K_ii [N/m]
+  std::vector<std::int32_t> offset;                 ///< of each entry: the column less the row
   std::vector<float> stiffness;                     ///< of each entry; the diagonal has none [N/m]
-  std::vector<float> diagonal;                      ///< K_ii [N/m]
   std::vector<float> mass_between;                  ///< of each entry, of coarse levels alone [kg]
   std::vector<float> mass;                          ///< of each row, of the masses that are given [kg]
   std::vector<char> is_fixed;                       ///< 1: a pinned vertex, or one without triangles
@@ -50,6 +52,7 @@ struct SheetLevel {
   std::vector<std::int32_t> child_begin, child;     ///< for each row of the next level, the rows that it moves
   std::vector<float> child_share;
 
+  int patterns() const { return static_cast<int>(above.size()); }
   int blocks() const { return (rows + sheet_block - 1) / sheet_block; }
 };
 
@@ -110,6 +113,8 @@ struct SparseRows {
   std::vector<std::vector<Entry>> row;  ///< columns ascending
 };
 
+/// Appends a matrix to a level as patterns: the first of rows that differ by rounding alone. `of_masses`: with M_ij.
+void append_patterns(const SparseRows& matrix, bool of_masses, SheetLevel& level);
 /// Appends the levels below a draft of the finest one.
 void append_levels(SheetDraft draft, SparseRows stiffness, std::vector<SheetLevel>& levels);
 

@@ -6,26 +6,26 @@
 #include "core/at.h"
 #include "math/vector.h"
 #include "model/sheet_bending.h"
+#include "model/sheet_lattice.h"
 
 namespace pliant {
 
 namespace {
 
-Vec3d rest_of(const Object& object, int particle) { return convert<double>(object.positions[at(particle)]); }
-
 /// The triangles of a sheet and what is around each vertex, by the object's indices.
 struct SheetMesh {
   const Object& object;
+  std::vector<Vec3d> rest;                 ///< of each vertex: unrounded_rest_positions() [m]
   std::vector<double> areas;               ///< of each triangle [m^2]
   std::vector<std::vector<int>> star;      ///< of each vertex, its triangles
   std::vector<std::array<int, 3>> across;  ///< of each edge, by the smaller end: its ends, and a corner opposite to it
 
-  explicit SheetMesh(const Object& of) : object(of), star(of.positions.size()) {
+  explicit SheetMesh(const Object& of) : object(of), rest(unrounded_rest_positions(of)), star(of.positions.size()) {
     areas.reserve(of.triangles.size());
     across.reserve(3 * of.triangles.size());
     for (std::size_t t = 0; t < of.triangles.size(); ++t) {
       const auto& [a, b, c] = of.triangles[t];
-      areas.push_back(length(cross(rest_of(of, b) - rest_of(of, a), rest_of(of, c) - rest_of(of, a))) / 2);
+      areas.push_back(length(cross(rest[at(b)] - rest[at(a)], rest[at(c)] - rest[at(a)])) / 2);
       for (const int v : of.triangles[t]) star[at(v)].push_back(static_cast<int>(t));
       across.push_back({std::min(a, b), std::max(a, b), c});
       across.push_back({std::min(b, c), std::max(b, c), a});
@@ -61,7 +61,7 @@ struct SheetMesh {
     Vec3d sum{};
     for (const int t : star[at(vertex)]) {
       const auto& [a, b, c] = object.triangles[at(t)];
-      const Vec3d n = cross(rest_of(object, b) - rest_of(object, a), rest_of(object, c) - rest_of(object, a));
+      const Vec3d n = cross(rest[at(b)] - rest[at(a)], rest[at(c)] - rest[at(a)]);
       sum += dot(sum, n) < 0 ? -n : n;  // triangles need not be wound alike
     }
     const double size = length(sum);
@@ -125,20 +125,20 @@ struct Curvature {
 };
 
 Curvature curvature_at(const SheetMesh& mesh, int vertex, const std::vector<int>& ring) {
-  const Vec3d normal = mesh.normal_at(vertex), origin = rest_of(mesh.object, vertex);
+  const Vec3d normal = mesh.normal_at(vertex), origin = mesh.rest[at(vertex)];
   const Vec3d helper = std::fabs(normal.x) < 0.7 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
   const Vec3d first = cross(helper, normal), u = first * (1 / length(first)), v = cross(normal, u);
   std::vector<std::array<double, 5>> terms;
   std::vector<double> weights;
   double size = 0;
   for (const int i : ring) {
-    const Vec3d d = rest_of(mesh.object, i) - origin;
+    const Vec3d d = mesh.rest[at(i)] - origin;
     size += length_squared(d) / static_cast<double>(ring.size());
   }
   size = std::sqrt(std::max(size, 1e-30));
   std::array<std::array<double, 5>, 5> normal_matrix{};
   for (const int i : ring) {
-    const Vec3d d = (rest_of(mesh.object, i) - origin) * (1 / size);
+    const Vec3d d = (mesh.rest[at(i)] - origin) * (1 / size);
     const double x = dot(d, u), z = dot(d, v), squared = std::max(x * x + z * z, 1e-12);
     terms.push_back({x, z, x * x / 2, x * z, z * z / 2});
     weights.push_back(1 / squared);
@@ -312,7 +312,7 @@ SheetDraft draft_of(const SheetMesh& mesh, const std::vector<int>& place, const 
     const int vertex = static_cast<int>(v);
     const std::size_t row = at(place[v]);
     const std::vector<int> ring = mesh.neighbours(vertex);
-    draft.rest[row] = rest_of(mesh.object, vertex);
+    draft.rest[row] = mesh.rest[at(vertex)];
     draft.normal[row] = mesh.normal_at(vertex);
     if (ring.empty()) continue;
     draft.is_fixed[row] = is_fixed[v];
@@ -366,7 +366,9 @@ SheetBending build_sheet(const Object& object, const SheetFacts& facts, const st
   out.damping_time = facts.damping_time;
   SheetDraft draft = draft_of(mesh, place, is_fixed, positions.size());
   find_pieces(draft, out);
-  SparseRows matrices = in_storage(assemble(curvatures(mesh, facts.rigidity, is_fixed), is_fixed.size()), place, positions);
+  std::vector<double> rigidity = facts.rigidity;
+  unify(rigidity);
+  SparseRows matrices = in_storage(assemble(curvatures(mesh, rigidity, is_fixed), is_fixed.size()), place, positions);
   out.stiffness = static_cast<float>(std::max(facts.stiffness, stiffness_of_finest(matrices)));
   append_levels(std::move(draft), std::move(matrices), out.levels);
   return out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "core/at.h"
@@ -35,6 +36,20 @@ struct Candidate {
   double x = 0, z = 0, squared = 0;
 };
 
+/// Sorts candidates, nearest first. Those of a lattice are equally near but for rounding: their places decide, so that
+/// all rows of a lattice choose alike.
+void sort_by_distance(std::vector<Candidate>& all) {
+  double largest = 0;
+  for (const Candidate& one : all) largest = std::max(largest, one.squared);
+  if (!(largest > 0)) return;
+  const double length_unit = std::sqrt(largest) * 1e-6;
+  const auto whole = [](double value) { return std::floor(value + 0.3); };
+  const auto key = [&](const Candidate& c) {
+    return std::make_tuple(whole(c.squared / (largest * 1e-6)), whole(c.x / length_unit), whole(c.z / length_unit), c.row);
+  };
+  std::sort(all.begin(), all.end(), [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); });
+}
+
 /// The kept vertices within two edges of a row, or three where those are few, nearest first.
 std::vector<Candidate> candidates_of(const SheetDraft& draft, const std::vector<char>& is_kept, int row,
                                      std::vector<int>& seen) {
@@ -61,9 +76,7 @@ std::vector<Candidate> candidates_of(const SheetDraft& draft, const std::vector<
     const Vec3d d = draft.rest[at(j)] - draft.rest[at(row)];
     out.push_back({j, dot(d, u), dot(d, v), length_squared(d)});
   }
-  std::sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) {
-    return a.squared != b.squared ? a.squared < b.squared : a.row < b.row;
-  });
+  sort_by_distance(out);
   if (out.size() > most_candidates) out.resize(most_candidates);
   return out;
 }
@@ -199,35 +212,16 @@ std::vector<std::vector<int>> joined(const std::vector<Interpolation>& by, const
   return out;
 }
 
-/// Which part of a row an entry belongs to: 0 below the row in its block, 1 above it, 2 in other blocks.
-int part_of(int row, int column) {
-  if (row / sheet_block != column / sheet_block) return 2;
-  return column < row ? 0 : 1;
-}
-
 /// Lays out the matrices as a level.
 SheetLevel lay_out(const SheetDraft& draft, const SparseRows& k, bool is_finest) {
   SheetLevel out;
   out.rows = static_cast<int>(k.row.size());
   out.is_fixed = draft.is_fixed;
-  out.diagonal.assign(at(out.rows), 0);
   out.mass.assign(at(out.rows), 0);
-  out.begin.push_back(0);
-  for (int i = 0; i < out.rows; ++i) {
-    for (int part = 0; part < 3; ++part) {
-      if (part == 1) out.above.push_back(static_cast<std::int32_t>(out.column.size()));
-      if (part == 2) out.outside.push_back(static_cast<std::int32_t>(out.column.size()));
-      for (const auto& [j, stiffness, mass] : k.row[at(i)]) {
-        if (j == i) out.diagonal[at(i)] = static_cast<float>(stiffness);
-        if (j == i) out.mass[at(i)] = static_cast<float>(mass);
-        if (j == i || part_of(i, j) != part) continue;
-        out.column.push_back(j);
-        out.stiffness.push_back(static_cast<float>(stiffness));
-        if (!is_finest) out.mass_between.push_back(static_cast<float>(mass));
-      }
-    }
-    out.begin.push_back(static_cast<std::int32_t>(out.column.size()));
-  }
+  for (int i = 0; i < out.rows; ++i)
+    for (const SparseRows::Entry& entry : k.row[at(i)])
+      if (entry.column == i) out.mass[at(i)] = static_cast<float>(entry.mass);
+  append_patterns(k, !is_finest, out);
   return out;
 }
 

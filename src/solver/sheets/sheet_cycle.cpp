@@ -1,8 +1,10 @@
 #include "solver/sheets/sheet_cycle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "core/at.h"
 
@@ -35,39 +37,118 @@ Matrix matrix_of(const SheetBending& sheet, const SheetScratch& scratch, std::si
   return {sheet.levels[l], scratch.levels[l].entries.data(), 1};
 }
 
-/// The sum of a_ij x_j over entries [first, last), less the scale: of two sums, since an addition waits for the one
-/// before.
-Four sum_of(const Matrix& a, const Record* x, std::int32_t first, std::int32_t last) {
-  Four even{}, odd{};
+/// The sums of a_ij term(j - i, row) over entries [first, last) of a pattern, less the scale, for `n` rows that share it:
+/// of two sums each, since an addition waits for the one before. Rows side by side change no bit.
+template <int n, class Term>
+[[gnu::always_inline]] inline std::array<Four, n> sums_over(const Matrix& a, std::int32_t first, std::int32_t last,
+                                                            const Term& term) {
+  std::array<Four, n> even{}, odd{};
   const float* k = a.entries;
-  const std::int32_t* column = a.level.column.data();
+  const std::int32_t* offset = a.level.offset.data();
   std::int32_t e = first;
-  for (; e + 1 < last; e += 2) {
-    even += load(x[column[e]]) * k[e];
-    odd += load(x[column[e + 1]]) * k[e + 1];
+  for (; e + 1 < last; e += 2)
+    for (int row = 0; row < n; ++row) {
+      even[at(row)] += term(offset[e], row) * k[e];
+      odd[at(row)] += term(offset[e + 1], row) * k[e + 1];
+    }
+  for (int row = 0; row < n; ++row) {
+    if (e < last) even[at(row)] += term(offset[e], row) * k[e];
+    even[at(row)] += odd[at(row)];
   }
-  if (e < last) even += load(x[column[e]]) * k[e];
-  return even + odd;
+  return even;
 }
 
+/// The same of a_ij x_j. `x`: the value of the first row.
+template <int n>
+[[gnu::always_inline]] inline std::array<Four, n> sums_of(const Matrix& a, const Record* x, std::int32_t first,
+                                                          std::int32_t last) {
+  return sums_over<n>(a, first, last, [&](std::int32_t offset, int row) { return load(x[offset + row]); });
+}
 int first_of(int block) { return block * sheet_block; }
 int last_of(int block, int rows) { return std::min(rows, (block + 1) * sheet_block); }
 
+/// Rows that share a pattern are taken so many at a time, which loads each entry once. Gauss-Seidel finds them side by
+/// side, too: entries nearer than that come last, one row after another. In storage neighbours are seldom so near
+/// (topology/numbering.h).
+constexpr int abreast = 4;
+
+/// True if `abreast` rows from `i` on share a pattern.
+bool are_alike(const SheetLevel& level, int i) {
+  const std::int32_t* p = level.pattern.data() + i;
+  return p[1] == p[0] && p[2] == p[0] && p[3] == p[0];
+}
+
+/// Calls body(count, row, pattern) for rows [row, row + count), which share a pattern. `count` is a constant: `abreast`
+/// or one.
+template <class Body>
+void call_for(const SheetLevel& level, int count, int row, const Body& body) {
+  const std::size_t p = at(level.pattern[at(row)]);
+  if (count == abreast) return body(std::integral_constant<int, abreast>(), row, p);
+  body(std::integral_constant<int, 1>(), row, p);
+}
+
+/// Calls it for all rows of a block.
+template <class Body>
+void for_rows(const SheetLevel& level, int block, const Body& body) {
+  const int last = last_of(block, level.rows);
+  for (int i = first_of(block), count = 0; i < last; i += count) {
+    count = i + abreast <= last && are_alike(level, i) ? abreast : 1;
+    call_for(level, count, i, body);
+  }
+}
+
+/// The same from the last row to the first.
+template <class Body>
+void for_rows_down(const SheetLevel& level, int block, const Body& body) {
+  const int first = first_of(block);
+  for (int i = last_of(block, level.rows), count = 0; i > first; i -= count) {
+    count = i - abreast >= first && are_alike(level, i - abreast) ? abreast : 1;
+    call_for(level, count, i - count, body);
+  }
+}
+
+/// The first entry below a row that is near it.
+std::int32_t near_below(const SheetLevel& level, std::size_t p) {
+  std::int32_t e = level.above[p];
+  while (e > level.begin[p] && level.offset[at(e - 1)] > -abreast) --e;
+  return e;
+}
+/// The first entry above a row that is not near it.
+std::int32_t far_above(const SheetLevel& level, std::size_t p) {
+  std::int32_t e = level.above[p];
+  while (e < level.outside[p] && level.offset[at(e)] < abreast) ++e;
+  return e;
+}
+
 /// Gauss-Seidel upwards from zero: (D + L) x = r within the block.
 void sweep_up(const Matrix& a, int block, SheetLevelScratch& own) {
-  for (int i = first_of(block); i < last_of(block, a.level.rows); ++i) {
-    const Four below = sum_of(a, own.x.data(), a.level.begin[at(i)], a.level.above[at(i)]);
-    store((load(own.right[at(i)]) - below * a.scale) * own.inverse[at(i)], own.x[at(i)]);
-  }
+  const SheetLevel& level = a.level;
+  for_rows(level, block, [&](auto count, int first, std::size_t p) {
+    constexpr int n = decltype(count)::value;
+    const std::int32_t near = near_below(level, p);
+    const auto far = sums_of<n>(a, own.x.data() + first, level.begin[p], near);
+    for (int row = 0; row < n; ++row) {
+      const int i = first + row;
+      const float inverse = own.inverse[at(i)], by = a.scale * inverse;
+      Four value = load(own.right[at(i)]) * inverse - far[at(row)] * by;
+      for (std::int32_t e = near; e < level.above[p]; ++e)
+        value -= load(own.x[at(i + level.offset[at(e)])]) * (a.entries[e] * by);
+      store(value, own.x[at(i)]);
+    }
+  });
 }
 
 /// What is left of the right-hand side after sweep_up, in `before`.
 void find_residual(const Matrix& a, int block, SheetLevelScratch& own) {
-  for (int i = first_of(block); i < last_of(block, a.level.rows); ++i) {
-    const Four others = sum_of(a, own.x.data(), a.level.above[at(i)], a.level.begin[at(i) + 1]);
-    const Four left = load(own.x[at(i)]) * own.beyond[at(i)] - others * a.scale;
-    store(own.inverse[at(i)] == 0 ? Four{} : left, own.before[at(i)]);
-  }
+  const SheetLevel& level = a.level;
+  for_rows(level, block, [&](auto count, int i, std::size_t p) {
+    constexpr int n = decltype(count)::value;
+    const auto others = sums_of<n>(a, own.x.data() + i, level.above[p], level.begin[p + 1]);
+    for (int row = 0; row < n; ++row) {
+      const Four left = load(own.x[at(i + row)]) * own.beyond[p] - others[at(row)] * a.scale;
+      store(own.inverse[at(i + row)] == 0 ? Four{} : left, own.before[at(i + row)]);
+    }
+  });
 }
 
 /// The right-hand side of the coarser level: the transpose of the interpolation.
@@ -94,12 +175,22 @@ void interpolate(const SheetLevel& level, const SheetLevelScratch& coarse, int b
 
 /// Gauss-Seidel downwards: rows of the block have their new values above, those of other blocks the values of before.
 void sweep_down(const Matrix& a, int block, SheetLevelScratch& own) {
-  for (int i = last_of(block, a.level.rows); i-- > first_of(block);) {
-    const Four inside = sum_of(a, own.x.data(), a.level.begin[at(i)], a.level.outside[at(i)]);
-    const Four outside = sum_of(a, own.before.data(), a.level.outside[at(i)], a.level.begin[at(i) + 1]);
-    const Four right = load(own.right[at(i)]) - (inside + outside) * a.scale + load(own.x[at(i)]) * own.beyond[at(i)];
-    store(right * own.inverse[at(i)], own.x[at(i)]);
-  }
+  const SheetLevel& level = a.level;
+  for_rows_down(level, block, [&](auto count, int first, std::size_t p) {
+    constexpr int n = decltype(count)::value;
+    const std::int32_t above = level.above[p], far = far_above(level, p), outside = level.outside[p];
+    const Record* x = own.x.data() + first;
+    const auto old = sums_of<n>(a, x, level.begin[p], above), found = sums_of<n>(a, x, far, outside);
+    const auto others = sums_of<n>(a, own.before.data() + first, outside, level.begin[p + 1]);
+    for (int row = n; row-- > 0;) {
+      const int i = first + row;
+      const float inverse = own.inverse[at(i)], by = a.scale * inverse;
+      const Four all = old[at(row)] + found[at(row)] + others[at(row)];
+      Four value = (load(own.right[at(i)]) + load(own.x[at(i)]) * own.beyond[p]) * inverse - all * by;
+      for (std::int32_t e = far; e-- > above;) value -= load(own.x[at(i + level.offset[at(e)])]) * (a.entries[e] * by);
+      store(value, own.x[at(i)]);
+    }
+  });
 }
 
 /// Solves the last level by its factor.
@@ -165,12 +256,16 @@ double product_of(const SheetLevel& level, const Records& a, const Records& b, B
 void multiply(const Matrix& a, int block, SheetScratch& scratch) {
   const SheetLevel& level = a.level;
   const SheetLevelScratch& own = scratch.levels.front();
-  for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
-    const Four c = load(scratch.direction[at(i)]);
-    const Four others = sum_of(a, scratch.direction.data(), level.begin[at(i)], level.begin[at(i) + 1]);
-    const Four product = c * (own.mass[at(i)] + own.heavy[at(i)]) + (others + c * level.diagonal[at(i)]) * scratch.h2;
-    store(own.inverse[at(i)] == 0 ? Four{} : product, scratch.product[at(i)]);
-  }
+  for_rows(level, block, [&](auto count, int first, std::size_t p) {
+    constexpr int n = decltype(count)::value;
+    const auto others = sums_of<n>(a, scratch.direction.data() + first, level.begin[p], level.begin[p + 1]);
+    for (int row = 0; row < n; ++row) {
+      const std::size_t i = at(first + row);
+      const Four c = load(scratch.direction[i]);
+      const Four product = c * (own.mass[i] + own.heavy[i]) + (others[at(row)] + c * level.diagonal[p]) * scratch.h2;
+      store(own.inverse[i] == 0 ? Four{} : product, scratch.product[i]);
+    }
+  });
 }
 
 /// to += by * from.
@@ -236,10 +331,11 @@ void set_entries(const SheetBending& sheet, std::size_t l, SheetScratch& scratch
       own.entries[e] = level.mass_between[e] + scratch.h2 * level.stiffness[e];
   }
   const Matrix a = matrix_of(sheet, scratch, l);
-  for (std::size_t i = 0; i < own.beyond.size(); ++i) {
+  own.beyond.resize(at(level.patterns()));
+  for (std::size_t p = 0; p < own.beyond.size(); ++p) {
     float sum = 0;
-    for (std::int32_t e = level.outside[i]; e < level.begin[i + 1]; ++e) sum += std::fabs(a.entries[e]);
-    own.beyond[i] = a.scale * sum;
+    for (std::int32_t e = level.outside[p]; e < level.begin[p + 1]; ++e) sum += std::fabs(a.entries[e]);
+    own.beyond[p] = a.scale * sum;
   }
 }
 
@@ -250,9 +346,10 @@ void factorise_last(const SheetLevel& last, const SheetLevelScratch& own, float 
   for (std::size_t i = 0; i < n; ++i) {
     a[i * n + i] = 1;
     if (own.inverse[i] == 0) continue;
-    a[i * n + i] = static_cast<double>(own.mass[i] + own.heavy[i] + h2 * last.diagonal[i]);
-    for (std::int32_t e = last.begin[i]; e < last.begin[i + 1]; ++e) {
-      const std::size_t j = at(last.column[at(e)]);
+    const std::size_t p = at(last.pattern[i]);
+    a[i * n + i] = static_cast<double>(own.mass[i] + own.heavy[i] + h2 * last.diagonal[p]);
+    for (std::int32_t e = last.begin[p]; e < last.begin[p + 1]; ++e) {
+      const std::size_t j = at(static_cast<int>(i) + last.offset[at(e)]);
       const float mass = last.mass_between.empty() ? 0 : last.mass_between[at(e)];
       if (own.inverse[j] != 0) a[i * n + j] = static_cast<double>(mass + h2 * last.stiffness[at(e)]);
     }
@@ -278,7 +375,6 @@ void set_masses(const SheetBending& sheet, const Record* positions, SheetScratch
     const std::size_t rows = at(level.rows);
     own.mass = level.mass;
     own.inverse.resize(rows);
-    own.beyond.resize(rows);
     own.heavy.assign(rows, 0);
     for (Records* r : {&own.right, &own.x, &own.before}) r->resize(rows);
     if (l == 1) lump(sheet.levels[0], added, own.heavy);
@@ -302,7 +398,8 @@ void factorise(const SheetBending& sheet, SheetScratch& scratch) {
     const SheetLevel& level = sheet.levels[l];
     SheetLevelScratch& own = scratch.levels[l];
     for (std::size_t i = 0; i < own.inverse.size(); ++i) {
-      const float sum = own.mass[i] + own.heavy[i] + scratch.h2 * level.diagonal[i] + own.beyond[i];
+      const std::size_t p = at(level.pattern[i]);
+      const float sum = own.mass[i] + own.heavy[i] + scratch.h2 * level.diagonal[p] + own.beyond[p];
       const bool is_free = own.mass[i] > 0 && (l == 0 || level.is_fixed[i] == 0);  // pins may have been released
       own.inverse[i] = is_free ? 1 / sum : 0;
     }
@@ -316,33 +413,36 @@ void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, 
   SheetLevelScratch& own = scratch.levels.front();
   const Four gravity{forces.gravity.x, forces.gravity.y, forces.gravity.z, 0};
   const Four load_of_all = gravity * (forces.substeps * forces.substeps);
-  const float all = forces.substeps * forces.h, undamped = all * all / scratch.h2;  // damping resists motion alone
+  // Damping resists motion alone: positions count (n h)^2 times, motion h2 times.
+  const float all = forces.substeps * forces.h, undamped = all * all, by = forces.substeps * (scratch.h2 / undamped);
+  const Record* x = forces.positions;
+  const auto motion = [&](std::int32_t i) {
+    const Four d = load(forces.displacements[i]);
+    return (x[i].w > 0 ? d - gravity : d) * by;
+  };
+  // Places from the first row of the block: what they lose by rounding is less than what positions have lost.
   loop(level.blocks(), [&](int block) {
-    for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
-      const bool falls = forces.positions[i].w > 0;
-      const Four d = load(forces.displacements[i]);
-      store(falls ? d - gravity : d, scratch.moved[at(i)]);
-    }
+    const int first = first_of(block);
+    for (int i = first; i < last_of(block, level.rows); ++i)
+      store((load(x[i]) - load(x[first])) + motion(i), scratch.moved[at(i)]);
   });
+  const Matrix a{level, level.stiffness.data(), undamped};
   loop(level.blocks(), [&](int block) {
-    for (int i = first_of(block); i < last_of(block, level.rows); ++i) {
-      const Four x = load(forces.positions[i]), u = load(scratch.moved[at(i)]);
-      const auto term = [&](std::int32_t e) {
-        const std::size_t j = at(level.column[at(e)]);
-        const Four place = load(forces.positions[j]) - x, motion = load(scratch.moved[j]) - u;
-        return (place * undamped + motion * forces.substeps) * level.stiffness[at(e)];
-      };
-      Four even{}, odd{};
-      std::int32_t e = level.begin[at(i)];
-      const std::int32_t last = level.begin[at(i) + 1];
-      for (; e + 1 < last; e += 2) {
-        even += term(e);
-        odd += term(e + 1);
+    for_rows(level, block, [&](auto count, int first, std::size_t p) {
+      constexpr int n = decltype(count)::value;
+      const Record* y = scratch.moved.data() + first;
+      const auto inside = sums_over<n>(a, level.begin[p], level.outside[p],
+                                       [&](std::int32_t offset, int row) { return load(y[offset + row]) - load(y[row]); });
+      const auto outside = sums_over<n>(a, level.outside[p], level.begin[p + 1], [&](std::int32_t offset, int row) {
+        const std::int32_t i = first + row, j = i + offset;
+        return (load(x[j]) - load(x[i])) + (motion(j) - motion(i));
+      });
+      for (int row = 0; row < n; ++row) {
+        const std::size_t i = at(first + row);
+        const Four r = load_of_all * own.mass[i] - (inside[at(row)] + outside[at(row)]) * undamped;
+        store(own.inverse[i] == 0 ? Four{} : r, own.right[i]);
       }
-      if (e < last) even += term(e);
-      const Four r = load_of_all * own.mass[at(i)] - (even + odd) * scratch.h2;
-      store(own.inverse[at(i)] == 0 ? Four{} : r, own.right[at(i)]);
-    }
+    });
   });
 }
 

@@ -24,8 +24,8 @@ struct Substep;
 struct SheetLevelScratch {
   std::vector<float> mass;     ///< of each row, on the finest level 0 if it is fixed [kg]
   std::vector<float> heavy;    ///< of coarse levels: what water and new pins add to it [kg]
-  std::vector<float> entries;  ///< of coarse levels: M_ij + h^2 K_ij [kg]
-  std::vector<float> beyond;   ///< sum over other blocks of |M_ij + h^2 K_ij| [kg]
+  std::vector<float> entries;  ///< of coarse levels, by pattern: M_ij + h^2 K_ij [kg]
+  std::vector<float> beyond;   ///< of each pattern: sum over other blocks of |M_ij + h^2 K_ij| [kg]
   std::vector<float> inverse;  ///< 1 / (M_ii + heavy + h^2 K_ii + beyond); 0 if it is fixed [1/kg]
   Records right, x, before;    ///< right-hand side, solution, and the solution before the second sweep
 };
@@ -34,7 +34,7 @@ struct SheetLevelScratch {
 struct SheetScratch {
   float h2 = 0;                           ///< what K is multiplied by [s^2]
   std::vector<SheetLevelScratch> levels;  ///< one for each level
-  Records moved, corrections;             ///< u of each row, and P^-1 r [m]
+  Records moved, corrections;             ///< multiple of u of each row, and P^-1 r [m]
   Records direction, product;             ///< of conjugate gradients
   std::vector<double> sums;               ///< of blocks
   std::vector<double> factor;             ///< Cholesky factor of the last level, by rows
