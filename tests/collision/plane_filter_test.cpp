@@ -233,5 +233,47 @@ TEST(PlaneFilter, ShortensNoMoreThanItMust) {
   EXPECT_LT(height, 0.12f) << "the plane leaves a tenth of the gap to a side that does not move";
 }
 
+/// A vertex and a triangle 0.001 from it, of 0.01.
+Case near_triangle(const Vec3d& vertex, const Vec3d& at) {
+  Case c;
+  const Vec3d corners[4] = {vertex, {-0.005, 0, -0.005}, {0.005, 0, -0.005}, {0, 0, 0.005}};
+  for (int i = 0; i < 4; ++i) {
+    c.positions[i] = record(at + corners[i], 1);
+    c.displacements[i] = {};
+  }
+  c.least = 1e-5;
+  return c;
+}
+
+TEST(PlaneFilter, LeavesWhatMovesTogether) {
+  Case c = near_triangle({0, 0.001, 0}, {});
+  for (Record& d : c.displacements) d = {0.001f, -0.003f, 0.002f, 0};  // three times the gap
+  c.displacements[0].y -= 5e-4f;
+  std::array<float, 4> shares{};
+  EXPECT_EQ(filter(c, shares), Separation::free);
+}
+
+TEST(PlaneFilter, LeavesWhatSlidesPastAnEdge) {
+  Case c = near_triangle({0, 0.0003, -0.0055}, {});
+  c.displacements[0] = {0, -0.002f, 0, 0};
+  std::array<float, 4> shares{};
+  EXPECT_EQ(filter(c, shares), Separation::free) << "it passes 0.5 mm beside the edge";
+}
+
+/// The margin allows for rounding. Of steps that were truncated without that, half ended a rounding beyond their plane,
+/// so that their vertices did not move at all.
+TEST(PlaneFilter, DoesNotStopWhatRoundingPutsBeyondThePlane) {
+  Random random(84);
+  for (int i = 0; i < 2000; ++i) {
+    Case c = near_triangle({0, 0.001, 0}, random_place(random, 1));
+    for (int k = 1; k < 4; ++k) c.positions[k].w = 0;
+    c.displacements[0] = record(Vec3d{0, -0.002, 0} + random_place(random, 5e-4));
+    const double way = double(c.displacements[0].y);
+    std::array<float, 4> shares{};
+    ASSERT_EQ(filter(c, shares), Separation::planned) << i;
+    ASSERT_LT(double(c.displacements[0].y), 0.3 * way) << i;
+  }
+}
+
 }  // namespace
 }  // namespace pliant

@@ -61,7 +61,7 @@ Collision collide(int seed) {
           outcome_of(target.object, moving(shot.object, from * -speed), frames, rotate(random.rotation(), {common, 0, 0}))};
 }
 
-/// How often twelve pairs are thrown, each time others.
+/// How often twenty-four pairs are thrown, each time others.
 int rounds_of_collisions() {
   const char* const wanted = std::getenv("PLIANT_COLLISIONS");
   return wanted != nullptr ? std::max(std::atoi(wanted), 1) : 1;
@@ -71,7 +71,7 @@ int rounds_of_collisions() {
 /// is kept to 1 % in all but one of 1 200, about the centre of mass as about the origin.
 TEST(FilterMomentum, IsKeptByRandomPairs) {
   int met = 0, filtered = 0, over = 0;
-  const int pairs = 12 * rounds_of_collisions();
+  const int pairs = 24 * rounds_of_collisions();
   for (int seed = 1; seed <= pairs; ++seed) {
     const Collision collision = collide(seed);
     const Outcome& outcome = collision.outcome;
@@ -87,13 +87,13 @@ TEST(FilterMomentum, IsKeptByRandomPairs) {
   }
   EXPECT_LE(over, pairs / 500);
   EXPECT_GE(met, pairs * 9 / 10);
-  EXPECT_GE(filtered, pairs / 4);
+  EXPECT_GE(filtered, pairs / 6);
 }
 
-/// What truncation takes from the motion of both is made up for in the substep. Before, their centre of mass lagged by 19,
-/// 0.8 and 0.2 mm, which times the momentum of the two was 17, 7 and 50 % of what they exchange.
+/// What truncation takes from the motion of both is made up for in the substep. Before, the centre of mass of the first two
+/// lagged by 19 and 0.8 mm, which times their momentum was 17 and 7 % of what they exchange.
 TEST(FilterMomentum, CentresOfMassDoNotLag) {
-  for (const int seed : {134, 264, 855}) {
+  for (const int seed : {134, 264, 334, 368}) {
     const Collision collision = collide(seed);
     const Outcome& outcome = collision.outcome;
     EXPECT_GT(outcome.filtered, 0);
@@ -103,10 +103,10 @@ TEST(FilterMomentum, CentresOfMassDoNotLag) {
   }
 }
 
-/// At 19 m/s in common. After the frame moves with what is cut, nothing is cut: then it moves on, else all that is near
+/// At 20 m/s in common. After the frame moves with what is cut, nothing is cut: then it moves on, else all that is near
 /// stops in the world.
 TEST(FilterMomentum, IsKeptInAFrameInWhichNothingIsCut) {
-  const Collision collision = collide(1099);
+  const Collision collision = collide(297);
   EXPECT_GT(collision.outcome.filtered, 0);
   EXPECT_LT(collision.outcome.angular, 2e-2) << collision.what;
 }

@@ -65,15 +65,15 @@ TEST(FilterMomentum, HeavySheetOnLightSheet) {
 }
 
 /// The cloth that the box takes along crumples, and the Report says that corners may pass. Box and cloth lagged by
-/// several centimetres.
+/// several centimetres. The box is at rest at first: rounding of a velocity of 20 m/s takes up to 2e-5 of its momentum.
 TEST(FilterMomentum, FastBoxIntoLightCloth) {
   BodyOptions options;
   options.position = {0.1f, 0.2f, 0};
   options.mass = 1;
   const Object box = make_body({{Box{{0.1f, 0.1f, 0.1f}}}}, options);
-  const Outcome outcome = outcome_of(free_sheet(21, 1, 0.05f, {0, 0, 0}), moving(box, {0, -20, 0}), 12);
+  const Outcome outcome = outcome_of(free_sheet(21, 1, 0.05f, {0, 0, 0}), moving(box, {0, -20, 0}), 12, {0, 20, 0});
   EXPECT_GT(outcome.filtered, 0);
-  EXPECT_LT(outcome.linear, 1e-4 + 1e-5 * outcome.carried / outcome.exchanged);
+  EXPECT_LT(outcome.linear, 1e-4);
   EXPECT_LT(outcome.angular, 1e-2);
   EXPECT_LT(outcome.about_origin, 1e-2);
   EXPECT_LT(outcome.lag, 1e-4);
@@ -100,8 +100,8 @@ TEST(FilterMomentum, HasTheSameBitsOnAnyThreadsAndAfterARestore) {
   EXPECT_GT(filtered, 100);
 }
 
-TEST(FilterMomentum, SoftBodiesAtTenMetresPerSecond) {
-  const Object first = gelatine({0, 0, 0}), second = moving(gelatine({-0.4f, -0.02f, -0.03f}), {10, 0, 0});
+TEST(FilterMomentum, SoftBodiesAtFifteenMetresPerSecond) {
+  const Object first = gelatine({0, 0, 0}), second = moving(gelatine({-0.4f, -0.02f, -0.03f}), {15, 0, 0});
   expect_kept(outcome_of(first, second, 20));
   expect_kept(outcome_of(first, second, 20, {0, 20, 0}));
 }

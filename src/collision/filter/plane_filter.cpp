@@ -26,11 +26,17 @@ Vec3d start_of(const Record& x, const Record& origin) {
 /// Heights of a pair's four particles along the normal of the separating plane, at the substep's start and end [m].
 struct Heights {
   double start[4], end[4];
-  double lowest_first = 1e300, highest_second = -1e300;  // heights at the substep's start
+  double lowest_first = 1e300, highest_second = -1e300;          // heights at the substep's start
+  double lowest_first_end = 1e300, highest_second_end = -1e300;  // heights at its end
   double lowest_first_ever = 1e300, highest_second_ever = -1e300;
   double first_sinks = 0, second_rises = 0;                    // largest approach of each side to the other
   bool first_moves = false, second_moves = false;              // true if the side has a dynamic particle
   double first_fixed_low = 1e300, second_fixed_high = -1e300;  // extreme heights of kinematic particles
+
+  double gap() const { return lowest_first - highest_second; }
+  /// True if a plane that moves along the normal at constant speed keeps the sides so far apart all the time: heights
+  /// above it change linearly, so both ends suffice.
+  bool stay_apart(double distance) const { return gap() >= distance && lowest_first_end - highest_second_end >= distance; }
 };
 
 Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* positions, const Record* displacements,
@@ -43,11 +49,13 @@ Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* p
     h.end[i] = dot(normal, end_of(x, d, frame, origin));
     if (i < pair.first_side) {
       h.lowest_first = std::min(h.lowest_first, h.start[i]);
+      h.lowest_first_end = std::min(h.lowest_first_end, h.end[i]);
       h.lowest_first_ever = std::min(h.lowest_first_ever, std::min(h.start[i], h.end[i]));
       h.first_sinks = std::max(h.first_sinks, h.start[i] - h.end[i]);
       if (!(x.w > 0)) h.first_fixed_low = std::min(h.first_fixed_low, std::min(h.start[i], h.end[i]));
     } else {
       h.highest_second = std::max(h.highest_second, h.start[i]);
+      h.highest_second_end = std::max(h.highest_second_end, h.end[i]);
       h.highest_second_ever = std::max(h.highest_second_ever, std::max(h.start[i], h.end[i]));
       h.second_rises = std::max(h.second_rises, h.end[i] - h.start[i]);
       if (!(x.w > 0)) h.second_fixed_high = std::max(h.second_fixed_high, std::max(h.start[i], h.end[i]));
@@ -56,17 +64,41 @@ Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* p
   return h;
 }
 
+/// By how much rounding moves the end of a truncated step at most [m].
+double rounding_of(const Record& x, const Record& d) {
+  const float extent =
+      max(max(std::abs(x.x), std::abs(x.y)), std::abs(x.z)) + max(max(std::abs(d.x), std::abs(d.y)), std::abs(d.z));
+  return 1.2e-7 * double(extent);
+}
+
+/// The direction between the normals of a pair's closest points at the substep's start and at its end; zero if they are
+/// opposite.
+Vec3d normal_between(const PairStencil& pair, const Vec3d& at_start, const Record* positions, const Record* displacements) {
+  Record ends[4];
+  for (int i = 0; i < 4; ++i) {
+    const Record &x = positions[pair.vertex[i]], &d = displacements[pair.vertex[i]];
+    ends[i] = {x.x + d.x, x.y + d.y, x.z + d.z, x.w};
+  }
+  const Vec3d sum = at_start + pair_distance({{0, 1, 2, 3}, pair.first_side}, ends).normal;
+  const double size = length(sum);
+  return size > 1e-6 ? sum * (1 / size) : Vec3d{};
+}
+
 }  // namespace
 
 Separation plan_separation(const PairStencil& pair, const PairDistance& at, const Record* positions,
                            const Record* displacements, const Vec3f& frame, double least, SeparatingSlab& slab,
                            std::array<float, 4>& shares) {
   const Heights h = heights_of(pair, at.normal, positions, displacements, frame);
-  const double gap = h.lowest_first - h.highest_second;
+  const double gap = h.gap();
   if (!(gap > 0)) return Separation::unresolvable;
   const double thickness = std::min(least, largest_slab * gap), half = 0.5 * thickness;
   // The tolerance covers rounding, so that steps that another plane has truncated already need no second truncation.
-  if (h.lowest_first_ever - h.highest_second_ever >= thickness * (1 - 1e-9)) return Separation::free;
+  const double least_gap = thickness * (1 - 1e-9);
+  if (h.lowest_first_ever - h.highest_second_ever >= least_gap || h.stay_apart(least_gap)) return Separation::free;
+  // What slides past an edge has a normal that turns: a plane along neither keeps it apart, but one between them.
+  const Vec3d between = normal_between(pair, at.normal, positions, displacements);
+  if (heights_of(pair, between, positions, displacements, {}).stay_apart(least_gap)) return Separation::free;
   // The plane divides the gap in proportion to the motions of both sides, but stays half a margin away from each.
   const double moves = h.first_sinks + h.second_rises;
   double share = std::clamp(moves > 0 ? h.second_rises / moves : 0.5, nearest_to_a_side, 1 - nearest_to_a_side);
@@ -89,8 +121,8 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
     const bool inside = beyond <= slop;
     unresolvable = unresolvable || !inside;
     if (fixed) continue;
-    // The share is rounded down, because its product with the displacement is rounded later.
-    shares[i] = inside ? std::max(0.f, static_cast<float>((start - limit) / (start - end) * (1 - 1e-6)) - 1e-7f) : 0.f;
+    const double way = std::abs(start - limit) - rounding_of(positions[pair.vertex[i]], displacements[pair.vertex[i]]);
+    shares[i] = inside && way > 0 ? static_cast<float>(way / std::abs(start - end) * (1 - 1e-6)) : 0.f;
   }
   return unresolvable ? Separation::unresolvable : Separation::planned;
 }

@@ -57,6 +57,8 @@ bool CoveredPairs::is_closer_beside(const PairStencil& pair, const Closest& at, 
   }
   if (held == 0 || held == 3) return false;
   const auto rises = [&](int corner) {
+    // By rounding of the closest point along an edge, one end of the edge may seem to rise.
+    if (corner == holds[0] || (held == 2 && corner == holds[1])) return false;
     const Vec3f beside = xyz(positions[corner]) - xyz(positions[vertex]) - point;
     return dot(at.normal, beside) > least_rise * length(beside);
   };
