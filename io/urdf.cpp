@@ -288,11 +288,11 @@ class RobotBuilder {
   }
 
   bool set_hull(const urdf::Link& link, const urdf::Geometry& geometry, Solid& solid) {
+    const std::string mesh = "mesh '" + geometry.file + "' of link '" + link.name + "'";
     if (const auto given = options_.meshes.find(geometry.file); given != options_.meshes.end()) {
-      solid.shape = hull_of(given->second.positions, geometry.scale);
+      solid.shape = hull_of(geometry, mesh, given->second.positions);
       return true;
     }
-    const std::string mesh = "mesh '" + geometry.file + "' of link '" + link.name + "'";
     std::string suffix = std::filesystem::path(geometry.file).extension().string();
     std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -307,14 +307,19 @@ class RobotBuilder {
       warn(geometry.line, mesh + " is ignored: there is no file '" + file + "'" + other_places(geometry.file));
       return false;
     }
-    solid.shape = hull_of(read_mesh(file).positions, geometry.scale);
+    solid.shape = hull_of(geometry, mesh, read_mesh(file).positions);
     return true;
   }
 
-  static Hull hull_of(std::vector<Vec3f> points, const Vec3f& scale) {
+  Hull hull_of(const urdf::Geometry& geometry, const std::string& mesh, std::vector<Vec3f> points) const {
+    const Vec3f& scale = geometry.scale;
     for (Vec3f& p : points) p = {p.x * scale.x, p.y * scale.y, p.z * scale.z};
     Hull hull{std::move(points), 0};
-    hull.points = mesh_of({{hull}}).positions;  // its corners alone
+    try {
+      hull.points = mesh_of({{hull}}).positions;  // its corners alone
+    } catch (const Error& error) {
+      fail(geometry.line, mesh + ": " + error.problem(), error.advice());
+    }
     return hull;
   }
 
@@ -461,7 +466,7 @@ Object parse_urdf(std::string_view text, const std::string& name, const std::str
                   std::vector<std::string>* warnings) {
   std::vector<std::string> ignored;
   std::vector<std::string>& into = warnings != nullptr ? *warnings : ignored;
-  return RobotBuilder(urdf::parse(text, name, into), name, folder, options, into).build();
+  return RobotBuilder(urdf::parse(text, name, into), name, folder.empty() ? "." : folder, options, into).build();
 }
 
 }  // namespace pliant

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <set>
 
 #include "apps/command_line/interrupt.h"
 #include "apps/command_line/output.h"
@@ -127,13 +128,18 @@ void draw_strip(const RenderOptions& options, const Scene& scene, Size size) {
 
 /// Memory that a picture as data takes [bytes], roughly.
 std::size_t size_of(const RenderScene& scene) {
-  std::size_t triangles = 0, points = 0;
+  std::size_t triangles = 0, points = scene.bodies.size();
   const auto add = [&](const auto& mesh) {
     points += mesh.positions.size();
     triangles += mesh.triangles.size();
   };
-  for (const auto& mesh : scene.meshes) add(mesh);
-  for (const auto& body : scene.bodies) add(*body.mesh);
+  for (const auto& mesh : scene.meshes) {
+    add(mesh);
+    points += mesh.creased.size() + mesh.wetness.size();
+  }
+  std::set<const TriangleMesh*> shared;
+  for (const auto& body : scene.bodies)
+    if (shared.insert(body.mesh.get()).second) add(*body.mesh);
   for (const auto& tube : scene.tubes) points += tube.points.size();
   for (const auto& balls : scene.balls) points += balls.centres.size();
   for (const auto& smoke : scene.smokes) points += 2 * smoke.centres.size();
@@ -161,7 +167,10 @@ Reel make_reel(const RenderOptions& options, const Scene& scene, int every) {
     const bool is_some = is_in_movie(frame, some, scene), is_kept = reel.is_whole && is_in_movie(frame, every, scene);
     if (!is_some && !is_kept) return;
     RenderScene picture = make_render_scene(scene, world);
-    if (is_some) reel.some.push_back(picture);
+    if (is_some) {
+      reel.some.push_back(picture);
+      bytes += size_of(picture);
+    }
     if (!is_kept) return;
     bytes += size_of(picture);
     reel.all.push_back(std::move(picture));
@@ -179,7 +188,8 @@ void draw_movie(const RenderOptions& options, const Scene& scene, Size size) {
   constexpr double rate_of_draft = 15;
   Renderer renderer(size.width, size.height, quality_of(options));
   const double frames_a_second = 1.0 / static_cast<double>(scene.frame_time);
-  const int every = options.draft ? std::max(1, static_cast<int>(frames_a_second / rate_of_draft + 0.5)) : 1;
+  const double skipped = std::clamp(frames_a_second / rate_of_draft, 1.0, 1e6);
+  const int every = options.draft ? static_cast<int>(skipped + 0.5) : 1;
   MovieWriter movie(options.out, size.width, size.height, std::clamp(frames_a_second / every, 1.0, 240.0));
   Reel reel = make_reel(options, scene, every);
   const View view = view_of(reel.some, options, size.width, size.height);

@@ -136,6 +136,12 @@ std::vector<Vec3f> face_normals(const std::vector<Vec3f>& positions, const std::
   return faces;
 }
 
+/// The share of its colour that a vertex keeps: a wet one is darker.
+float shade_of(const RenderMesh& mesh, std::size_t vertex) {
+  constexpr float dark = 0.55f;  // what a full one loses of its colour
+  return mesh.wetness.empty() ? 1 : 1 - dark * std::min(mesh.wetness[vertex], 1.f);
+}
+
 /// Makes a mesh in which triangles share no vertices. A normal is the mean over adjacent faces that have similar
 /// directions in the mesh's own shape, so round shapes look smooth and edges sharp.
 Geometry build_creased(const RenderMesh& mesh, Material material) {
@@ -153,7 +159,7 @@ Geometry build_creased(const RenderMesh& mesh, Material material) {
       for (const std::size_t other : around[corner])
         if (dot(directions[other], directions[t]) > about) normal += faces[other];
       geometry.indices.push_back(static_cast<std::uint32_t>(geometry.vertices.size()));
-      geometry.vertices.push_back({mesh.positions[corner], unit(normal)});
+      geometry.vertices.push_back({mesh.positions[corner], unit(normal), shade_of(mesh, static_cast<std::size_t>(corner))});
     }
   }
   return geometry;
@@ -238,10 +244,8 @@ Geometry build_mesh(const RenderMesh& mesh) {
   const Material material = mesh.is_liquid ? Material::liquid : Material::cloth;
   Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = material, .clarity = mesh.clarity};
   const std::vector<Vec3f> normals = output::vertex_normals(mesh.positions, mesh.triangles);
-  constexpr float dark = 0.55f;  // what a full one loses of its colour
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    geometry.vertices.push_back(
-        {mesh.positions[i], normals[i], mesh.wetness.empty() ? 1 : 1 - dark * std::min(mesh.wetness[i], 1.f)});
+    geometry.vertices.push_back({mesh.positions[i], normals[i], shade_of(mesh, i)});
   for (const auto& triangle : mesh.triangles)
     for (const int i : triangle) geometry.indices.push_back(static_cast<std::uint32_t>(i));
   return geometry;

@@ -1,4 +1,4 @@
-// Reads meshes and robots from the bytes of a file: from databases, networks, archives and other languages. Scenes have
+// Reads meshes and robots from the bytes of a file: of databases, networks, archives and other languages. Scenes have
 // parse_scene_file (io.h), States and Worlds load_state_bytes and load_world_bytes (save.h). Part of the library pliant_io.
 #pragma once
 

@@ -94,7 +94,7 @@ struct PathContact {
 };
 
 /// Finds where solids whose separation is `gap_at(displacement)` first touch, if they go in by more than `slop` [m]
-/// then; else where they pass nearest. In the frames that follow, what comes nearer by less than `slow` in one passes [m].
+/// then; else where they pass nearest. A pair that approaches by less than `slow` [m] in a frame passes.
 template <class GapAt>
 class PathSearch {
  public:

@@ -20,8 +20,8 @@ constexpr double higher = 0.001;
 /// Polygons that face each other less than this serve no clipping [cosine].
 constexpr double least_facing = 0.9;
 
-/// Directions that differ by less are one, and by less are equal but for rounding [1 - cosine]: 0.08 degrees, 0.5 seconds.
-constexpr double nearly = 1e-6, exactly = 3e-12;
+constexpr double nearly = 1e-6;    ///< directions that differ by less count as one [1 - cosine]: 0.08 degrees
+constexpr double exactly = 3e-12;  ///< directions that differ by less are equal but for rounding [1 - cosine]
 
 constexpr std::uint32_t nearest_point_feature = 0x20000000u;  ///< TouchPoint::feature of the nearest places
 
@@ -63,12 +63,14 @@ bool are_parallel(const Feature& a, const Feature& b) {
   return dot(u, v) * dot(u, v) > 0.99 * length_squared(u) * length_squared(v);
 }
 
-/// Takes a face's normal for a direction that differs from it by more than rounding and less than a contact counts. What
-/// lies across the edges of flush solids, tilted by as much as soft contacts yield, would slide down them.
+/// Replaces a direction by the face's normal where they differ by more than rounding and less than `nearly`. A capsule
+/// that has sunk a little into one of two flush boxes is tilted against the edge between them, and would slide off.
 void take_normal(const Feature& face, double sign, ConvexDistance& nearest) {
-  const double away = face.count > 2 ? 1 - sign * dot(face.normal, nearest.normal) : 1;
+  if (face.count < 3) return;
+  const Vec3d normal = unit_or(face.normal * sign, nearest.normal);  // faces of hulls have normals in single precision
+  const double away = 0.5 * length_squared(normal - nearest.normal);
   if (!(away > exactly && away < nearly)) return;
-  nearest.normal = face.normal * sign;
+  nearest.normal = normal;
   nearest.on_a = nearest.on_b - nearest.normal * nearest.separation;
 }
 

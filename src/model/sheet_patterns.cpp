@@ -36,6 +36,7 @@ void order_row(const std::vector<SparseRows::Entry>& entries, int row, OrderedRo
   out.offset.clear();
   out.stiffness.clear();
   out.mass.clear();
+  out.diagonal = out.own_mass = 0;  // what no hinge reaches has no entry of its own
   for (int part = 0; part < 3; ++part) {
     if (part > 0) out.parts[at(part - 1)] = static_cast<std::int32_t>(out.offset.size());
     for (const auto& [j, stiffness, mass] : entries) {

@@ -287,8 +287,8 @@ void TouchingStarts::meet_demands(const std::vector<Demand>& demands) {
   for (const int vertex : between) shifts_[at(vertex)] = {};
 }
 
-/// The share of its displacement for which a vertex has room before other surfaces and, where it moves otherwise than
-/// these, other layers of its own.
+/// The share of its displacement that a vertex can move by before it meets other surfaces and, with `has_own_layers`,
+/// other layers of its own.
 float TouchingStarts::room(int vertex, const Part& part, bool has_own_layers) {
   const Vec3f from = xyz(places_[at(vertex)]), along = convert<float>(shifts_[at(vertex)]) * looked_ahead;
   const Vec3f edge[2] = {from, from + along};
@@ -312,8 +312,8 @@ float TouchingStarts::room(int vertex, const Part& part, bool has_own_layers) {
   return share;
 }
 
-/// The same for an element, before vertices of others: what is over the middle of a triangle is on the way of none of
-/// its corners.
+/// The same for an element before it meets vertices of others. The paths of its corners do not see what lies over the
+/// middle of a triangle.
 float TouchingStarts::room(const Triangle& element, const Part& part) {
   const Vec3d mean = (shifts_[at(element[0])] + shifts_[at(element[1])] + shifts_[at(element[2])]) * (1. / 3);
   const Vec3f along = convert<float>(mean) * looked_ahead;
@@ -352,7 +352,7 @@ void TouchingStarts::keep_to_room(const Part& part) {
     shifts_[at(v)] = shifts_[at(v)] * static_cast<double>(shares[at(v - part.first)]);
 }
 
-/// True for one closed surface of which nothing is held, with all particles inside of it: a soft body, or a balloon.
+/// True for an object that is one closed surface, of which nothing is held: a soft body, or a balloon.
 bool TouchingStarts::is_free_and_whole(const Part& part) const {
   if (!part.is_closed) return false;
   for (int v = part.first; v < part.end; ++v)

@@ -24,8 +24,8 @@ constexpr double slop_share = 0.005, slop_of_fall = 0.1;
 /// What comes nearer in a frame by less than this share of the path that gravity adds is at rest; of what moves by less
 /// than half of that path it may be more, since piles come to rest so.
 constexpr double approach_of_fall = 0.003, slow_approach_of_fall = 0.03, slow_way_of_fall = 0.5;
-/// Of two free solids the directions are searched on paths longer than this share of the smaller part's size where they
-/// do not press one another: these may pass each other, and are few in piles.
+/// Two free solids without a contact force are searched for directions on paths longer than this share of the smaller
+/// part's size: they may pass each other. In piles such pairs are few.
 constexpr double passing_share = 0.04;
 
 bool is_pressed(std::span<const BodyContact> contacts) {

@@ -11,8 +11,13 @@ namespace pliant {
 
 namespace {
 
-/// Normals that agree so well are one [cosine]: at 20 m/s a slope of that angle lifts by 0.05 mm in a frame.
-constexpr double same_normal = 1 - 1e-8;
+/// Normals that differ by less are one [1 - cosine]: at 20 m/s a slope of that angle lifts by 0.05 mm in a frame.
+constexpr double same_normal = 1e-8;
+
+/// True for equal directions. Normals of hulls have lengths in single precision, so the dot product does not tell.
+bool are_one(const Vec3d& a, const Vec3d& b) {
+  return 0.5 * length_squared(a * (1 / length(a)) - b * (1 / length(b))) < same_normal;
+}
 
 Posed relative_pose(const Posed& a, const Posed& b) {
   Posed relative = relative_to(a, b);
@@ -66,13 +71,13 @@ PairTouch touch_on_path(const BodyPart& a, const BodyPart& b, const Posed& b_in_
     return {nearest.separation, rotate(a.pose.rotation, nearest.normal)};
   };
   const PathContact found = PathSearch(on.path, on.slop, gap_at, on.least).find({gap, now.normal});
-  if (dot(found.normal, now.normal) > same_normal) return {now, {}, found.touches ? found : PathContact{}, true};
+  if (are_one(found.normal, now.normal)) return {now, {}, found.touches ? found : PathContact{}, true};
   Posed moved = b_in_a;
   moved.position += found.displacement;
   Touch there = touch_of(a, b, moved, reach);
   // Of polyhedra that are apart the axis that separates them most may be another one, and where edges of flush ones
   // meet several separate them as well.
-  if (there.count == 0 || dot(there.normal, found.normal) < same_normal)
+  if (there.count == 0 || !are_one(there.normal, found.normal))
     there = touch_along(a, b, moved, found.normal, reach.margin, reach.turning);
   if (there.count == 0) return {now, {}, {}, true};
   return {there, found.displacement, found.touches ? found : PathContact{}, true};

@@ -48,6 +48,7 @@ struct Way {
     if (!(least_along(path, face, normal) < height)) return false;
     const auto& [a, b, c] = face.corners;
     const Vec3d away = solid.centre() - closest_on_triangle(solid.centre(), a, b, c).point;
+    if (mesh.is_terrain() && dot(away, normal) < 0) return true;  // the centre is below the surface
     return !(length_squared(away) > 0) || least_along(path, face, away * (1 / length(away))) < height;
   }
   /// How far a path keeps the solid from a triangle along a direction, at least [m].

@@ -2,8 +2,9 @@
 // separating plane. Steps of vertices that would enter the separating margin are truncated.
 //
 // A linear path with both ends in a half-space stays in it, so nothing crosses on the way, and no root is computed.
-// Truncating a step towards its start violates no other pair's plane. So each vertex takes the smallest step that any pair
-// permits, in any order. ../../docs/guide/contact.md has the whole argument.
+// Truncating a step towards its start violates no other pair's plane, if that stands still. So each vertex takes the
+// smallest step that any pair permits, in any order. A pair that a moving plane keeps apart is free as well; it is tested
+// again after each truncation. ../../docs/guide/contact.md has the whole argument.
 #pragma once
 
 #include "collision/proxies/pair_stencil.h"
@@ -23,7 +24,7 @@ struct SeparatingSlab {
 
 /// The result of planning a separating margin for a pair.
 enum class Separation {
-  free,         ///< no step enters the margin
+  free,         ///< no step enters the margin, or a plane that moves with the pair keeps it apart
   planned,      ///< `slab` is valid, `shares` are the permitted shares of the steps
   unresolvable  ///< no plane separates the pair: it touches at the start, or a kinematic vertex moves too far
 };

@@ -74,6 +74,8 @@ void FrameContacts::find(Substep& s, BodySleep& sleep) {
     }
     update(s, is_alone ? contacts_ : s.state.body_contacts);
   }
+  paths_.resize(states_.size());
+  for (int body = 0; body < bodies_->dynamic(); ++body) begin_path(body);
   warn(s);
 }
 
@@ -129,13 +131,15 @@ bool FrameContacts::any_moved_far(const BodyMotions& motions, const Visit& visit
   return false;
 }
 
-/// Of what moves as it did, or more slowly, the first test is all that counts.
+void FrameContacts::begin_path(int body) { paths_[at(body)] = {states_[at(body)].velocity * left_, {}, left_ * faster_}; }
+
+/// The first test excludes bodies that have hardly moved.
 bool FrameContacts::has_strayed(const BodyMotions& motions, int body) const {
+  const auto& [way, before, slack] = paths_[at(body)];
   const float far = far_strayed * finder_.size_of_body(body);
-  const Vec3f moved = motions.all()[at(body)].displacement;
+  const Vec3f moved = before + motions.all()[at(body)].displacement, none{};
   if (!(length_squared(moved) > far * far)) return false;
-  const Vec3f way = states_[at(body)].velocity * left_, none{};
-  return largest(max(max(moved - max(way, none), min(way, none) - moved), none)) > far + left_ * faster_;
+  return largest(max(max(moved - max(way, none), min(way, none) - moved), none)) > far + slack;
 }
 
 bool FrameContacts::are_outdated(const BodyMotions& motions, bool some_bounce) const {
@@ -167,8 +171,10 @@ void FrameContacts::find_outdated(const BodyMotions& motions, bool some_bounce) 
       is_outdated_[at(a)] = is_outdated_[at(b)] = 1;
       return false;
     });
-  for (int body = 0; body < bodies_->dynamic(); ++body)
+  for (int body = 0; body < bodies_->dynamic(); ++body) {
     if (is_outdated_[at(body)] != 0) turned_[at(body)] = 0;
+    paths_[at(body)].moved += motions.all()[at(body)].displacement;
+  }
 }
 
 void FrameContacts::renew(Substep& s, const BodyMotions& motions, bool some_bounce) {
@@ -177,6 +183,8 @@ void FrameContacts::renew(Substep& s, const BodyMotions& motions, bool some_boun
   read_states(s);
   for (std::size_t place = 0; place < states_.size(); ++place)  // the contacts of what is driven round turn with it
     if (states_[place].is_driven_round) is_outdated_[place] = 1;
+  for (int body = 0; body < bodies_->dynamic(); ++body)
+    if (is_outdated_[at(body)] != 0) begin_path(body);
   finder_.renew(
       s.context.executor, states_, left_, faster_, [&](int a, int b) { return bodies_->meet(s, a, b); }, is_outdated_,
       some_bounce ? far_moved : 1e30f, contacts_);

@@ -51,6 +51,7 @@ class FrameContacts {
   void find_beside_sleepers(Substep& s, BodySleep& sleep);
   void warn(Substep& s);
   void find_outdated(const BodyMotions& motions, bool some_bounce);
+  void begin_path(int body);
   /// True if a body has left the path on which its contacts were found.
   bool has_strayed(const BodyMotions& motions, int body) const;
   template <class Visit>
@@ -60,12 +61,19 @@ class FrameContacts {
   BodyContacts finder_;
   DeepOverlaps overlaps_;
   std::vector<BodyState> states_;
-  float left_ = 0,
-        faster_ = 0;  ///< of the frame when they were read [s]; by which gravity changes speeds in that time [m/s]
+  /// The path on which the contacts of a body were found, and how far the body has come since.
+  struct SearchedPath {
+    Vec3f way{};      ///< displacement to the end of the frame that was expected [m]
+    Vec3f moved{};    ///< displacement since then, up to the last renewal [m]
+    float slack = 0;  ///< by how much gravity changes `way` [m]
+  };
+
+  float left_ = 0;                   ///< time to the end of the frame when states were read [s]
+  float faster_ = 0;                 ///< by how much gravity changes speeds in that time [m/s]
+  std::vector<SearchedPath> paths_;  ///< [place]
   std::vector<char> is_fixed_;
   std::vector<BodyContact> contacts_;
-  std::vector<float>
-      turned_;  ///< [place] by how much a body turned from when its contacts were found to the last renewal [rad]
+  std::vector<float> turned_;        ///< [place] rotation from when a body's contacts were found to the last renewal [rad]
   std::vector<char> is_outdated_;    ///< [place] nonzero: its contacts are found again
   std::vector<BodyContact> before_;  ///< of the frame before, where bodies sleep
 };

@@ -67,9 +67,8 @@ template <int n>
 int first_of(int block) { return block * sheet_block; }
 int last_of(int block, int rows) { return std::min(rows, (block + 1) * sheet_block); }
 
-/// Rows that share a pattern are taken so many at a time, which loads each entry once. Gauss-Seidel finds them side by
-/// side, too: entries nearer than that come last, one row after another. In storage neighbours are seldom so near
-/// (topology/numbering.h).
+/// So many rows of one pattern are processed at a time, which loads each entry once. Gauss-Seidel handles entries between
+/// these rows last, one row after another; storage seldom puts neighbours so near (topology/numbering.h).
 constexpr int abreast = 4;
 
 /// True if `abreast` rows from `i` on share a pattern.
@@ -408,6 +407,27 @@ void factorise(const SheetBending& sheet, SheetScratch& scratch) {
     factorise_last(sheet.levels.back(), scratch.levels.back(), scratch.h2, scratch.factor);
 }
 
+float distance_squared(const Record& a, const Record& b) {
+  const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+  return x * x + y * y + z * z;
+}
+
+/// True if a block is so wide for the distances of its neighbours that places from its first row, rounded, would blur
+/// these more than positions do: pieces of a sheet that have flown apart.
+bool is_wide_block(const SheetLevel& level, const Record* x, int block) {
+  constexpr float many = 512;  // distances of neighbours; a square block is some ten wide
+  constexpr int apart = 64;    // rows between those whose neighbours are measured
+  const int first = first_of(block), last = last_of(block, level.rows);
+  float width = 0, longest = 0;
+  for (int i = first; i < last; ++i) width = std::max(width, distance_squared(x[i], x[first]));
+  for (int i = first; i < last; i += apart) {
+    const std::size_t p = at(level.pattern[at(i)]);
+    for (std::int32_t e = level.begin[p]; e < level.outside[p]; ++e)
+      longest = std::max(longest, distance_squared(x[i + level.offset[at(e)]], x[i]));
+  }
+  return width > many * many * longest;
+}
+
 void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, BlockLoop loop, SheetScratch& scratch) {
   const SheetLevel& level = sheet.levels.front();
   SheetLevelScratch& own = scratch.levels.front();
@@ -420,8 +440,11 @@ void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, 
     const Four d = load(forces.displacements[i]);
     return (x[i].w > 0 ? d - gravity : d) * by;
   };
-  // Places from the first row of the block: what they lose by rounding is less than what positions have lost.
+  // Places from the first row of the block: what they lose by rounding is less than what positions of blocks that are
+  // not wide have lost.
+  scratch.is_wide.resize(at(level.blocks()));
   loop(level.blocks(), [&](int block) {
+    scratch.is_wide[at(block)] = is_wide_block(level, x, block) ? 1 : 0;
     const int first = first_of(block);
     for (int i = first; i < last_of(block, level.rows); ++i)
       store((load(x[i]) - load(x[first])) + motion(i), scratch.moved[at(i)]);
@@ -431,9 +454,10 @@ void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, 
     for_rows(level, block, [&](auto count, int first, std::size_t p) {
       constexpr int n = decltype(count)::value;
       const Record* y = scratch.moved.data() + first;
-      const auto inside = sums_over<n>(a, level.begin[p], level.outside[p],
+      const std::int32_t end_inside = scratch.is_wide[at(block)] != 0 ? level.begin[p] : level.outside[p];
+      const auto inside = sums_over<n>(a, level.begin[p], end_inside,
                                        [&](std::int32_t offset, int row) { return load(y[offset + row]) - load(y[row]); });
-      const auto outside = sums_over<n>(a, level.outside[p], level.begin[p + 1], [&](std::int32_t offset, int row) {
+      const auto outside = sums_over<n>(a, end_inside, level.begin[p + 1], [&](std::int32_t offset, int row) {
         const std::int32_t i = first + row, j = i + offset;
         return (load(x[j]) - load(x[i])) + (motion(j) - motion(i));
       });

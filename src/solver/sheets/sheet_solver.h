@@ -37,6 +37,7 @@ struct SheetScratch {
   Records moved, corrections;             ///< multiple of u of each row, and P^-1 r [m]
   Records direction, product;             ///< of conjugate gradients
   std::vector<double> sums;               ///< of blocks
+  std::vector<char> is_wide;              ///< of each block: nonzero if rounding would blur what its rows share
   std::vector<double> factor;             ///< Cholesky factor of the last level, by rows
   std::vector<char> is_pinned;            ///< of each piece: 1 if it has a particle that is pinned or held
   std::vector<RigidSums> momentum;        ///< of each piece
