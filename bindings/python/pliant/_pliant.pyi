@@ -872,7 +872,7 @@ class BatchObject:
         As Object.set_pose(): positions of shape (worlds, 3) [m] and rotations of shape (worlds, 4), or one for all worlds.
         """
 
-    def set_motor(self, joint: str | Sequence[str], targets: Any, most: Any = None, motor: str = '') -> None:
+    def set_motor(self, joint: str | Sequence[str], targets: float | pliant._types.VectorLike | pliant._types.VectorsLike, most: float | pliant._types.VectorLike | pliant._types.VectorsLike | None = None, motor: str = '') -> None:
         """
         As Object.set_motor(), with a target for each world, shape (worlds,), or one for all. Of a list of k joints: shape (worlds, k), or one for all. `most` likewise.
         """
@@ -917,7 +917,7 @@ class Batch:
 
     def restore(self, state: State | list[State]) -> None:
         """
-        Restores one State in all worlds, or a list of one for each. If one does not fit, raises Error and changes none.
+        Restores one State in all worlds, or a list of one for each. If one does not fit, raises Error, and all have the State that they had; forces, targets and poses that were set for the next step may then be gone.
         """
 
     def state_hashes(self) -> list[str]:
