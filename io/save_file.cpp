@@ -152,7 +152,7 @@ void Contents::check_header(Content expected) const {
   if (bytes_.empty()) fail("is empty", advice_damaged);
   const std::string_view bytes = bytes_;
   if (bytes.substr(0, magic.size()) != magic.substr(0, bytes.size()))
-    fail("is not a file saved by Pliant", "name one written by save() or pliant run --checkpoint");
+    fail("is not a file saved by Pliant", "give what Pliant saved: a State, a World, or a file of pliant run --checkpoint");
   if (bytes.size() < header_size)
     fail(fmt::format("is incomplete: it has {} bytes of a header of {}", bytes.size(), header_size), advice_damaged);
   if (const auto found = value_at<std::uint32_t>(bytes, 8); found != version) {

@@ -93,8 +93,8 @@ void require_origins(const WorldData& world, int number, const Edit& edit) {
                 "give for each new particle the index of the old particle that it replaces, or -1");
   };
   if (edit.from.size() != edit.object.positions.size())
-    refuse("", "has " + std::to_string(edit.object.positions.size()) + " particles, but Edit::from has " +
-                   std::to_string(edit.from.size()) + " entries");
+    refuse("", "has " + std::to_string(edit.object.positions.size()) + " particles, but the edit says of " +
+                   std::to_string(edit.from.size()) + " where they come from");
   for (std::size_t i = 0; i < edit.from.size(); ++i)
     if (edit.from[i] < -1 || edit.from[i] >= old.user_particles)
       refuse("particle " + std::to_string(i),

@@ -224,7 +224,7 @@ void ObjectHandle::set_rest_factor(int group, float factor) {
   const std::string element = "constraint group " + std::to_string(group);
   if (scaled == nullptr)
     throw Error({.object = of.name, .element = element}, "does not exist or has no keyframes",
-                "give it `keyframes`, {{0, 1}} for one, to say that its rest data change");
+                "give the group keyframes in the scene, one at least, to say that its rest data change");
   if (!std::isfinite(factor) || factor < 0)
     throw Error({.object = of.name, .element = element}, "is given the factor " + std::to_string(factor),
                 "give a finite number of 0 or more");

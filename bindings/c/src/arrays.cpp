@@ -1,6 +1,8 @@
 // Copies the caller's arrays.
 #include "arrays.h"
 
+#include <limits>
+
 #include "memory.h"
 
 namespace pliant::c {
@@ -11,6 +13,14 @@ namespace {
 const pliant_array& array_at(const pliant_array* arrays, size_t index) {
   const size_t size = arrays->size;
   return *reinterpret_cast<const pliant_array*>(reinterpret_cast<const char*>(arrays) + index * size);
+}
+
+/// Throws a StatusError if there are more points or elements than indices reach, as where a size is uninitialised.
+void require_count(size_t count, const char* what, const std::string& name) {
+  constexpr size_t most = std::numeric_limits<std::int32_t>::max();
+  if (count > most)
+    throw StatusError(PLIANT_REFUSED, "the array '" + name + "' has the " + what + " " + std::to_string(count),
+                      "give at most " + std::to_string(most));
 }
 
 template <size_t corners>
@@ -35,6 +45,8 @@ bool is_taken(const SceneArrays& in, const std::string& name) {
 void add_array(const pliant_array& array, SceneArrays& to) {
   require(array.name, "name");
   if (is_taken(to, array.name)) refuse_name(array.name);
+  require_count(array.position_count, "position_count", array.name);
+  require_count(array.element_count, "element_count", array.name);
   const std::span<const Vec3f> given = points(array.positions, array.position_count, "positions");
   std::vector<Vec3f> positions(given.begin(), given.end());
   if (array.corners == 3)
@@ -78,6 +90,11 @@ SceneArrays arrays_of(const pliant_array* arrays, size_t count) {
   if (count == 0) return made;
   require(arrays, "arrays");
   require_size(arrays->size, sizeof(pliant_array), "arrays");
+  if (arrays->size % alignof(pliant_array) != 0)
+    throw StatusError(
+        PLIANT_REFUSED,
+        "'arrays' has the size " + std::to_string(arrays->size) + ", which is no multiple of its alignment",
+        "set its member `size` to sizeof the structure");
   for (size_t i = 0; i < count; ++i) add_array(array_at(arrays, i), made);
   return made;
 }

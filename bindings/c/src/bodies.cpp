@@ -6,13 +6,19 @@ namespace pliant::c {
 
 namespace {
 
+/// "2 bodies", "1 joint".
+std::string counted(size_t count, const std::string& what) {
+  const std::string many = what == "body" ? "bodies" : what + "s";
+  return std::to_string(count) + " " + (count == 1 ? what : many);
+}
+
 /// The index of what has that name in a list. Throws a StatusError if nothing has.
 template <class Named>
 std::int32_t index_of(const std::vector<Named>& list, const char* name, const char* what) {
   for (size_t i = 0; i < list.size(); ++i)
     if (list[i].name == name) return static_cast<std::int32_t>(i);
   throw StatusError(PLIANT_NOT_FOUND, std::string("the object has no ") + what + " '" + name + "'",
-                    "it has " + std::to_string(list.size()));
+                    "it has " + counted(list.size(), what) + "; pliant_object_" + what + "_name gives their names");
 }
 
 /// Throws a StatusError unless an index is one of a list.
@@ -20,7 +26,7 @@ template <class Named>
 void require_index(const std::vector<Named>& list, std::int32_t index, const char* what) {
   if (index < 0 || static_cast<size_t>(index) >= list.size())
     throw StatusError(PLIANT_NOT_FOUND, std::string("the object has no ") + what + " " + std::to_string(index),
-                      "it has " + std::to_string(list.size()) + ", counted from 0");
+                      "it has " + counted(list.size(), what) + ", counted from 0");
 }
 
 template <class Named>

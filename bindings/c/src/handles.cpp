@@ -58,14 +58,32 @@ std::uintptr_t free_slot(Table& in) {
   return in.used++;
 }
 
+/// The parameter that has a handle of this kind.
+const char* parameter_of(Kind kind) {
+  switch (kind) {
+    case Kind::scene:
+      return "scene";
+    case Kind::world:
+      return "world";
+    case Kind::state:
+      return "state";
+    case Kind::writer:
+      return "writer";
+    default:
+      return "handle";
+  }
+}
+
 /// The slot of a handle, under the lock.
 Slot& require_slot(const void* handle, Kind kind) {
-  require(handle, "handle");
+  require(handle, parameter_of(kind));
   Slot* slot = slot_of(handle);
   if (slot == nullptr || slot->handle.load() != reinterpret_cast<std::uintptr_t>(handle))
-    throw StatusError(PLIANT_STALE, "the handle refers to nothing", "it was freed, or is no handle of this library");
+    throw StatusError(PLIANT_STALE, std::string("'") + parameter_of(kind) + "' refers to nothing",
+                      "it was freed, or is no handle of this library");
   if (static_cast<Kind>(reinterpret_cast<std::uintptr_t>(handle) % (1 << kind_bits)) != kind)
-    throw StatusError(PLIANT_STALE, "the handle is of another kind", "pass the one that the parameter's type names");
+    throw StatusError(PLIANT_STALE, std::string("'") + parameter_of(kind) + "' is a handle of another kind",
+                      "pass the one that the parameter's type names");
   return *slot;
 }
 

@@ -11,6 +11,8 @@ const char* word_of(std::int32_t kind) {
   return kind == PLIANT_OBJECT ? "object" : kind == PLIANT_COLLIDER ? "collider" : "mesh collider";
 }
 
+std::string one_of(std::int32_t kind) { return std::string(kind == PLIANT_OBJECT ? "an " : "a ") + word_of(kind); }
+
 [[noreturn]] void refuse_kind(std::int32_t kind) {
   throw StatusError(PLIANT_REFUSED, std::to_string(kind) + " is no kind of thing",
                     "give PLIANT_OBJECT, PLIANT_COLLIDER or PLIANT_MESH_COLLIDER");
@@ -20,8 +22,7 @@ template <class Id>
 Id require_id(const World& world, pliant_id id, std::int32_t kind) {
   if (id.kind < PLIANT_OBJECT || id.kind > PLIANT_MESH_COLLIDER) refuse_kind(id.kind);
   if (id.kind != kind)
-    throw StatusError(PLIANT_REFUSED, std::string("the id is that of a ") + word_of(id.kind),
-                      std::string("pass that of a ") + word_of(kind));
+    throw StatusError(PLIANT_REFUSED, "the id is that of " + one_of(id.kind), "pass that of " + one_of(kind));
   if (const Id found(id.slot, id.generation); world.has(found)) return found;
   throw StatusError(PLIANT_STALE,
                     std::string("there is no ") + word_of(kind) + " " + std::to_string(id.slot) + " of generation " +

@@ -305,7 +305,7 @@ class Object:
 
     def records(self) -> pliant._types.FloatArray:
         """
-        A read-only view, without a copy, of x, y, z [m] and inverse mass [1/kg] of each particle in storage order: record i is particle storage_order()[i]. It keeps its World alive, and shows another state after each step. While it lives, nothing can be added to, removed from or restored in the World. Indices from `particles` on are targets of attachments.
+        A read-only view, without a copy, of x, y, z [m] and inverse mass [1/kg] of each particle in storage order: record i is particle storage_order()[i]. It keeps its World alive, and shows another state after each step. While it lives, nothing can be added to, removed from, edited or restored in the World. Indices from `particles` on are targets of attachments.
         """
 
     def velocity_records(self) -> pliant._types.FloatArray:
@@ -590,7 +590,7 @@ class Edit:
 
     def apply(self) -> pliant._types.IntArray:
         """
-        Makes the changes in the World, once. Returns for each old particle its first new index, or -1 where it is gone. If the description cannot be simulated, raises Error and changes nothing. The end of a `with` block calls it.
+        Makes the changes in the World, once. Returns for each old particle its first new index, or -1 where it is gone. If the description cannot be simulated, or the object was edited or torn since World.edit(), raises Error and changes nothing. The end of a `with` block calls it.
         """
 
     def __enter__(self) -> Edit:
@@ -650,7 +650,9 @@ class World:
         """
 
     def forget_forces(self) -> None:
-        """Forgets the functions of `forces`; later steps are without them."""
+        """
+        Forgets the functions of `forces`; later steps are without them. The World still cannot be pickled, copied or saved: make another, and give it this one's state().
+        """
 
     def state(self) -> State:
         """A copy of the State."""
@@ -870,7 +872,7 @@ class BatchObject:
         As Object.set_pose(): positions of shape (worlds, 3) [m] and rotations of shape (worlds, 4), or one for all worlds.
         """
 
-    def set_motor(self, joint: str | Sequence[str], targets: Any, most: Any = None, motor: str = '') -> None:
+    def set_motor(self, joint: str | Sequence[str], targets: float | pliant._types.VectorLike | pliant._types.VectorsLike, most: float | pliant._types.VectorLike | pliant._types.VectorsLike | None = None, motor: str = '') -> None:
         """
         As Object.set_motor(), with a target for each world, shape (worlds,), or one for all. Of a list of k joints: shape (worlds, k), or one for all. `most` likewise.
         """
@@ -915,7 +917,7 @@ class Batch:
 
     def restore(self, state: State | list[State]) -> None:
         """
-        Restores one State in all worlds, or a list of one for each. If one does not fit, raises Error and changes none.
+        Restores one State in all worlds, or a list of one for each. If one does not fit, raises Error, and all have the State that they had; forces, targets and poses that were set for the next step may then be gone.
         """
 
     def state_hashes(self) -> list[str]:

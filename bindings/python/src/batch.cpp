@@ -71,15 +71,13 @@ nb::list run(const Batch& self, std::optional<float> dt, int frames) {
   return list;
 }
 
-nb::list step_batch(const Batch& self, std::optional<double> dt) {
-  if (!dt) return run(self, {}, 1);
-  const auto seconds = static_cast<float>(*dt);
-  if (!(seconds > 0) || !std::isfinite(seconds))
-    throw Error({}, "dt is " + std::to_string(*dt) + " s", "pass a finite number of float32 above 0");
-  return run(self, seconds, 1);
+nb::list step_batch(const Batch& self, nb::handle dt) {
+  return run(self, dt.is_none() ? std::optional<float>{} : time_step_from(dt), 1);
 }
 
-nb::list run_frames(const Batch& self, std::optional<int> frames) {
+nb::list run_frames(const Batch& self, nb::handle given) {
+  std::optional<int> frames;
+  if (PyBool_Check(given.ptr()) != 0 || !nb::try_cast(given, frames)) throw wrong_type("frames", given, "an int, or None");
   const int count = frames.value_or(self.worlds->front()->file().scene.frames);
   if (count < 1) throw Error({}, "frames is " + std::to_string(count), "run 1 or more");
   return run(self, {}, count);
@@ -92,7 +90,7 @@ std::vector<State> states(const Batch& self) {
   return all;
 }
 
-/// Restores of(i) in each world. If one does not fit, all have what they had before.
+/// Restores of(i) in each world. If one does not fit, all have what they had before, but what was set for the next step.
 template <class Of>
 void restore_each(const Worlds& worlds, const Of& of) {
   std::vector<State> before;
@@ -113,7 +111,6 @@ void restore(const Batch& self, nb::handle given) {
     return restore_each(*self.worlds, [&](std::size_t /*world*/) -> const State& { return *one; });
   std::vector<const State*> all;
   if (!nb::try_cast(given, all) || std::find(all.begin(), all.end(), nullptr) != all.end())
-
     throw wrong_type("state", given, "a State, or a list of one for each world");
   if (all.size() != self.worlds->size())
     throw Error({}, "there are " + std::to_string(all.size()) + " states",
@@ -150,8 +147,8 @@ void bind_batch(nb::module_& m) {
            "ends early where its Report is not ok.")
       .def("states", &states, "The State of each world.")
       .def("restore", &restore, nb::arg("state"), nb::sig("def restore(self, state: State | list[State]) -> None"),
-           "Restores one State in all worlds, or a list of one for each. If one does not fit, raises Error and changes "
-           "none.")
+           "Restores one State in all worlds, or a list of one for each. If one does not fit, raises Error, and all "
+           "have the State that they had; forces, targets and poses that were set for the next step may then be gone.")
       .def(
           "state_hashes",
           [](const Batch& self) {

@@ -15,10 +15,15 @@ struct BatchObject {
   std::size_t particles = 0;
 
   std::size_t size() const { return ids.size(); }
-  ObjectView view(std::size_t i) const { return std::as_const((*worlds)[i]->idle()).object(ids[i]); }
-  ObjectHandle handle(std::size_t i) const { return (*worlds)[i]->idle().object(ids[i]); }
+  ObjectView view(std::size_t i) const { return std::as_const(world(i)).object(ids[i]); }
+  ObjectHandle handle(std::size_t i) const { return world(i).object(ids[i]); }
+  /// The description in a world, as it is now.
+  const Object& present(std::size_t i) const { return (*worlds)[i]->present(ids[i]); }
   /// The handles in all worlds. Throws an Error if a world is stepping or has removed its object.
   std::vector<ObjectHandle> handles() const;
+
+ private:
+  World& world(std::size_t i) const;
 };
 
 /// The objects of that name. Throws nb::key_error if a world has none, an Error if their numbers of particles differ.

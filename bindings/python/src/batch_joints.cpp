@@ -20,10 +20,12 @@ Which which_of(nb::handle given, const char* what) {
   int index = 0;
   if (nb::isinstance<nb::str>(given) || (PyBool_Check(given.ptr()) == 0 && nb::try_cast(given, index)))
     return {{nb::borrow(given)}, false};
-  if (!nb::isinstance<nb::list>(given) && !nb::isinstance<nb::tuple>(given))
-    throw wrong_type(what, given, "a name, an index, or a list of them");
   Which which{{}, true};
-  which.all.reserve(nb::len(given));
+  if (PySequence_Check(given.ptr()) == 0 || nb::isinstance<nb::bytes>(given) || nb::isinstance<nb::dict>(given))
+    throw wrong_type(what, given, "a name, an index, or a list of them");
+  const auto count = PySequence_Size(given.ptr());
+  if (count < 0) throw nb::python_error();
+  which.all.reserve(static_cast<std::size_t>(count));
   for (const nb::handle one : given) which.all.push_back(nb::borrow(one));
   return which;
 }
@@ -49,6 +51,9 @@ class Table {
   nb::object array_;
   float* to_ = nullptr;
 };
+
+/// Motors refuse targets above it: joint::no_limit of the engine.
+constexpr float largest_target = 1e30f;
 
 /// Calls body(view, thing) for each world and thing.
 template <class Body>
@@ -123,8 +128,22 @@ void require_all(const BatchObject& self, const std::vector<float>& numbers, con
   const auto world = static_cast<std::size_t>(bad - numbers.begin()) / (numbers.size() / self.size());
   throw Error({.object = self.name},
               std::string(what) + " of world " + std::to_string(world) + " is " +
-                  (std::isfinite(*bad) ? std::to_string(*bad) : "not finite"),
+                  (std::isfinite(*bad) ? repr_of(nb::float_(static_cast<double>(*bad))) : "not finite"),
               advice);
+}
+
+/// True if an object has a motor that accepts a command.
+bool has_motor(const Object& object, const std::string& joint, const MotorCommand& command) {
+  const auto found =
+      std::find_if(object.joints.begin(), object.joints.end(), [&](const ObjectJoint& one) { return one.name == joint; });
+  if (found == object.joints.end()) return false;
+  const std::vector<ObjectJointMotor>& motors = found->motors;
+  const auto motor = command.motor.empty() && motors.size() == 1
+                         ? motors.begin()
+                         : std::find_if(motors.begin(), motors.end(),
+                                        [&](const ObjectJointMotor& one) { return one.name == command.motor; });
+  if (motor == motors.end() || (motor->is_torque && command.most)) return false;
+  return std::fabs(command.target) <= largest_target;
 }
 
 void set_motor(const BatchObject& self, nb::handle joint, nb::handle targets, nb::handle most, const std::string& motor) {
@@ -142,15 +161,16 @@ void set_motor(const BatchObject& self, nb::handle joint, nb::handle targets, nb
       self, to, "the target", [](float t) { return std::isfinite(t); }, "give finite numbers");
   require_all(
       self, at_most, "most", [](float m) { return m > 0; }, "give numbers above 0");
+  const auto command = [&](std::size_t i, std::size_t k) {
+    const std::size_t at = i * names.size() + k;
+    return MotorCommand{to[at], at_most.empty() ? std::optional<float>{} : at_most[at], motor};
+  };
   std::vector<ObjectHandle> handles = self.handles();
-  for (const ObjectHandle& handle : handles)
-    for (const std::string& name : names) (void)handle.joint_index(name);
-  std::size_t k = 0;
-  for (ObjectHandle& handle : handles)
-    for (const std::string& name : names) {
-      handle.set_motor(name, {to[k], at_most.empty() ? std::optional<float>{} : at_most[k], motor});
-      ++k;
-    }
+  for (std::size_t i = 0; i < handles.size(); ++i)  // what refuses says so before another motor is changed
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (!has_motor(self.present(i), names[k], command(i, k))) handles[i].set_motor(names[k], command(i, k));
+  for (std::size_t i = 0; i < handles.size(); ++i)
+    for (std::size_t k = 0; k < names.size(); ++k) handles[i].set_motor(names[k], command(i, k));
 }
 
 /// The rows of an array of shape (worlds, columns), or (columns,) for all worlds.
@@ -174,7 +194,7 @@ nb::object rows_of_worlds(nb::handle given, std::size_t worlds, std::size_t colu
 void require_kinematic(const BatchObject& self, nb::handle body) {
   for (std::size_t i = 0; i < self.size(); ++i) {
     (void)with_body(body, [&](const auto& b) { return self.view(i).pose(b); });
-    const Object& object = (*self.worlds)[i]->described(self.ids[i]);
+    const Object& object = self.present(i);
     for (std::size_t b = 0; b < object.bodies.size(); ++b) {
       const bool is_it = nb::isinstance<nb::str>(body) ? nb::str(object.bodies[b].name.c_str()).equal(body)
                                                        : nb::cast<std::size_t>(body) == b;
@@ -199,9 +219,11 @@ void set_pose(const BatchObject& self, nb::handle body, nb::handle positions, nb
     const std::string element = "world " + std::to_string(i);
     if (!is_finite(at[i].x) || !is_finite(at[i].y) || !is_finite(at[i].z) || !std::all_of(q, q + 4, is_finite))
       throw Error({.object = self.name, .element = element}, "the pose is not finite", "give finite numbers");
-    if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
-      throw Error({.object = self.name, .element = element}, "the rotation is zero",
-                  "give a quaternion such as (0, 0, 0, 1)");
+    const float square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];  // as World::set_pose refuses it
+    if (!(square > 1e-30f) || !std::isfinite(square))
+      throw Error({.object = self.name, .element = element},
+                  square > 1 ? "the rotation is too large" : "the rotation is zero",
+                  "give a unit quaternion such as (0, 0, 0, 1)");
   }
   require_kinematic(self, body);
   std::vector<ObjectHandle> handles = self.handles();
@@ -224,12 +246,15 @@ void bind_batch_joints(nb::class_<BatchObject>& c) {
                    "rotations: pliant._types.VectorLike | pliant._types.VectorsLike = (0, 0, 0, 1)) -> None"),
            "As Object.set_pose(): positions of shape (worlds, 3) [m] and rotations of shape (worlds, 4), or one for "
            "all worlds.")
-      .def("set_motor", &set_motor, nb::arg("joint"), nb::arg("targets"), nb::arg("most") = nb::none(),
-           nb::arg("motor") = "",
-           nb::sig("def set_motor(self, joint: str | collections.abc.Sequence[str], targets: typing.Any, most: typing.Any "
-                   "= None, motor: str = '') -> None"),
-           "As Object.set_motor(), with a target for each world, shape (worlds,), or one for all. Of a list of k "
-           "joints: shape (worlds, k), or one for all. `most` likewise.")
+      .def(
+          "set_motor", &set_motor, nb::arg("joint"), nb::arg("targets"), nb::arg("most") = nb::none(),
+          nb::arg("motor") = "",
+          nb::sig(
+              "def set_motor(self, joint: str | collections.abc.Sequence[str], targets: float | pliant._types.VectorLike | "
+              "pliant._types.VectorsLike, most: float | pliant._types.VectorLike | pliant._types.VectorsLike | None = "
+              "None, motor: str = '') -> None"),
+          "As Object.set_motor(), with a target for each world, shape (worlds,), or one for all. Of a list of k "
+          "joints: shape (worlds, k), or one for all. `most` likewise.")
       .def("joint_states", &joint_states, nb::arg("joint"),
            nb::sig("def joint_states(self, joint: int | str | collections.abc.Sequence[int | str]) -> "
                    "pliant._types.JointStates"),

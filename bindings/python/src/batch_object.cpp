@@ -8,6 +8,14 @@
 
 namespace pliant::python {
 
+World& BatchObject::world(std::size_t i) const {
+  World& found = (*worlds)[i]->idle();
+  if (!found.has(ids[i]))
+    throw Error({.object = name}, "was removed from world " + std::to_string(i) + " of the Batch",
+                "read the objects of batch.worlds one by one");
+  return found;
+}
+
 std::vector<ObjectHandle> BatchObject::handles() const {
   std::vector<ObjectHandle> all;
   all.reserve(size());
@@ -122,12 +130,32 @@ void add_impulses(const BatchObject& self, nb::handle given) {
 
 using WriteSome = void (ObjectHandle::*)(std::span<const int>, std::span<const Vec3f>);
 
-auto writer_of_some(WriteSome write, const char* which) {
-  return [write, which](const BatchObject& self, nb::handle indices, nb::handle positions) {
+/// True if an object accepts targets of these particles: those of finite mass that no pin holds are dynamic.
+bool has_pins(const Object& object, std::span<const int> particles) {
+  std::vector<bool> is_held(object.positions.size());
+  for (std::size_t p = 0; p < object.masses.size(); ++p) is_held[p] = !std::isfinite(object.masses[p]);
+  for (const Pin& pin : object.pins) is_held[static_cast<std::size_t>(pin.particle)] = true;
+  return std::all_of(particles.begin(), particles.end(), [&](int p) {
+    return p >= 0 && static_cast<std::size_t>(p) < is_held.size() && is_held[static_cast<std::size_t>(p)];
+  });
+}
+
+bool has_attachments(const Object& object, std::span<const int> attachments) {
+  return std::all_of(attachments.begin(), attachments.end(),
+                     [&](int a) { return a >= 0 && static_cast<std::size_t>(a) < object.attachments.size(); });
+}
+
+using Accepts = bool (*)(const Object&, std::span<const int>);
+
+/// Worlds that refuse come first: they say what is wrong before another one is changed.
+auto writer_of_some(WriteSome write, Accepts accepts, const char* which) {
+  return [write, accepts, which](const BatchObject& self, nb::handle indices, nb::handle positions) {
     const Numbers some(indices, 'i', 0, which);
     const VectorsOfWorlds vectors(positions, self.size(), "positions");
     vectors.require_finite(self.name, "positions");
     std::vector<ObjectHandle> handles = self.handles();
+    for (std::size_t i = 0; i < self.size(); ++i)
+      if (!accepts(self.present(i), some.integers())) (handles[i].*write)(some.integers(), vectors.of(i));
     for (std::size_t i = 0; i < self.size(); ++i) (handles[i].*write)(some.integers(), vectors.of(i));
   };
 }
@@ -165,11 +193,11 @@ void bind_batch_object(nb::module_& m) {
            nb::sig("def add_impulses(self, impulses: pliant._types.AnyArray) -> None"), "As Object.add_impulses() [N s].")
       .def("set_forces", writer(&ObjectHandle::set_forces, "forces"), nb::arg("forces"),
            nb::sig("def set_forces(self, forces: pliant._types.AnyArray) -> None"), "As Object.set_forces() [N].")
-      .def("set_targets", writer_of_some(&ObjectHandle::set_targets, "particles"), nb::arg("particles"),
+      .def("set_targets", writer_of_some(&ObjectHandle::set_targets, &has_pins, "particles"), nb::arg("particles"),
            nb::arg("positions"),
            nb::sig("def set_targets(self, particles: pliant._types.IntsLike, positions: pliant._types.AnyArray) -> None"),
            "As Object.set_targets(): the same particles in all worlds, positions of shape (worlds, n, 3) [m].")
-      .def("set_attachment_targets", writer_of_some(&ObjectHandle::set_attachment_targets, "attachments"),
+      .def("set_attachment_targets", writer_of_some(&ObjectHandle::set_attachment_targets, &has_attachments, "attachments"),
            nb::arg("attachments"), nb::arg("positions"),
            nb::sig("def set_attachment_targets(self, attachments: pliant._types.IntsLike, positions: "
                    "pliant._types.AnyArray) -> None"),

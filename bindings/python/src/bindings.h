@@ -63,11 +63,15 @@ class OwnedWorld {
   void remove(ObjectId id);
   void remove(ColliderId id);
   void remove(MeshColliderId id);
-  /// World::edit. The object keeps its name.
-  std::vector<int> edit(ObjectId id, const Edit& edit);
+  /// World::edit. The object keeps its name. Throws an Error unless changes(id) is `made_after`.
+  std::vector<int> edit(ObjectId id, const Edit& edit, std::int64_t made_after);
+  /// How often an object was edited or tore: an Edit from before would undo that. Joints that broke stay broken.
+  std::int64_t changes(ObjectId id) const;
 
   /// The description of an object, as it was added or edited. Throws an Error if there is none of that id.
   const Object& described(ObjectId id) const;
+  /// The same as it is now, if it comes apart.
+  const Object& present(ObjectId id) const;
   /// True if an object tears, is cut or can break: then all particles can move in memory.
   bool comes_apart() const;
   /// The Scene that describes what is there now, for saving.
@@ -100,6 +104,7 @@ class OwnedWorld {
   bool is_stepping_ = false;
   bool is_asked_to_stop_ = false;  ///< by World.stop(), which no Report has answered
   std::vector<std::shared_ptr<PythonForce>> forces_;
+  std::map<ObjectId, std::int64_t> changes_;
   State before_;  ///< the State before the present step, if there are force functions
   /// Descriptions whose index in the scene is not their id.
   std::map<ObjectId, Object> objects_;
@@ -162,6 +167,9 @@ struct NamedReport {
 /// raised, as that of Ctrl-C does.
 NamedReport step(OwnedWorld& owned, float dt);
 
+/// A time step that was given [s]. Throws wrong_type(), or an Error unless it is finite and above 0.
+float time_step_from(nb::handle dt);
+
 /// Makes a World without the GIL. No threads: the scene's number.
 SharedWorld make_world(const std::shared_ptr<const SceneFile>& file, std::optional<int> threads);
 
@@ -202,6 +210,8 @@ PyType_Slot* collected_slots() {
 nb::builtin_exception wrong_type(const std::string& what, nb::handle given, const char* expected);
 /// A finite or infinite number that was given. Throws wrong_type().
 double number_from(nb::handle given, const char* what);
+/// A value as Python shows it, for messages.
+std::string repr_of(nb::handle given);
 
 /// The Description of what a caller gave as a scene: a Scene, a mapping, or a path.
 Description description_of(nb::handle scene);

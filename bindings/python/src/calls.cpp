@@ -121,4 +121,6 @@ double number_from(nb::handle given, const char* what) {
   return value;
 }
 
+std::string repr_of(nb::handle given) { return nb::cast<std::string>(nb::repr(given)); }
+
 }  // namespace pliant::python

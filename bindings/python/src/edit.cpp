@@ -21,20 +21,19 @@ struct EditRef {
   SharedWorld world;
   ObjectId id;
   Edit edit;
+  std::int64_t changes = 0;  ///< OwnedWorld::changes() of the object when the Edit was made
   bool is_applied = false;
+  bool is_applying = false;  ///< in another thread, which reads `edit` without the GIL
 
+  /// The description, to change or apply. Call it after all that can run Python, which may apply the Edit.
   Object& object() {
+    if (is_applying)
+      throw Error({.object = edit.object.name}, "this Edit is being applied in another thread",
+                  "make another by World.edit() once that has ended");
     if (is_applied) throw Error({.object = edit.object.name}, "this Edit was applied", "make another by World.edit()");
     return edit.object;
   }
 };
-
-const Object& present(OwnedWorld& owned, ObjectId id) {
-  const ObjectView view = std::as_const(owned.idle()).object(id);
-  (void)view.name();  // throws if it was removed
-  const Object& known = owned.described(id);
-  return comes_apart(known) ? view.description() : known;
-}
 
 EditRef edit_of(const WorldRef& self, nb::handle thing) {
   ObjectId id;
@@ -44,7 +43,8 @@ EditRef edit_of(const WorldRef& self, nb::handle thing) {
     id = id_here(self, *object);
   else
     throw wrong_type("object", thing, "an Object of this World, or its name");
-  return {self.world, id, unchanged(present(*self.world, id))};
+  (void)std::as_const(self.world->idle()).object(id).name();  // throws if it was removed
+  return {self.world, id, unchanged(self.world->present(id)), self.world->changes(id)};
 }
 
 /// Makes another edit after the present one.
@@ -73,9 +73,11 @@ void pin(EditRef& self, nb::handle particles) {
 
 /// Removes what holds some particles. None: all.
 template <class Held>
-void let_go(std::vector<Held>& all, const Object& object, nb::handle particles, const char* what) {
-  if (particles.is_none()) return all.clear();
+void let_go(EditRef& self, std::vector<Held> Object::*holds, nb::handle particles, const char* what) {
+  if (particles.is_none()) return (self.object().*holds).clear();
   const Numbers which(particles, 'i', 0, "particles");
+  Object& object = self.object();
+  std::vector<Held>& all = object.*holds;
   require_particles(object, which.integers());
   std::set<int> held;
   for (const Held& one : all) held.insert(one.particle);
@@ -89,14 +91,14 @@ void let_go(std::vector<Held>& all, const Object& object, nb::handle particles, 
 
 void attach(EditRef& self, nb::handle particles, nb::handle targets, nb::handle compliance, nb::handle damping) {
   const Numbers which(particles, 'i', 0, "particles"), to(targets, 'f', 3, "targets");
+  const auto stiffness = Stiffness::compliance(static_cast<float>(number_from(compliance, "compliance")),
+                                               static_cast<float>(number_from(damping, "damping")));
   Object& object = self.object();
   require_particles(object, which.integers());
   if (which.rows() != to.rows())
     throw Error({.object = object.name},
                 std::to_string(to.rows()) + " targets are given for " + std::to_string(which.rows()) + " particles",
                 "give one for each");
-  const auto stiffness = Stiffness::compliance(static_cast<float>(number_from(compliance, "compliance")),
-                                               static_cast<float>(number_from(damping, "damping")));
   for (std::size_t i = 0; i < which.rows(); ++i)
     object.attachments.push_back({which.integers()[i], to.vectors()[i], {}, stiffness});
 }
@@ -118,7 +120,7 @@ std::vector<ConstraintGroup*> groups_of(Object& object, const std::string& type)
 
 void scale_stiffness(EditRef& self, const std::string& type, nb::handle factor) {
   const double by = number_from(factor, "factor");
-  if (!(by > 0) || !std::isfinite(by)) throw Error({}, "factor is " + std::to_string(by), "give a finite number above 0");
+  if (!(by > 0) || !std::isfinite(by)) throw Error({}, "factor is " + repr_of(factor), "give a finite number above 0");
   for (ConstraintGroup* group : groups_of(self.object(), type)) {
     if (group->stiffness.kind == Stiffness::Kind::pbd)
       throw Error({.object = self.edit.object.name}, "has constraints of the type '" + type + "' with a PBD stiffness",
@@ -131,10 +133,11 @@ void scale_stiffness(EditRef& self, const std::string& type, nb::handle factor) 
 void set_compliance(EditRef& self, const std::string& type, nb::handle compliance, nb::handle damping) {
   const auto value = static_cast<float>(number_from(compliance, "compliance"));
   if (!(value >= 0) || !std::isfinite(value))
-    throw Error({}, "compliance is " + std::to_string(value), "give 0, for rigid, or a finite number above");
+    throw Error({}, "compliance is " + repr_of(compliance), "give 0, for rigid, or a finite number above");
+  std::optional<float> beta;
+  if (!damping.is_none()) beta = static_cast<float>(number_from(damping, "damping"));
   for (ConstraintGroup* group : groups_of(self.object(), type)) {
-    const float beta = damping.is_none() ? group->stiffness.damping : static_cast<float>(number_from(damping, "damping"));
-    group->stiffness = Stiffness::compliance(value, beta);
+    group->stiffness = Stiffness::compliance(value, beta.value_or(group->stiffness.damping));
     group->compliances.clear();
   }
 }
@@ -158,17 +161,34 @@ void describe(EditRef& self, const nb::kwargs& members) {
   all.update(members);
   const Description one = described("objects", all, nb::list(), nb::list());
   Object object = one.scene().objects.front();
-  if (object.positions.size() != self.edit.object.positions.size())
+  Object& now = self.object();
+  if (object.positions.size() != now.positions.size())
     throw Error({.object = name},
-                "has " + std::to_string(self.edit.object.positions.size()) + " particles, and the description " +
+                "has " + std::to_string(now.positions.size()) + " particles, and the description " +
                     std::to_string(object.positions.size()),
                 "remove the object, and add another");
-  self.edit.object = std::move(object);
+  now = std::move(object);
 }
+
+/// Marks an Edit while World::edit reads it without the GIL: from construction to destruction, both with the GIL.
+class Applying {
+ public:
+  explicit Applying(EditRef& edit) : edit_(edit) { edit_.is_applying = true; }
+  ~Applying() { edit_.is_applying = false; }
+  Applying(const Applying&) = delete;
+  Applying& operator=(const Applying&) = delete;
+
+ private:
+  EditRef& edit_;
+};
 
 nb::object apply(EditRef& self) {
   (void)self.object();
-  const std::vector<int> news = self.world->edit(self.id, self.edit);
+  std::vector<int> news;
+  {
+    const Applying mark(self);
+    news = self.world->edit(self.id, self.edit, self.changes);
+  }
   self.is_applied = true;
   return integers(news);
 }
@@ -184,7 +204,8 @@ nb::object held_particles(const std::vector<Held>& all) {
 /// A change by a function of pliant/edit.h that takes indices.
 auto changed_by(Edit (*change)(const Object&, std::span<const int>), const char* what) {
   return [change, what](EditRef& self, nb::handle indices) {
-    follow(self, change(self.object(), Numbers(indices, 'i', 0, what).integers()));
+    const Numbers numbers(indices, 'i', 0, what);
+    follow(self, change(self.object(), numbers.integers()));
   };
 }
 
@@ -228,7 +249,7 @@ void bind_holds(nb::class_<EditRef>& c) {
         "Pins particles where they are: they become kinematic, and Object.set_targets() moves them. Those that are "
         "pinned stay so.")
       .def(
-          "unpin", [](EditRef& e, nb::handle which) { let_go(e.object().pins, e.edit.object, which, "pin"); },
+          "unpin", [](EditRef& e, nb::handle which) { let_go(e, &Object::pins, which, "pin"); },
           nb::arg("particles") = nb::none(),
           nb::sig("def unpin(self, particles: pliant._types.IntsLike | None = None) -> None"),
           "Lets pinned particles go; None: all. Raises Error if one is not pinned.")
@@ -239,8 +260,7 @@ void bind_holds(nb::class_<EditRef>& c) {
            "s/m] is of a spring. The new attachments follow those that there are; Object.set_attachment_targets() moves "
            "the targets.")
       .def(
-          "detach",
-          [](EditRef& e, nb::handle which) { let_go(e.object().attachments, e.edit.object, which, "attachment"); },
+          "detach", [](EditRef& e, nb::handle which) { let_go(e, &Object::attachments, which, "attachment"); },
           nb::arg("particles") = nb::none(),
           nb::sig("def detach(self, particles: pliant._types.IntsLike | None = None) -> None"),
           "Removes the attachments of particles; None: all. Raises Error if one has none.");
@@ -280,10 +300,11 @@ void bind_matter(nb::class_<EditRef>& c) {
            "Replaces the description by one as of Scene.add(), with another material, thickness or pins, for example. "
            "It must have as many particles in the same order: each keeps position and velocity. What earlier calls "
            "changed is replaced.")
-      .def("apply", &apply, nb::sig("def apply(self) -> pliant._types.IntArray"),
-           "Makes the changes in the World, once. Returns for each old particle its first new index, or -1 where it is "
-           "gone. If the description cannot be simulated, raises Error and changes nothing. The end of a `with` block "
-           "calls it.");
+      .def(
+          "apply", &apply, nb::sig("def apply(self) -> pliant._types.IntArray"),
+          "Makes the changes in the World, once. Returns for each old particle its first new index, or -1 where it is "
+          "gone. If the description cannot be simulated, or the object was edited or torn since World.edit(), raises Error "
+          "and changes nothing. The end of a `with` block calls it.");
 }
 
 }  // namespace

@@ -35,6 +35,8 @@ void translate(const std::exception_ptr& pointer, void* /*unused*/) {
     } catch (const std::exception&) {
       PyErr_SetString(PyExc_ValueError, error.what());
     }
+  } catch (const std::bad_alloc&) {
+    PyErr_SetString(PyExc_MemoryError, "there is not enough memory; use smaller objects, or free what is not needed");
   } catch (const std::bad_cast&) {
     PyErr_SetString(PyExc_TypeError, "an argument holds values of a wrong type; see the docstring of what was called");
   }

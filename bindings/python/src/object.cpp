@@ -115,7 +115,8 @@ void bind_reading(nb::class_<ObjectRef>& c) {
           "record i is "
           "particle storage_order()[i]. It keeps its World alive, and shows another state after each step. While it lives, "
           "nothing can be "
-          "added to, removed from or restored in the World. Indices from `particles` on are targets of attachments.")
+          "added to, removed from, edited or restored in the World. Indices from `particles` on are targets of "
+          "attachments.")
       .def(
           "velocity_records", [](const ObjectRef& o) { return records(o, &ObjectView::velocities_in_storage_order); },
           nb::sig("def velocity_records(self) -> pliant._types.FloatArray"),

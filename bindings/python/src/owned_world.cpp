@@ -113,8 +113,16 @@ void OwnedWorld::remove(MeshColliderId id) {
   remove_from(changing("changed"), id, mesh_colliders_, &Names::mesh_colliders, names_);
 }
 
-std::vector<int> OwnedWorld::edit(ObjectId id, const Edit& edit) {
+std::int64_t OwnedWorld::changes(ObjectId id) const {
+  const auto found = changes_.find(id);
+  return found == changes_.end() ? 0 : found->second;
+}
+
+std::vector<int> OwnedWorld::edit(ObjectId id, const Edit& edit, std::int64_t made_after) {
   changing("edited");
+  if (world_.has(id) && changes(id) != made_after)
+    throw Error({.object = edit.object.name}, "was edited or torn after this Edit was made",
+                "make another by World.edit()");
   const Stepping guard(*this);
   std::vector<int> news;
   {
@@ -122,6 +130,7 @@ std::vector<int> OwnedWorld::edit(ObjectId id, const Edit& edit) {
     news = world_.edit(id, edit);
   }
   objects_.insert_or_assign(id, edit.object);
+  ++changes_[id];
   return news;
 }
 
@@ -134,6 +143,11 @@ const Object& OwnedWorld::described(ObjectId id) const {
   return all[static_cast<std::size_t>(id.slot)];
 }
 
+const Object& OwnedWorld::present(ObjectId id) const {
+  const Object& known = described(id);
+  return pliant::comes_apart(known) ? world_.object(id).description() : known;
+}
+
 bool OwnedWorld::comes_apart() const {
   for (const auto& [id, name] : names_->objects)
     if (pliant::comes_apart(described(id))) return true;
@@ -144,10 +158,7 @@ Scene OwnedWorld::present() const {
   Scene scene = file_->scene;
   std::vector<Object> objects;
   objects.reserve(names_->objects.size());
-  for (const ObjectId id : world_.objects()) {
-    const Object& object = described(id);
-    objects.push_back(pliant::comes_apart(object) ? world_.object(id).description() : object);
-  }
+  for (const ObjectId id : world_.objects()) objects.push_back(present(id));
   const auto present_of = [](const auto& ids, const auto& kept, const auto& of_scene) {
     std::remove_cvref_t<decltype(of_scene)> present;
     present.reserve(ids.size());
@@ -167,6 +178,7 @@ void OwnedWorld::own_forces(std::vector<std::shared_ptr<PythonForce>> forces) { 
 
 void OwnedWorld::forget_forces() {
   idle();
+  before_ = {};
   const auto forgotten = std::exchange(forces_, {});  // what their end calls may use this World
   std::vector<nb::object> functions;
   functions.reserve(forgotten.size());

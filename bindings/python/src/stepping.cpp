@@ -19,19 +19,20 @@ double milliseconds_since(Clock::time_point start) {
 /// A step that took longer is ended by Ctrl-C before it is complete [ms].
 constexpr double long_step = 20;
 
-float valid_dt(const OwnedWorld& owned, nb::handle dt) {
-  if (dt.is_none()) return owned.frame_time();
-  const double value = number_from(dt, "dt");
-  if (!(static_cast<float>(value) > 0) || !std::isfinite(static_cast<float>(value)))
-    throw Error({}, "dt is " + nb::cast<std::string>(nb::repr(dt)) + " s", "pass a finite number of float32 above 0");
-  return static_cast<float>(value);
-}
-
 /// The number of frames to run: that of the caller, or the scene's own.
 int valid_frames(const OwnedWorld& owned, std::optional<int> frames) {
   const int count = frames.value_or(owned.file().scene.frames);
   if (count < 1) throw Error({}, "frames is " + std::to_string(count), "run 1 or more");
   return count;
+}
+
+/// Restores while another exception passes on, which tells more than one of restoring.
+void restore_quietly(World& world, const State& state) noexcept {
+  try {
+    world.restore(state);
+  } catch (...) {  // the World stays stopped, and its next Report says so
+    return;
+  }
 }
 
 /// Runs frames without the GIL; looks for signals every few milliseconds.
@@ -56,7 +57,9 @@ NamedReport run(OwnedWorld& owned, int frames) {
   return result;
 }
 
-NamedReport step_once(const WorldRef& self, nb::handle dt) { return step(*self.world, valid_dt(*self.world, dt)); }
+NamedReport step_once(const WorldRef& self, nb::handle dt) {
+  return step(*self.world, dt.is_none() ? self.world->frame_time() : time_step_from(dt));
+}
 
 /// Iterates over frames: each next() steps once.
 struct Frames {
@@ -74,6 +77,13 @@ NamedReport next_frame(Frames& frames) {
 
 }  // namespace
 
+float time_step_from(nb::handle dt) {
+  const auto value = static_cast<float>(number_from(dt, "dt"));
+  if (!(value > 0) || !std::isfinite(value))
+    throw Error({}, "dt is " + repr_of(dt) + " s", "pass a finite number of float32 above 0");
+  return value;
+}
+
 Stepping::Stepping(OwnedWorld& owned) : owned_(owned) {
   owned.idle();
   owned_.is_stepping_ = true;
@@ -89,14 +99,16 @@ void OwnedWorld::answer(const Report& report) {
 Report Stepping::advance(float dt) {
   World& world = owned_.world_;
   const std::int64_t before = world.state().frame;
-  if (!owned_.forces_.empty()) owned_.before_ = world.state();
+  const bool has_forces = !owned_.forces_.empty();
+  if (has_forces) owned_.before_ = world.state();
   Report report;
   try {
     report = world.step(dt);
   } catch (...) {  // of a force, during a substep; objects come apart after the last one, so that the State fits
-    world.restore(owned_.before_);
+    if (has_forces) restore_quietly(world, owned_.before_);
     throw;
   }
+  for (const Torn& torn : report.torn) ++owned_.changes_[torn.object];
   if (report.ok() && !report.stopped && world.state().frame == before)
     throw Error({}, report.explain(), "pass a longer one");
   return report;
@@ -147,7 +159,8 @@ void bind_stepping(nb::module_& m, nb::class_<WorldRef>& c) {
           "one ends before it begins. A Report that has `stopped` ends the effect.")
       .def(
           "forget_forces", [](const WorldRef& self) { self.world->forget_forces(); },
-          "Forgets the functions of `forces`; later steps are without them.")
+          "Forgets the functions of `forces`; later steps are without them. The World still cannot be pickled, copied or "
+          "saved: make another, and give it this one's state().")
       .def(
           "state", [](const WorldRef& self) { return self.world->idle().state(); }, "A copy of the State.")
       .def(

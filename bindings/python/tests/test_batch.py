@@ -126,6 +126,9 @@ BAD: dict[str, Callable[[pliant.Batch], Any]] = {
     "dt of zero": lambda b: b.step(0),
     "dt that is too short": lambda b: b.step(1e-12),
     "dt of nan": lambda b: b.step(float("nan")),
+    "dt of True": lambda b: b.step(True),
+    "frames of True": lambda b: b.run(True),
+    "frames of text": lambda b: b.run("2"),  # type: ignore[arg-type]
     "dt of text": lambda b: b.step("1"),  # type: ignore[arg-type]
     "out of one world": lambda b: b["cloth"].positions(np.zeros((36, 3), np.float32)),
     "out of float64": lambda b: b["cloth"].positions(np.zeros((3, 36, 3))),  # type: ignore[arg-type]
@@ -178,6 +181,52 @@ def test_what_is_refused_leaves_no_force_or_target() -> None:
     batch.step()
     same.step()
     assert batch.state_hashes() == same.state_hashes()
+
+
+def hold_and_attach(world: pliant.World) -> None:
+    with world.edit("cloth") as edit:
+        edit.pin([7])
+        edit.attach([35], [[0.5, 0.3, 0.5]])
+
+
+@pytest.mark.parametrize("call", ["set_targets", "set_attachment_targets"])
+def test_targets_that_one_world_refuses_are_set_in_none(call: str) -> None:
+    """The last world has neither the pin nor the attachment."""
+    batch, same = batch_of(), batch_of()
+    for world in (*batch.worlds[:2], *same.worlds[:2]):
+        hold_and_attach(world)
+    which, message = ([7], "is dynamic") if call == "set_targets" else ([0], "there are 0")
+    targets = np.ones((3, 1, 3))
+    with pytest.raises(pliant.Error, match=message):
+        getattr(batch["cloth"], call)(which, targets)
+    batch.step()
+    same.step()
+    assert batch.state_hashes() == same.state_hashes()
+    hold_and_attach(batch.worlds[2])
+    getattr(batch["cloth"], call)(which, targets)
+
+
+def test_targets_of_sheets_that_tore() -> None:
+    """What they are now counts, not what they were."""
+    scene = cloth_scene()
+    scene["objects"][0]["tearing"] = {"stretch": 1.2}
+    batch = pliant.Batch(scene, 2)
+    for world in batch.worlds:
+        with world.edit("cloth") as edit:
+            edit.cut([12, 13, 14, 15, 16, 17])
+            edit.pin([41])
+    batch["cloth"].set_targets([0, 41], np.zeros((2, 2, 3)))
+    with pytest.raises(pliant.Error, match="particle 42"):
+        batch["cloth"].set_targets([42], np.zeros((2, 1, 3)))
+
+
+def test_an_object_that_one_world_lost_is_named() -> None:
+    batch = batch_of()
+    cloth = batch["cloth"]
+    batch.worlds[1].remove("cloth")
+    for call in (cloth.positions, lambda: cloth.set_targets([0], np.zeros((3, 1, 3)))):
+        with pytest.raises(pliant.Error, match="'cloth'.* was removed from world 1 of the Batch"):
+            call()
 
 
 def test_motors_are_set_in_all_worlds_or_none(machine_scene: pliant.Scene) -> None:

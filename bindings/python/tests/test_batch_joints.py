@@ -146,6 +146,69 @@ def test_recording_ends() -> None:
         batch["machine"].mean_joint_loads("left hinge")
 
 
+def without_motor(scene: pliant.Scene, i: int) -> None:
+    """The right hinge of the last world has no motor."""
+    if i == N - 1:
+        del scene["objects"][0]["joints"][1]["hinge"]["motor"]
+
+
+def with_torque(scene: pliant.Scene, i: int) -> None:
+    """The right motor of the last world is given a torque, which has no greatest torque beside it."""
+    if i == N - 1:
+        scene["objects"][0]["joints"][1]["hinge"]["motor"] = {"torque": 1}
+
+
+def with_two(scene: pliant.Scene, i: int) -> None:
+    """The right joint of the last world is a slider that also turns, and has two motors."""
+    if i == N - 1:
+        slides = {"anchor": [0.15, 0, 0], "axis": [0, 1, 0], "slide_motor": {"speed": 0, "most": 5}}
+        scene["objects"][0]["joints"][1]["cylindrical"] = {**slides, "turn_motor": {"speed": 0, "most": 5}}
+        del scene["objects"][0]["joints"][1]["hinge"]
+
+
+def changes_nothing(batch: pliant.Batch, same: pliant.Batch, call: Callable[[Any], Any], match: str) -> None:
+    """The call is refused, and the next step is that of a Batch without it."""
+    with pytest.raises(pliant.Error, match=match):
+        call(batch["machine"])
+    assert batch.state_hashes() == same.state_hashes()
+    batch.step()
+    same.step()
+    assert batch.state_hashes() == same.state_hashes()
+
+
+RIGHT = "right hinge"
+REFUSED_BY_ONE: dict[str, tuple[Any, Callable[[Any], Any], str]] = {
+    "no motor": (without_motor, lambda m: m.set_motor(RIGHT, 1), "'right hinge': has no motor"),
+    "no motor of a list": (without_motor, lambda m: m.set_motor(["left hinge", RIGHT], 1), "has no motor"),
+    "a torque motor": (with_torque, lambda m: m.set_motor(RIGHT, 1, most=5), "beside its own"),
+    "two motors": (with_two, lambda m: m.set_motor(RIGHT, 1), "has several motors"),
+    "no such motor": (None, lambda m: m.set_motor(["left hinge", RIGHT], 1, motor="turbo"), "has no motor 'turbo'"),
+    "a target that is too large": (None, lambda m: m.set_motor(RIGHT, [1, 1, 2e30]), "not finite"),
+    "a tiny rotation": (None, lambda m: m.set_pose("post", (0, 0.1, 0), [[0, 0, 0, 1]] * 2 + [[0, 0, 0, 1e-16]]), "zero"),
+    "a huge one": (None, lambda m: m.set_pose("post", (0, 0.1, 0), [[0, 0, 0, 1]] * 2 + [[0, 0, 0, 1e20]]), "too large"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("refused", REFUSED_BY_ONE)
+def test_what_one_world_refuses_is_set_in_none(refused: str) -> None:
+    vary, call, match = REFUSED_BY_ONE[refused]
+    changes_nothing(pliant.Batch(two_doors(), N, vary=vary), pliant.Batch(two_doors(), N, vary=vary), call, match)
+
+
+@pytest.mark.parametrize("joints", [("left hinge", "right hinge"), np.array(["left hinge", "right hinge"])])
+def test_any_sequence_of_names_or_indices(joints: Any) -> None:
+    batch, worlds = pair()
+    batch["machine"].set_motor(joints, 0.3)
+    for world in worlds:
+        world["machine"].set_motor("left hinge", 0.3)
+        world["machine"].set_motor("right hinge", 0.3)
+    run(batch, worlds, 2)
+    machine = batch["machine"]
+    sequences: list[Any] = [np.arange(3), range(3), (0, 1, 2)]
+    for of in sequences:
+        np.testing.assert_array_equal(machine.poses(of)[0], machine.poses(["post", "left", "right"])[0])
+
+
 LEFT = "left hinge"
 BAD: dict[str, Callable[[Any], Any]] = {
     "no joint": lambda m: m.set_motor("lock", 1),
@@ -179,6 +242,9 @@ BAD: dict[str, Callable[[Any], Any]] = {
     "a rotation of three": lambda m: m.set_pose("post", (0, 0, 0), (0, 0, 0)),
     "rotations of nan": lambda m: m.set_pose("post", (0, 0, 0), (0, 0, 0, np.nan)),
     "no such body": lambda m: m.poses("window"),
+    "a body of bytes": lambda m: m.poses(b"post"),
+    "bodies of fractions": lambda m: m.poses([0.5]),
+    "bodies of a dict": lambda m: m.poses({"post": 1}),
     "no such body in a list": lambda m: m.poses(["post", "window"]),
     "a body of an array": lambda m: m.poses(np.zeros(3)),
     "a state of no joint": lambda m: m.joint_states("lock"),

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import copy
+import subprocess
+import sys
 from typing import Any, Callable
 
 import numpy as np
@@ -234,6 +236,113 @@ def test_an_edit_is_applied_once(world: pliant.World) -> None:
     for change in (edit.apply, lambda: edit.pin([3]), edit.unpin, lambda: edit.cut([12, 13])):
         with pytest.raises(pliant.Error, match="this Edit was applied; make another"):
             change()
+
+
+def test_an_edit_is_not_changed_while_another_thread_applies_it() -> None:
+    """In a program of its own: a fault would end it. The cloth is large, so that the other thread gets a turn."""
+    program = """
+import threading, pliant
+scene = pliant.Scene()
+scene.add(cloth={"mesh": pliant.grid_mesh(150, 150, 1, 1)}, name="cloth", pins=[{"particles": [0]}])
+world = pliant.World(scene, threads=1)
+edit = world.edit("cloth")
+thread = threading.Thread(target=edit.apply)
+calls = [lambda: edit.pin([1]), edit.detach, edit.apply, lambda: edit.cut([0, 151, 302]), lambda: edit.set_masses([1])]
+refused = []
+thread.start()
+while thread.is_alive():
+    for call in calls:
+        try:
+            call()
+        except pliant.Error as error:
+            refused.append(str(error))
+thread.join()
+assert any("is being applied in another thread" in text for text in refused), set(refused)
+assert edit.pins.tolist() == world.edit("cloth").pins.tolist() and edit.particles == world["cloth"].particles
+"""
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=120)
+
+
+class AppliesMeanwhile:
+    """A number or list of numbers that applies an Edit while it is converted."""
+
+    def __init__(self, edit: pliant.Edit, values: Any) -> None:
+        self.edit, self.values = edit, values
+
+    def __float__(self) -> float:
+        self.edit.apply()
+        return float(self.values)
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+        self.edit.apply()
+        return np.array(self.values, dtype)
+
+
+CHANGES: dict[str, Callable[[Any], Any]] = {
+    "pin": lambda e: e.pin(AppliesMeanwhile(e, [7])),
+    "unpin": lambda e: e.unpin(AppliesMeanwhile(e, [0])),
+    "detach": lambda e: e.detach(AppliesMeanwhile(e, [0])),
+    "cut": lambda e: e.cut(AppliesMeanwhile(e, [12, 13, 14])),
+    "attach": lambda e: e.attach([7], [[0, 0, 0]], damping=AppliesMeanwhile(e, 1)),
+    "set_compliance": lambda e: e.set_compliance("distance", 1, damping=AppliesMeanwhile(e, 1)),
+    "scale_stiffness": lambda e: e.scale_stiffness("distance", AppliesMeanwhile(e, 2)),
+    "set_masses": lambda e: e.set_masses(AppliesMeanwhile(e, np.ones(36))),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_arguments_that_apply_the_edit_change_nothing_after_that(world: pliant.World, change: str) -> None:
+    edit = world.edit("cloth")
+    with pytest.raises((pliant.Error, TypeError)):
+        CHANGES[change](edit)
+    assert (edit.particles, edit.pins.tolist(), len(edit.attachments)) == (36, [0, 5], 0)
+    np.testing.assert_array_equal(edit.masses, world.edit("cloth").masses)
+
+
+def test_an_edit_from_before_another_is_refused(world: pliant.World) -> None:
+    first, second = world.edit("cloth"), world.edit("cloth")
+    first.pin([30])
+    second.pin([35])
+    first.apply()
+    before = world.state_hash()
+    with pytest.raises(pliant.Error, match="'cloth'.* was edited or torn after this Edit was made; make another by"):
+        second.apply()
+    assert world.edit("cloth").pins.tolist() == [0, 5, 30] and world.state_hash() == before
+    third = world.edit("cloth")
+    world.run(2)  # steps alone do not outdate it
+    third.pin([35])
+    third.apply()
+    assert world.edit("cloth").pins.tolist() == [0, 5, 30, 35]
+
+
+def test_an_edit_that_failed_outdates_no_other(world: pliant.World) -> None:
+    wrong, right = world.edit("cloth"), world.edit("cloth")
+    wrong.set_masses(np.zeros(36))
+    with pytest.raises(pliant.Error):
+        wrong.apply()
+    right.pin([30])
+    right.apply()
+    assert world.edit("cloth").pins.tolist() == [0, 5, 30]
+
+
+@pytest.mark.parametrize("step", [lambda b: b.step(), lambda b: b.worlds[0].run(1), lambda b: b.worlds[0].step()])
+def test_an_edit_from_before_a_tear_is_refused(step: Callable[[pliant.Batch], Any]) -> None:
+    scene = cloth_scene()
+    scene["objects"][0]["tearing"] = {"stretch": 1.2}
+    batch = pliant.Batch(scene, 1)
+    world = batch.worlds[0]
+    edit = world.edit("cloth")
+    world["cloth"].set_targets([0, 5], [[-1.5, 0, -0.5], [1.5, 0, -0.5]])
+    step(batch)
+    torn = world["cloth"].particles
+    assert torn > 36
+    edit.pin([35])
+    with pytest.raises(pliant.Error, match="edited or torn"):
+        edit.apply()
+    assert world["cloth"].particles == torn
+    with world.edit("cloth") as edit:
+        edit.pin([35])
+    assert world["cloth"].particles == torn and 35 in world.edit("cloth").pins
 
 
 def test_what_is_gone_or_looked_at_is_not_edited(world: pliant.World) -> None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import copy
 import gc
 import pathlib
 import signal
+import subprocess
+import sys
 import weakref
 from typing import Any, Callable, Iterator
 
@@ -226,6 +229,44 @@ def test_forces_that_are_forgotten_act_no_more() -> None:
     world.step()
     alone.step()
     assert world.state_hash() == alone.state_hash()
+
+
+def test_a_world_of_forgotten_forces_is_still_not_saved() -> None:
+    world = pliant.World(cloth_scene(), threads=1, forces=lambda arrays: None)
+    world.forget_forces()
+    with pytest.raises(pliant.Error, match="force fields"):
+        copy.deepcopy(world)
+    other = pliant.World(cloth_scene(), threads=1)
+    other.restore(world.state())
+
+
+def test_what_fails_without_forces_is_told_as_it_is() -> None:
+    """After forces were forgotten, no State is kept, to which a step that fails would go back."""
+    program = """
+import pathlib, resource, pliant
+scene = pliant.Scene()
+scene.add(cloth={"mesh": pliant.grid_mesh(6, 6, 1, 1)}, name="cloth")
+world = pliant.World(scene, threads=1, forces=lambda arrays: None)
+world.step()
+world.forget_forces()
+world.add(cloth={"mesh": pliant.grid_mesh(100, 100, 1, 1)}, name="large", collides=True, self_collision=True)
+used = int(pathlib.Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used, resource.RLIM_INFINITY))
+held, size = [], 1 << 24
+while size > 1 << 14:
+    try:
+        held.append(bytes(size))
+    except MemoryError:
+        size //= 2
+try:
+    world.step()
+except MemoryError as error:
+    held.clear()
+    assert "not enough memory" in str(error) and "::" not in str(error), error
+else:
+    raise SystemExit("it had enough memory")
+"""
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=120)
 
 
 @pytest.mark.usefixtures("new_garbage_alone")

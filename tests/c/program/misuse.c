@@ -204,6 +204,14 @@ static void test_values(void) {
 
   array.size = 3;
   SAYS(PLIANT_REFUSED, "'arrays' has the size 3", pliant_scene_add_object(scene, json, &array, 1, NULL));
+  array.size = sizeof array + 1;
+  SAYS(PLIANT_REFUSED, "no multiple of its alignment", pliant_scene_add_object(scene, json, &array, 1, NULL));
+  array = sheet_array();
+  array.position_count = (size_t)-1;
+  SAYS(PLIANT_REFUSED, "position_count", pliant_scene_add_object(scene, json, &array, 1, NULL));
+  array = sheet_array();
+  array.element_count = (size_t)-1 / 2;
+  SAYS(PLIANT_REFUSED, "element_count", pliant_scene_add_object(scene, json, &array, 1, NULL));
   array = sheet_array();
   array.corners = 5;
   SAYS(PLIANT_REFUSED, "5 corners", pliant_scene_add_object(scene, json, &array, 1, NULL));
@@ -235,7 +243,10 @@ void test_stale(void) {
   OK(pliant_world_free(freed));
   world = sheet_world(); /* in the slot of the one that was freed */
   CHECK(world != freed);
-  SAYS(PLIANT_STALE, "it was freed", pliant_world_free(freed));
+  SAYS(PLIANT_STALE, "'world' refers to nothing; it was freed", pliant_world_free(freed));
+  SAYS(PLIANT_NULL, "'world' is a null pointer", pliant_world_step(NULL, 0));
+  SAYS(PLIANT_STALE, "'world' is a handle of another kind", pliant_world_step((pliant_world*)(void*)scene, 0));
+  SAYS(PLIANT_NULL, "'scene' is a null pointer", pliant_scene_set(NULL, "/gravity", "[0, 0, 0]"));
   with_world(freed, PLIANT_STALE);
   with_world((pliant_world*)memory, PLIANT_STALE);
   with_world((pliant_world*)(void*)scene, PLIANT_STALE);
@@ -259,6 +270,7 @@ void test_stale(void) {
   with_collider(world, no_such, mesh, PLIANT_STALE);
   with_object(world, no_kind, PLIANT_REFUSED);
   with_object(world, mesh, PLIANT_REFUSED);
+  SAYS(PLIANT_REFUSED, "that of a mesh collider; pass that of an object", pliant_object_teleport(world, mesh, &pose));
   GIVES(PLIANT_REFUSED, pliant_world_remove(world, no_kind));
   OK(pliant_world_free(world));
   free(memory);

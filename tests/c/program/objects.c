@@ -210,7 +210,8 @@ void test_bodies(void) {
   world = world_of(scene);
   OK(pliant_object_find_body(world, object_at(0), "shelf", &body));
   CHECK(body == 1);
-  SAYS(PLIANT_NOT_FOUND, "no body 'lid'", pliant_object_find_body(world, object_at(0), "lid", &body));
+  SAYS(PLIANT_NOT_FOUND, "no body 'lid'; it has 3 bodies; pliant_object_body_name",
+       pliant_object_find_body(world, object_at(0), "lid", &body));
   OK(pliant_object_find_joint(world, object_at(0), "hinge", &joint));
   CHECK(joint == 0);
   SAYS(PLIANT_NOT_FOUND, "no joint 'lid'", pliant_object_find_joint(world, object_at(0), "lid", &joint));
@@ -232,7 +233,8 @@ void test_bodies(void) {
   CHECK(is_near(state.rotation[0], 1, 1e-3) && is_near(state.angular_velocity[0], 0, 1e-3));
   SAYS(PLIANT_REFUSED, "no motor", pliant_object_set_motor(world, object_at(0), "hinge", "turbine", 1.0f, 0));
   SAYS(PLIANT_NOT_FOUND, "no body 3", pliant_object_body_pose(world, object_at(0), 3, &pose));
-  SAYS(PLIANT_NOT_FOUND, "no joint 1", pliant_object_joint_state(world, object_at(0), 1, &state));
+  SAYS(PLIANT_NOT_FOUND, "no joint 1; it has 1 joint, counted",
+       pliant_object_joint_state(world, object_at(0), 1, &state));
   SAYS(PLIANT_NOT_FOUND, "no joint -1", pliant_object_joint_load(world, object_at(0), -1, force, torque, NULL));
   OK(pliant_world_free(world));
   test_touches();
