@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -42,23 +43,30 @@ double mean_height_in_bowl(int bodies, double packing) {
   return 2. / 3 * std::sqrt(2 * volume / (packing * pi * size));
 }
 
+/// The mean height of a pile that was poured and came to rest in its bowl, over that of a flat packing of 0.5.
+double height_of_poured(PileEngine& engine, int count) {
+  for (int i = 0; i < 300; ++i) engine.step(1.f / 60);
+  double mean = 0;
+  for (const Vec3f& p : engine.positions()) {
+    EXPECT_GT(p.y, 0.03f);
+    EXPECT_LT(p.y, 1.69f * 0.2f * std::cbrt(static_cast<float>(count))) << "the rim, 1.3^2 times the size";
+    mean += static_cast<double>(p.y) / count;
+  }
+  float fastest = 0;
+  for (const Vec3f& v : engine.velocities()) fastest = std::max(fastest, std::sqrt(length_squared(v)));
+  EXPECT_LT(fastest, 0.2f) << "at rest but for rolling balls";
+  return mean / mean_height_in_bowl(count, 0.5);
+}
+
+/// Loose heaps of mixed bodies with friction take 0.5 to 0.64 of their room (random loose and random close packing). Piles
+/// are chaotic: single ones take 0.49 to 0.53, which differs by more than engines do.
 TEST(BenchPiles, PouredBodiesFillTheBowlAsAPackingDoes) {
-  constexpr int count = 200;
-  const Pile pile = make_pile("pour", count);
-  for (const auto& engine : engines_of(pile)) {
-    for (int i = 0; i < 300; ++i) engine->step(1.f / 60);
+  const std::array<int, 3> counts{180, 200, 220};
+  for (std::size_t engine = 0; engine < (has_bullet() ? 2 : 1); ++engine) {
     double mean = 0;
-    for (const Vec3f& p : engine->positions()) {
-      EXPECT_GT(p.y, 0.03f);
-      EXPECT_LT(p.y, 1.97f);  // the rim, 1.3^2 times the size of 0.2 m x 200^(1/3)
-      mean += static_cast<double>(p.y) / count;
-    }
-    // Loose heaps of mixed bodies with friction take 0.5 to 0.64 of their room (random loose and random close packing).
-    EXPECT_GT(mean, mean_height_in_bowl(count, 0.64));
-    EXPECT_LT(mean, mean_height_in_bowl(count, 0.5));
-    float fastest = 0;
-    for (const Vec3f& v : engine->velocities()) fastest = std::max(fastest, std::sqrt(length_squared(v)));
-    EXPECT_LT(fastest, 0.2f);  // at rest but for rolling balls
+    for (const int count : counts) mean += height_of_poured(*engines_of(make_pile("pour", count))[engine], count) / 3;
+    EXPECT_LT(mean, 1) << engine;
+    EXPECT_GT(mean, std::sqrt(0.5 / 0.64)) << engine;
   }
 }
 
