@@ -192,19 +192,38 @@ std::array<Vec3f, 8> box_corners(const Bounds& box, const RigidPose& pose) {
   return corners;
 }
 
-/// The corners of the boxes around all bodies that are fixed, or all that are not, unless they are larger than `largest`.
-std::vector<Vec3f> corners_of_bodies(const RenderScene& scene, bool fixed, float largest) {
+/// A body's mesh has this radius about the middle of its box [m]; 0 without a mesh.
+float radius_of(const RenderBody& body, std::map<const TriangleMesh*, Bounds>& boxes) {
+  const auto [found, is_new] = boxes.try_emplace(body.mesh.get());
+  if (is_new) found->second = bounds(body.mesh->positions);
+  return found->second.radius();
+}
+
+/// The corners of the boxes around all bodies that are fixed, or all that are not, with radii above `least` and up to
+/// `largest`.
+std::vector<Vec3f> corners_of_bodies(const RenderScene& scene, bool fixed, float least, float largest) {
   std::vector<Vec3f> points;
   std::map<const TriangleMesh*, Bounds> boxes;
   for (const RenderBody& body : scene.bodies) {
     if (body.is_fixed != fixed || body.mesh->positions.empty()) continue;
-    const auto [found, is_new] = boxes.try_emplace(body.mesh.get());
-    if (is_new) found->second = bounds(body.mesh->positions);
-    if (found->second.radius() > largest) continue;
-    const auto corners = box_corners(found->second, body.pose);
+    const float radius = radius_of(body, boxes);
+    if (!(radius > least) || radius > largest) continue;
+    const auto corners = box_corners(boxes.at(body.mesh.get()), body.pose);
     points.insert(points.end(), corners.begin(), corners.end());
   }
   return points;
+}
+
+/// The middle one of the radii of bodies that are not fixed [m]; 0 without any.
+float usual_radius(const RenderScene& scene) {
+  std::vector<float> radii;
+  std::map<const TriangleMesh*, Bounds> boxes;
+  for (const RenderBody& body : scene.bodies)
+    if (!body.is_fixed && !body.mesh->positions.empty()) radii.push_back(radius_of(body, boxes));
+  if (radii.empty()) return 0;
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
 }
 
 /// Adds the points of a liquid, free particles or bodies, but for the few that lie far from the others: a camera that
@@ -335,9 +354,12 @@ std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
   for (const RenderSmoke& smoke : scene.smokes) points.insert(points.end(), smoke.centres.begin(), smoke.centres.end());
   points.insert(points.end(), scene.unseen.begin(), scene.unseen.end());
   constexpr float any = std::numeric_limits<float>::infinity();
-  include_most(corners_of_bodies(scene, false, any), points);
+  const float large = 2 * usual_radius(scene);  // a ball among blades of grass is no stray
+  include_most(corners_of_bodies(scene, false, -1, large), points);
+  const std::vector<Vec3f> large_ones = corners_of_bodies(scene, false, large, any);
+  points.insert(points.end(), large_ones.begin(), large_ones.end());
   const float size = bounds(points).radius();
-  const std::vector<Vec3f> fixed = corners_of_bodies(scene, true, size == 0 ? any : 2.5f * size);
+  const std::vector<Vec3f> fixed = corners_of_bodies(scene, true, -1, size == 0 ? any : 2.5f * size);
   points.insert(points.end(), fixed.begin(), fixed.end());
   for (const RenderMesh& mesh : scene.meshes)
     if (mesh.is_solid && (size == 0 || bounds(mesh.positions).radius() < 2.5f * size))

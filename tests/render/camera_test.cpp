@@ -63,6 +63,9 @@ TEST(FrameCamera, LeavesOutOneOfManyBodiesButNotOneOfTwo) {
   const float radius = extent_of({scene}).radius;
   scene.bodies.push_back({mesh, {{500, 0, 0}, {}}, {}});
   EXPECT_NEAR(extent_of({scene}).radius, radius, 1e-3f);
+  scene.bodies.back().mesh = std::make_shared<const TriangleMesh>(mesh_of({{Box{{2, 2, 2}}}}));
+  EXPECT_GT(extent_of({scene}).radius, 200) << "it is larger than the others";
+  scene.bodies.back().mesh = mesh;
   scene.bodies.erase(scene.bodies.begin() + 1, scene.bodies.end() - 1);
   EXPECT_GT(extent_of({scene}).radius, 200);
 }
