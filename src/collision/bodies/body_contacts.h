@@ -51,8 +51,11 @@ class BodyContacts {
   /// The bodies of each contact of the last update.
   const std::vector<std::pair<int, int>>& bodies() const { return bodies_; }
   const std::vector<BodyPart>& parts() const { return parts_; }
-  /// Half of the smallest extent of the parts of a body [m]; without end for planes, and for meshes.
-  float size_of_body(int body) const { return size_[static_cast<std::size_t>(body)]; }
+  /// Half of the smallest extent of the parts of a body [m]; without end for planes, meshes and bodies without parts.
+  float size_of_body(int body) const {
+    const auto place = static_cast<std::size_t>(body);
+    return place < size_.size() ? size_[place] : 1e30f;
+  }
 
   /// The deepest contact of a frame, relative to the size of its bodies: of those that stay, when the frame before began.
   BodyOverlap deepest() const;
