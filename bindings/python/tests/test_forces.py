@@ -143,7 +143,7 @@ def test_a_force_that_returns_something_is_refused(force: Any) -> None:
 
 
 def test_a_force_may_put_an_array_of_its_own() -> None:
-    """Of any type, and each time anew."""
+    """The array may have any type, and be another one in each call."""
     scene = pliant.Scene(gravity=(0, 0, 0))
     scene.add(particles={"positions": np.zeros((1, 3)), "masses": [2]}, name="ball")
 
