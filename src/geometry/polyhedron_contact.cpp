@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "geometry/convex_distance.h"
 #include "math/vector.h"
@@ -17,6 +19,10 @@ namespace {
 constexpr float preference = 1e-3f;
 /// Edges more parallel than this have no axis [sine].
 constexpr float parallel = 1e-3f;
+/// Faces beside edges that touch are clipped if one of them faces along the normal by this at least [cosine].
+constexpr float least_facing = 0.9f;
+/// The same if edges overlap by no more than this share of the smaller polyhedron's size.
+constexpr float shallow = 0.1f;
 
 float lowest(const Polyhedron& p, const Vec3f& normal) {
   float least = dot(normal, p.corners.front());
@@ -130,7 +136,7 @@ Touch face_touch(const Polyhedron& reference, const Polyhedron& incident, int fa
 }
 
 /// The nearest points of two lines that are not parallel.
-Touch edge_touch(const Polyhedron& a, const Polyhedron& b, const SeparatingAxis& axis) {
+TouchPoint nearest_on_edges(const Polyhedron& a, const Polyhedron& b, const SeparatingAxis& axis) {
   const PolyhedronEdge &e = a.edges[static_cast<std::size_t>(axis.a)], &f = b.edges[static_cast<std::size_t>(axis.b)];
   const Vec3f p = a.corners[e.a], q = b.corners[f.a], u = a.corners[e.b] - p, v = b.corners[f.b] - q, w = q - p;
   const float uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
@@ -139,13 +145,57 @@ Touch edge_touch(const Polyhedron& a, const Polyhedron& b, const SeparatingAxis&
   const float t = std::min(std::max((uv * s - vw) / vv, 0.f), 1.f);
   const Vec3d middle = convert<double>((p + u * s) + (q + v * t)) * 0.5;
   const double separation = static_cast<double>(axis.separation);
-  Touch out;
-  out.normal = convert<double>(axis.normal);
-  out.count = 1;
-  const Vec3d half = out.normal * (0.5 * separation);
-  out.points[0] = {middle - half, middle + half, separation,
-                   0x20000000u ^ static_cast<std::uint32_t>(axis.a) << 12 ^ static_cast<std::uint32_t>(axis.b)};
-  return out;
+  const Vec3d half = convert<double>(axis.normal) * (0.5 * separation);
+  return {middle - half, middle + half, separation,
+          0x20000000u ^ static_cast<std::uint32_t>(axis.a) << 12 ^ static_cast<std::uint32_t>(axis.b)};
+}
+
+/// Of the two faces of an edge the one that faces a direction most, and the cosine of the angle between.
+std::pair<int, float> facing_of(const Polyhedron& p, int edge, const Vec3f& direction) {
+  const PolyhedronEdge& e = p.edges[static_cast<std::size_t>(edge)];
+  const float left = dot(p.normals[static_cast<std::size_t>(e.left)], direction),
+              right = dot(p.normals[static_cast<std::size_t>(e.right)], direction);
+  return left >= right ? std::pair{e.left, left} : std::pair{e.right, right};
+}
+
+/// The points of one face over another along a normal that is neither one's: both lie on their faces.
+std::vector<TouchPoint> points_along(const Feature& reference, const Feature& incident, const Vec3d& normal, bool swapped,
+                                     double margin) {
+  constexpr double any_height = 1e30;
+  Feature across = reference;  // as seen along the normal
+  across.normal = swapped ? -normal : normal;
+  for (int i = 0; i < across.count; ++i) {
+    Vec3d& point = across.points[static_cast<std::size_t>(i)];
+    point -= normal * dot(normal, point - reference.points[0]);
+  }
+  std::vector<TouchPoint> points = points_over(across, incident, normal, swapped, any_height);
+  for (TouchPoint& point : points) {
+    const Vec3d& on_incident = swapped ? point.on_a : point.on_b;
+    const double along = dot(reference.normal, reference.points[0] - on_incident) / dot(reference.normal, normal);
+    (swapped ? point.on_b : point.on_a) = on_incident + normal * along;
+    point.separation = swapped ? along : -along;
+  }
+  points.erase(std::remove_if(points.begin(), points.end(), [&](const TouchPoint& p) { return p.separation > margin; }),
+               points.end());
+  return points;
+}
+
+/// The place where two edges cross, and what of the faces beside them is near: by turning, two slabs that cross at an
+/// edge may come to touch anywhere before contacts are found again.
+Touch edge_touch(const Polyhedron& a, const Polyhedron& b, const SeparatingAxis& axis, float margin) {
+  const Vec3d normal = convert<double>(axis.normal);
+  const auto [of_a, facing_a] = facing_of(a, axis.a, axis.normal);
+  const auto [of_b, facing_b] = facing_of(b, axis.b, -axis.normal);
+  std::vector<TouchPoint> points;
+  const bool is_shallow = axis.separation > -shallow * std::min(size_of(a), size_of(b));
+  if (is_shallow && std::max(facing_a, facing_b) >= least_facing) {
+    const Feature one = face_of(a, of_a), other = face_of(b, of_b);
+    const double within = static_cast<double>(margin);
+    points = facing_a >= facing_b ? points_along(one, other, normal, false, within)
+                                  : points_along(other, one, normal, true, within);
+  }
+  points.push_back(nearest_on_edges(a, b, axis));
+  return four_of(points, normal);
 }
 
 }  // namespace
@@ -170,7 +220,7 @@ SeparatingAxis separating_axis(const Polyhedron& a, const Polyhedron& b, float r
 Touch touch(const Polyhedron& a, const Polyhedron& b, float margin) {
   const SeparatingAxis axis = separating_axis(a, b, margin);
   if (axis.separation > margin) return {};
-  if (axis.kind == SeparatingAxis::Kind::edges) return edge_touch(a, b, axis);
+  if (axis.kind == SeparatingAxis::Kind::edges) return edge_touch(a, b, axis, margin);
   const bool by_a = axis.kind == SeparatingAxis::Kind::face_of_a;
   const Touch found = by_a ? face_touch(a, b, axis.a, false, margin) : face_touch(b, a, axis.b, true, margin);
   if (found.count > 0) return found;

@@ -18,6 +18,8 @@ namespace pliant {
 namespace {
 
 constexpr int narrow_pairs_a_task = 64;
+/// What stops a body may in turn stop what follows it, in one frame so many times at most.
+constexpr int most_stops = 4;
 /// A contact stays while its bodies have moved less against each other since it began than this share of the smaller part's size, and
 /// turned by less than 1.6 degrees (cosine of half the angle).
 constexpr double still_share = 0.04, still_cosine = 0.9999;
@@ -42,7 +44,7 @@ void BodyContacts::Task::run(int first, int last, Found& found) const {
     const std::size_t touches = found.first.size(), starts = found.starts.size();
     found.any_stopped = false;
     find(i, contacts, found);
-    if (found.made.size() > made)
+    if (found.made.size() > made || (found.pieces.size() == pieces && may_open(i)))
       found.marks.push_back({i, pieces, found.pieces.size(), made, found.made.size(), found.any_stopped,
                              found.first.size() > touches ? found.first.back().time : 1,
                              found.starts.size() > starts ? static_cast<int>(starts) : -1});
@@ -55,30 +57,46 @@ void BodyContacts::Task::find(int pair, ContactsBefore& contacts, Found& found) 
 }
 
 bool BodyContacts::Task::is_found_again(const Found& found, const Mark& mark) const {
+  if (mark.is_open()) {
+    const Pair& parts = of.pairs_.pairs()[at(mark.pair)];
+    return paths->first_turn(of.parts_[at(parts.first)].body, of.parts_[at(parts.second)].body, mark.pair) < 1;
+  }
   const Piece& piece = found.pieces[mark.pieces];
   return paths->first_turn(piece.a, piece.b, mark.pair) < mark.time &&
          (mark.is_stopped || stops(found.made[mark.made], piece, mark.pair));
 }
 
-void BodyContacts::Task::run_on_paths(Found& found) const {
-  const auto is_due = [&](const Mark& mark) { return is_found_again(found, mark); };
-  auto due = std::find_if(found.marks.begin(), found.marks.end(), is_due);
-  if (due == found.marks.end()) return;
+/// Finds one again, and appends what there is of it to `next`. Of a pair that was apart the first touch counts as well.
+void BodyContacts::Task::find_again(const Found& found, const Mark& mark, ContactsBefore& contacts, Found& next) const {
+  const std::size_t touches = next.first.size();
+  next.is_opened = mark.is_open();
+  next.start = mark.start >= 0 ? &found.starts[at(mark.start)] : nullptr;
+  find(mark.pair, contacts, next);
+  if (!mark.is_open()) next.first.resize(touches);
+}
+
+void BodyContacts::Task::run_on_paths(Found& found, bool only_open) const {
+  const auto is_due = [&](const Mark& mark) { return (mark.is_open() || !only_open) && is_found_again(found, mark); };
+  if (std::none_of(found.marks.begin(), found.marks.end(), is_due)) return;
   ContactsBefore contacts(before);
   thread_local Found next;  // to allocate nothing
   next.clear();
   next.deepest = found.deepest;
+  next.first = found.first;
   Mark to;
   const auto copy_until = [&](std::size_t piece, std::size_t made) {
     next.pieces.insert(next.pieces.end(), found.pieces.begin() + offset(to.pieces_end),
                        found.pieces.begin() + offset(piece));
     next.made.insert(next.made.end(), found.made.begin() + offset(to.made_end), found.made.begin() + offset(made));
   };
-  for (; due != found.marks.end(); due = std::find_if(due + 1, found.marks.end(), is_due)) {
-    copy_until(due->pieces, due->made);
-    next.start = due->start >= 0 ? &found.starts[at(due->start)] : nullptr;
-    find(due->pair, contacts, next);
-    to = *due;
+  for (const Mark& mark : found.marks) {
+    const bool due = is_due(mark);
+    if (!due && !mark.is_open()) continue;
+    copy_until(mark.pieces, mark.made);
+    const std::size_t pieces = next.pieces.size(), made = next.made.size();
+    if (due) find_again(found, mark, contacts, next);
+    if (next.made.size() == made) next.marks.push_back({mark.pair, pieces, pieces, made, made});
+    to = mark;
   }
   copy_until(found.pieces.size(), found.made.size());
   next.count = 0;
@@ -122,22 +140,42 @@ double BodyContacts::Task::reach_of(const Pair& pair, float approach) const {
   return static_cast<double>(BodyPairs::margin_share) * size_of(pair) + static_cast<double>(dt * fast);
 }
 
+float BodyContacts::Task::speed_of(int pair, bool is_opened) const {
+  const Pair& parts = of.pairs_.pairs()[at(pair)];
+  const int a = of.parts_[at(parts.first)].body, b = of.parts_[at(parts.second)].body;
+  float most = length(bodies[at(a)].velocity - bodies[at(b)].velocity);
+  if (!is_opened) return most;
+  if (paths->turns(a, pair)) most = std::max(most, length(bodies[at(b)].velocity));
+  if (paths->turns(b, pair)) most = std::max(most, length(bodies[at(a)].velocity));
+  return most;
+}
+
+bool BodyContacts::Task::may_open(int pair) const {
+  if (paths != nullptr) return false;
+  const Pair& parts = of.pairs_.pairs()[at(pair)];
+  const BodyPart &one = of.parts_[at(parts.first)], &other = of.parts_[at(parts.second)];
+  const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
+  if (!one.is_convex() || !other.is_convex() || !is_renewed(one.body) || !is_renewed(other.body)) return false;
+  const float most = (is_held(a) ? 0 : length(a.velocity)) + (is_held(b) ? 0 : length(b.velocity));
+  const float speed = length(a.velocity - b.velocity) + most;
+  return static_cast<double>(dt * most) > fast_share * size_of(parts) && !is_out_of_reach(parts, one, other, speed);
+}
+
 bool BodyContacts::Task::are_surely_apart(const Pair& pair, const BodyPart& one, const BodyPart& other,
-                                          const Posed& relative) const {
+                                          const Posed& relative, float speed) const {
   if (!one.is_convex() || !other.is_convex()) return false;
   const PartBall &of_one = of.balls_[at(pair.first)], &of_other = of.balls_[at(pair.second)];
-  const double reach = reach_of(pair, length(bodies[at(one.body)].velocity - bodies[at(other.body)].velocity));
+  const double reach = reach_of(pair, speed);
   return is_beyond(one, to_world(relative, of_other.centre), of_other.radius, reach) ||
          is_beyond(other, to_local(relative, of_one.centre), of_one.radius, reach);
 }
 
-bool BodyContacts::Task::is_out_of_reach(const Pair& pair, const BodyPart& one, const BodyPart& other) const {
+bool BodyContacts::Task::is_out_of_reach(const Pair& pair, const BodyPart& one, const BodyPart& other, float speed) const {
   constexpr float more_than_rounding = 1.01f;
   const auto is_polyhedron = [](const BodyPart& part) { return part.shape.kind == ConvexShape::Kind::polyhedron; };
   if (!one.is_convex() || !other.is_convex() || (is_polyhedron(one) && is_polyhedron(other))) return false;
   if (!is_renewed(one.body) || !is_renewed(other.body)) return false;  // whose boxes are those of the frame's start
-  const float approach = length(bodies[at(one.body)].velocity - bodies[at(other.body)].velocity);
-  return of.pairs_.are_apart(pair.first, pair.second, more_than_rounding * static_cast<float>(reach_of(pair, approach)));
+  return of.pairs_.are_apart(pair.first, pair.second, more_than_rounding * static_cast<float>(reach_of(pair, speed)));
 }
 
 bool BodyContacts::Task::may_meet_more(const Pair& pair, const BodyState& a, const BodyState& b, double size) const {
@@ -199,15 +237,20 @@ void BodyContacts::find(Executor& executor, const Task& task_of_pair) {
   for (const Found& found : found_) first_.push_back(first_.back() + found.count);
 }
 
-/// Contacts in the direction of a path that ends at something else are found once more.
+/// Contacts in the direction of a path that ends at something else are found once more, and those of pairs that only
+/// meet because something stops one of them.
 void BodyContacts::find_on_paths(Executor& executor, Task task) {
-  touches_.clear();
-  for (const Found& found : found_) touches_.insert(touches_.end(), found.first.begin(), found.first.end());
-  if (touches_.empty()) return;
-  paths_.begin(task.bodies, task.dt, touches_);
-  task.paths = &paths_;
-  executor.parallel_for("bodies: contacts", static_cast<int>(found_.size()),
-                        [&](int i) { task.run_on_paths(found_[at(i)]); });
+  std::size_t known = 0;
+  for (int stop = 0; stop < most_stops; ++stop) {
+    touches_.clear();
+    for (const Found& found : found_) touches_.insert(touches_.end(), found.first.begin(), found.first.end());
+    if (touches_.size() == known) return;
+    known = touches_.size();
+    paths_.begin(task.bodies, task.dt, touches_);
+    task.paths = &paths_;
+    executor.parallel_for("bodies: contacts", static_cast<int>(found_.size()),
+                          [&](int i) { task.run_on_paths(found_[at(i)], stop > 0); });
+  }
 }
 
 BodyOverlap BodyContacts::deepest() const {

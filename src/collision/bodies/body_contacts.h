@@ -70,13 +70,16 @@ class BodyContacts {
     std::span<const BodyContact> stays;
     int a = 0, b = 0;
   };
-  /// Which of the pieces and contacts of a task are those of a pair, where it has made some.
+  /// Which of the pieces and contacts of a task are those of a pair, where it has made some or may do so.
   struct Mark {
     int pair = 0;
     std::size_t pieces = 0, pieces_end = 0, made = 0, made_end = 0;
     bool is_stopped = false;  ///< PairTouch::is_stopped; true of all with meshes
     double time = 1;          ///< of the first touch on the path
     int start = -1;           ///< number of its touch at the start of the frame (Found::starts); -1: not kept
+
+    /// True of a pair that is apart, and may not stay so where something stops one of its bodies.
+    bool is_open() const { return pieces == pieces_end; }
   };
   /// What a task has found, in the order of pairs.
   struct Found {
@@ -86,6 +89,7 @@ class BodyContacts {
     std::vector<FirstTouch> first;
     std::vector<Touch> starts;     ///< touches at the start of the frame, of pairs that may be searched again
     const Touch* start = nullptr;  ///< that of the pair searched again; null: it is not kept
+    bool is_opened = false;        ///< the pair searched again touched nowhere on straight paths
     std::size_t count = 0;         ///< of contacts
     bool any_stopped = false;      ///< of the last pair (Mark::is_stopped)
     bool is_apart = false;         ///< the solids of the last pair touch nowhere, and did not
@@ -98,6 +102,7 @@ class BodyContacts {
       first.clear();
       starts.clear();
       start = nullptr;
+      is_opened = false;
       count = 0;
       deepest = {};
     }

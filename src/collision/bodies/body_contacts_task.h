@@ -38,8 +38,9 @@ struct BodyContacts::Task {
 
   /// True if the contacts of a pair are found again, because one of its bodies touches a third one first.
   bool is_found_again(const Found& found, const Mark& mark) const;
-  /// Finds the contacts of those pairs again.
-  void run_on_paths(Found& found) const;
+  void find_again(const Found& found, const Mark& mark, ContactsBefore& contacts, Found& next) const;
+  /// Finds the contacts of those pairs again, or only of pairs that have none yet.
+  void run_on_paths(Found& found, bool only_open) const;
   /// True if a contact that was found at the start of the frame stops bodies on paths that turn.
   bool stops(const BodyContact& contact, const Piece& parties, int pair) const;
   static std::ptrdiff_t offset(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
@@ -54,13 +55,20 @@ struct BodyContacts::Task {
 
   double reach_of(const Pair& pair, float approach) const;
 
+  /// The speed of one body against the other; of a pair that is opened, the greatest on paths that turn [m/s].
+  float speed_of(int pair, bool is_opened) const;
+
+  /// True for a pair without contacts that may come to touch where something else stops one of its bodies.
+  bool may_open(int pair) const;
+
   /// True if touch would find nothing. `relative`: of the body of the second part in the frame of that of the first.
-  bool are_surely_apart(const Pair& pair, const BodyPart& one, const BodyPart& other, const Posed& relative) const;
+  bool are_surely_apart(const Pair& pair, const BodyPart& one, const BodyPart& other, const Posed& relative,
+                        float speed) const;
 
   bool is_renewed(int body) const { return renewed == nullptr || (*renewed)[at(body)] != 0; }
 
   /// True if boxes show that touch would find nothing. Between polyhedra it may find points that are farther apart.
-  bool is_out_of_reach(const Pair& pair, const BodyPart& one, const BodyPart& other) const;
+  bool is_out_of_reach(const Pair& pair, const BodyPart& one, const BodyPart& other, float speed) const;
 
   /// True if a body moves so far within the frame that it may meet triangles of a mesh other than those that it
   /// touches, or a convex part elsewhere.
@@ -93,7 +101,7 @@ struct BodyContacts::Task {
 
   void find(int number, std::span<const BodyContact> old, Found& found) const;
 
-  Meeting meeting_of(int number, std::span<const BodyContact> old, const Posed& relative) const;
+  Meeting meeting_of(int number, std::span<const BodyContact> old, const Posed& relative, float speed) const;
 
   /// Adds a contact that b touches when it has moved by so much in the frame of a [m].
   static void add(const Meeting& m, const Touch& touching, const Vec3d& moved, int piece, Found& found, int of = of_solids);

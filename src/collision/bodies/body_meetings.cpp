@@ -58,11 +58,13 @@ void BodyContacts::Task::note_depth(const BodyContact& contact, const Piece& par
 void BodyContacts::Task::find(int number, std::span<const BodyContact> old, Found& found) const {
   const Pair& pair = of.pairs_.pairs()[at(number)];
   const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
-  if (old.empty() && ((!is_renewed(one.body) && !is_renewed(other.body)) || is_out_of_reach(pair, one, other))) return;
+  const float speed = speed_of(number, found.is_opened);
+  if (old.empty() && ((!is_renewed(one.body) && !is_renewed(other.body)) || is_out_of_reach(pair, one, other, speed)))
+    return;
   const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
   const bool stays_anyway = !is_renewed(one.body) && !is_renewed(other.body) && (far >= unlimited || !one.is_convex());
   Posed relative = stays_anyway ? Posed{} : relative_to(a.pose, b.pose);
-  if (old.empty() && are_surely_apart(pair, one, other, relative)) return;
+  if (old.empty() && are_surely_apart(pair, one, other, relative, speed)) return;
   if (stays_anyway || stay(pair, old, a, b, relative)) {
     found.pieces.push_back({old, one.body, other.body});
     found.count += old.size();
@@ -70,7 +72,7 @@ void BodyContacts::Task::find(int number, std::span<const BodyContact> old, Foun
     return;
   }
   relative.rotation = normalise(relative.rotation);
-  const Meeting meeting = meeting_of(number, old, relative);
+  const Meeting meeting = meeting_of(number, old, relative, speed);
   const std::size_t first = found.made.size();
   found.is_apart = false;
   one.mesh != nullptr ? meet_mesh(meeting, found) : meet(meeting, found);
@@ -80,7 +82,7 @@ void BodyContacts::Task::find(int number, std::span<const BodyContact> old, Foun
 }
 
 BodyContacts::Task::Meeting BodyContacts::Task::meeting_of(int number, std::span<const BodyContact> old,
-                                                           const Posed& relative) const {
+                                                           const Posed& relative, float speed) const {
   const Pair& pair = of.pairs_.pairs()[at(number)];
   const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
   const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
@@ -94,7 +96,7 @@ BodyContacts::Task::Meeting BodyContacts::Task::meeting_of(int number, std::span
   const float approach =
       one.is_half_space && std::any_of(old.begin(), old.end(), is_close)
           ? std::fabs(dot(velocity, rotate(convert<float>(compose(a.pose, one.pose)).rotation, Vec3f{0, 1, 0})))
-          : length(velocity);
+          : speed;
   // An impact may turn the whole approach into spin. Of two opposite points one may rise as the other sinks.
   const double turning = static_cast<double>(2 * dt * (approach + turning_of(pair.first, a) + turning_of(pair.second, b)));
   const double way = static_cast<double>(dt * length(velocity)), least = least_approach(way);

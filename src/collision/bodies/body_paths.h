@@ -32,6 +32,9 @@ class BodyPaths {
   /// The same of bodies that touch nothing else.
   static ContactPath straight(const BodyState& a, const BodyState& b, float dt, const Quatd& axes);
 
+  /// True if something other than this pair turns the path of a body.
+  bool turns(int body, int pair) const;
+
  private:
   struct Turn {
     int pair = -1;  ///< that touches; -1: none
@@ -41,7 +44,6 @@ class BodyPaths {
   void note(int body, int other, const FirstTouch& touch, const Vec3d& normal);
   Vec3d displacement(int body) const;
   bool is_held(int body) const;
-  bool turns(int body, int pair) const;
 
   const std::vector<BodyState>* bodies_ = nullptr;
   double dt_ = 0;
