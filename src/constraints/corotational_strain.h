@@ -25,7 +25,15 @@ struct CorotationalStrain : TetrahedronStrain {
   /// C is zero without a direction at rest, and where all corners are in one place; the gradients are then zero.
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
-    const ByColumns<R> f = deformation(x, p);
+    ByColumns<R> of_f;
+    const R value = evaluate_at(deformation(x, p), p, of_f);
+    to_corners(of_f, p, gradient);
+    return value;
+  }
+
+  /// C and dC/dF of F.
+  template <class R>
+  PLIANT_HD static R evaluate_at(const ByColumns<R>& f, const Params<R>& /*p*/, ByColumns<R>& gradient) {
     const SymmetricTensor<R> e = green_strain(f);
     const ByColumns<R> far = less_rotation(f), near = f.times(less_inverse_stretch(e));
     const R volume = dot(f.x, cross(f.y, f.z));  // a mirrored one has the same E
@@ -33,7 +41,7 @@ struct CorotationalStrain : TetrahedronStrain {
     const ByColumns<R> g{select(is_near, near.x, far.x), select(is_near, near.y, far.y), select(is_near, near.z, far.z)};
     const R value = sqrt(R(2) * g.squares());
     const R scale = R(2) / max(value, R(1e-7f));
-    to_corners({g.x * scale, g.y * scale, g.z * scale}, p, gradient);
+    gradient = g * scale;
     return value;
   }
 

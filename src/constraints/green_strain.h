@@ -26,12 +26,20 @@ struct GreenStrain : TetrahedronStrain {
   /// C is zero without a direction at rest; the gradients are then zero.
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
-    const ByColumns<R> f = deformation(x, p);
+    ByColumns<R> of_f;
+    const R value = evaluate_at(deformation(x, p), p, of_f);
+    to_corners(of_f, p, gradient);
+    return value;
+  }
+
+  /// C and dC/dF of F.
+  template <class R>
+  PLIANT_HD static R evaluate_at(const ByColumns<R>& f, const Params<R>& p, ByColumns<R>& gradient) {
     const SymmetricTensor<R> e = green_strain(f);
     const R value = select(is_solid(p), sqrt(R(2) * e.squares()), R(0)), share = held(f);
     const R scale = share * R(2) / max(value, R(1e-7f));
     const ByColumns<R> g = f.times(e);
-    to_corners({g.x * scale, g.y * scale, g.z * scale}, p, gradient);
+    gradient = g * scale;
     return min(value * share, R(most_step) * sqrt(max(f.squares(), R(1)) * g.squares()) * scale);
   }
 };

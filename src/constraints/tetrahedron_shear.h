@@ -23,15 +23,21 @@ struct TetrahedronShear : TetrahedronStrain {
   /// C is zero without a direction at rest, and where all corners are in one place; the gradients are then zero.
   template <class R>
   PLIANT_HD static R evaluate(const Vec3<R> (&x)[4], const Params<R>& p, Vec3<R> (&gradient)[4]) {
-    const auto [f0, f1, f2] = deformation(x, p);
+    ByColumns<R> of_f;
+    const R value = evaluate_at(deformation(x, p), p, of_f);
+    to_corners(of_f, p, gradient);
+    return value;
+  }
+
+  /// C and dC/dF of F.
+  template <class R>
+  PLIANT_HD static R evaluate_at(const ByColumns<R>& f, const Params<R>& /*p*/, ByColumns<R>& gradient) {
+    const Vec3<R>&f0 = f.x, &f1 = f.y, &f2 = f.z;
     const Vec3<R> k0 = cross(f1, f2), k1 = cross(f2, f0), k2 = cross(f0, f1);  // dJ/dF
     const R value = sqrt(max(squared(f0, f1, f2, dot(f0, k0)), R(0)));
     const R per_c = R(1) / max(value, R(1e-7f));
     const R of_k = dot(f0, k0) - R(2);
-    const Vec3<R> g0 = (f0 + k0 * of_k) * per_c;  // dC/dF
-    const Vec3<R> g1 = (f1 + k1 * of_k) * per_c;
-    const Vec3<R> g2 = (f2 + k2 * of_k) * per_c;
-    to_corners({g0, g1, g2}, p, gradient);
+    gradient = {(f0 + k0 * of_k) * per_c, (f1 + k1 * of_k) * per_c, (f2 + k2 * of_k) * per_c};
     return value;
   }
 

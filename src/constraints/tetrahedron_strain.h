@@ -26,6 +26,8 @@ struct ByColumns {
   Vec3<R> x, y, z;
 
   PLIANT_HD R squares() const { return dot(x, x) + dot(y, y) + dot(z, z); }
+  PLIANT_HD ByColumns operator*(const R& s) const { return {x * s, y * s, z * s}; }
+  PLIANT_HD ByColumns operator+(const ByColumns& m) const { return {x + m.x, y + m.y, z + m.z}; }
   PLIANT_HD ByColumns times(const SymmetricTensor<R>& s) const {
     return {x * s.xx + y * s.xy + z * s.xz, x * s.xy + y * s.yy + z * s.yz, x * s.xz + y * s.yz + z * s.zz};
   }
@@ -70,13 +72,25 @@ struct TetrahedronStrain {
     return true;
   }
 
-  /// Of the strain that a motion of the corners adds, what is across the present strain: sqrt(2) |E'|, with its
-  /// gradients at the corners. The types of a solid measure |E| alone, so the damping of C would leave a strain that
-  /// only changes its direction as it is.
+  /// The deformation gradient F.
   template <class R>
-  PLIANT_HD static R strain_across(const Vec3<R> (&x)[4], const Vec3<R> (&motion)[4], const Params<R>& p,
-                                   Vec3<R> (&gradient)[4]) {
-    const ByColumns<R> f = deformation(x, p), by = deformation(motion, p);
+  PLIANT_HD static ByColumns<R> deformation(const Vec3<R> (&x)[4], const Params<R>& p) {
+    const Vec3<R> a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
+    return {a * p.d00 + b * p.d10 + c * p.d20, a * p.d01 + b * p.d11 + c * p.d21, a * p.d02 + b * p.d12 + c * p.d22};
+  }
+
+  /// The gradients at the corners of what changes with F by `g`.
+  template <class R>
+  PLIANT_HD static void to_corners(const ByColumns<R>& g, const Params<R>& p, Vec3<R> (&gradient)[4]) {
+    gradient[1] = g.x * p.d00 + g.y * p.d01 + g.z * p.d02;
+    gradient[2] = g.x * p.d10 + g.y * p.d11 + g.z * p.d12;
+    gradient[3] = g.x * p.d20 + g.y * p.d21 + g.z * p.d22;
+    gradient[0] = -(gradient[1] + gradient[2] + gradient[3]);
+  }
+
+  /// Of the change E' = (F^T F' + F'^T F) / 2 of the strain with a change F' of F, what is across the strain E.
+  template <class R>
+  PLIANT_HD static SymmetricTensor<R> change_across(const ByColumns<R>& f, const ByColumns<R>& by) {
     const SymmetricTensor<R> e = green_strain(f);
     const R half(0.5f);
     const SymmetricTensor<R> all{dot(f.x, by.x),
@@ -87,8 +101,18 @@ struct TetrahedronStrain {
                                  (dot(f.y, by.z) + dot(f.z, by.y)) * half};
     const R both = (e.xx * all.xx + e.yy * all.yy + e.zz * all.zz) + R(2) * (e.xy * all.xy + e.xz * all.xz + e.yz * all.yz);
     const R along = both / max(e.squares(), R(1e-14f));
-    const SymmetricTensor<R> across{all.xx - e.xx * along, all.yy - e.yy * along, all.zz - e.zz * along,
-                                    all.xy - e.xy * along, all.xz - e.xz * along, all.yz - e.yz * along};
+    return {all.xx - e.xx * along, all.yy - e.yy * along, all.zz - e.zz * along,
+            all.xy - e.xy * along, all.xz - e.xz * along, all.yz - e.yz * along};
+  }
+
+  /// Of the strain that a motion of the corners adds, what is across the present strain: sqrt(2) |E'|, with its
+  /// gradients at the corners. The types of a solid measure |E| alone, so the damping of C would leave a strain that
+  /// only changes its direction as it is.
+  template <class R>
+  PLIANT_HD static R strain_across(const Vec3<R> (&x)[4], const Vec3<R> (&motion)[4], const Params<R>& p,
+                                   Vec3<R> (&gradient)[4]) {
+    const ByColumns<R> f = deformation(x, p);
+    const SymmetricTensor<R> across = change_across(f, deformation(motion, p));
     const R value = sqrt(R(2) * across.squares());
     const R scale = R(2) / max(value, R(1e-15f));
     const ByColumns<R> g = f.times(across);
@@ -110,22 +134,6 @@ struct TetrahedronStrain {
   template <class R>
   PLIANT_HD static auto is_solid(const Params<R>& p) {
     return p.d00 * p.d00 + p.d01 * p.d01 + p.d02 * p.d02 > R(0);
-  }
-
-  /// The deformation gradient F.
-  template <class R>
-  PLIANT_HD static ByColumns<R> deformation(const Vec3<R> (&x)[4], const Params<R>& p) {
-    const Vec3<R> a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
-    return {a * p.d00 + b * p.d10 + c * p.d20, a * p.d01 + b * p.d11 + c * p.d21, a * p.d02 + b * p.d12 + c * p.d22};
-  }
-
-  /// The gradients at the corners of what changes with F by `g`.
-  template <class R>
-  PLIANT_HD static void to_corners(const ByColumns<R>& g, const Params<R>& p, Vec3<R> (&gradient)[4]) {
-    gradient[1] = g.x * p.d00 + g.y * p.d01 + g.z * p.d02;
-    gradient[2] = g.x * p.d10 + g.y * p.d11 + g.z * p.d12;
-    gradient[3] = g.x * p.d20 + g.y * p.d21 + g.z * p.d22;
-    gradient[0] = -(gradient[1] + gradient[2] + gradient[3]);
   }
 
   /// 1, or less where F is so large that squares of gradients in proportion to it would overflow: a factor of C and its gradients.

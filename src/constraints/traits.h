@@ -36,6 +36,15 @@ inline constexpr bool is_led = is_of_solid<T> || requires {
   T::is_of_woven;
 };
 
+/// True if C is the length of a strain of a tetrahedron, whose direction it does not see (constraints/tetrahedron_strain.h).
+template <class T>
+inline constexpr bool measures_strain = [] {
+  if constexpr (requires { T::is_length_of_strain; })
+    return T::is_length_of_strain;
+  else
+    return false;
+}();
+
 /// True if every gradient has length one unless it vanishes, so the driver skips its norm.
 template <class T>
 inline constexpr bool has_unit_gradients = [] {

@@ -106,11 +106,12 @@ class Constraint final : public AnyConstraint {
       along += dot(gradient[i], motion[i]);
     }
     if (weight == 0) return;
+    if constexpr (measures_strain<T>)
+      if (pass.is_first && hardness_.pbd < 0 && hardness_.damping > 0) return project_strain(particles, x, motion, pass);
     const double change =
         hardness_.pbd >= 0 ? pbd_change(c, weight, pass.projections) : xpbd_change(c, weight, along, pass);
     multiplier_ += change;
     move(particles, gradient, change);
-    if (pass.is_first && hardness_.pbd < 0 && hardness_.damping > 0) damp_across(particles, x, motion, pass.h);
   }
 
  private:
@@ -125,19 +126,29 @@ class Constraint final : public AnyConstraint {
     }
   }
 
-  // Types that measure the length of a strain are also damped across it (docs/internals/integrator.md).
-  void damp_across(std::vector<Particle>& particles, const Places<T>& x, const Places<T>& motion, double h) const {
-    if constexpr (requires { T::is_length_of_strain; }) {
-      if constexpr (T::is_length_of_strain) {
-        Places<T> gradient;
-        const double moved = T::template strain_across<double>(x, motion, rest_, gradient);
-        double weight = 0;
-        for (std::size_t i = 0; i < size_of<T>; ++i)
-          weight += particles[indices_[i]].inverse_mass * length_squared(gradient[i]);
-        const double alpha = hardness_.compliance / (h * h), gamma = hardness_.compliance * hardness_.damping / h;
-        if (gamma * weight + alpha > 0) move(particles, gradient, -gamma * moved / (gamma * weight + alpha));
-      }
-    }
+  // A damped type that measures a strain, in the first pass: the elastic and the viscous stress act as one constraint
+  // along their sum (docs/internals/integrator.md).
+  void project_strain(std::vector<Particle>& particles, const Places<T>& x, const Places<T>& motion, const Pass& pass) {
+    const auto f = T::deformation(x, rest_), by = T::deformation(motion, rest_);
+    auto g = f;
+    const double c = T::evaluate_at(f, rest_, g), h = pass.h;
+    const auto across = T::change_across(f, by);
+    const double along = dot(g.x, by.x) + dot(g.y, by.y) + dot(g.z, by.z);
+    const double alpha = hardness_.compliance / (h * h), gamma = hardness_.compliance * hardness_.damping / h;
+    const double stress = c + gamma * along;
+    const double size = std::sqrt(stress * stress + 2 * gamma * gamma * across.squares());
+    if (!(size > 0)) return;
+    Places<T> gradient;
+    T::to_corners(g * (stress / size) + f.times(across) * (2 * gamma / size), rest_, gradient);
+    double weight = 0;
+    for (std::size_t i = 0; i < size_of<T>; ++i)
+      weight += particles[indices_[i]].inverse_mass * length_squared(gradient[i]);
+    const double share = stress * stress / (size * size), rigid = (gamma + share) * weight;
+    const double led_part = pass.is_only ? lead * (1 + gamma) * share * weight : 0;
+    const double denominator = std::max(rigid + alpha - led_part, rigid);
+    if (!(denominator > 0)) return;
+    multiplier_ -= stress / denominator;
+    move(particles, gradient, -size / denominator);
   }
 
   // PBD: k' = 1 - (1 - k)^(1/n). n projections of an isolated linear constraint remove the share k of its error.
@@ -150,7 +161,6 @@ class Constraint final : public AnyConstraint {
   // XPBD: Macklin, Mueller and Chentanez 2016, eq. 18 and 26. One pass over a solid or woven cloth leaves it too soft
   // by half of its own denominator, so its compliance is lowered (docs/internals/solids.md, woven.md).
   double xpbd_change(double c, double weight, double motion, const Pass& pass) const {
-    constexpr double lead = 0.62;
     const double alpha = hardness_.compliance / (pass.h * pass.h);
     const double gamma = hardness_.compliance * hardness_.damping / pass.h;
     const double rigid = (1 + gamma) * weight;
@@ -158,6 +168,7 @@ class Constraint final : public AnyConstraint {
     return (-c - alpha * multiplier_ - gamma * motion) / denominator;
   }
 
+  static constexpr double lead = 0.62;  // solid and woven cloth: see xpbd_change
   std::array<std::size_t, size_of<T>> indices_{};
   Rest<T> rest_;
   Hardness hardness_;

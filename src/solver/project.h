@@ -66,6 +66,44 @@ struct ConstraintResponse {
   R share = R(1.f);       ///< in general sweeps: share of dlambda that is added to the multiplier
 };
 
+/// Upper limit of a damping time over the substep in project_strain: more damps as much.
+inline constexpr float most_damping = 1e9f;
+
+/// Projects a damped constraint that measures a strain, in the first pass of a substep. The elastic and the viscous
+/// stress act as one constraint along their sum, with g, a as in `project`, G = dC/dF, F' the change of F since the
+/// substep's start and E' the change of the strain across the strain:
+///   P = S G + 2 g F E',   S = C + g G . F',   |P|^2 = S^2 + 2 g^2 |E'|^2,   s = S^2 / |P|^2
+///   dlambda = -|P| / ((g + s) sum w |P_i|^2 / |P|^2 + a) along P / |P|, with P_i the gradients of P at the corners
+/// Only the share s along the gradient of C changes C, and is led. Where E' is zero this is the law of `project`, and
+/// where S is zero dlambda = -g |F'| / (g sum w |P_i|^2 / |P|^2 + a). The multiplier gets the part along G.
+template <class T, bool keeps_multiplier, bool general, class R>
+PLIANT_HD void project_strain(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
+                              const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],
+                              ConstraintResponse<R>& response, const SweepArguments& a,
+                              Vec3<R> (&correction)[slot_count<T>]) {
+  const auto f = T::deformation(x, params), by = T::deformation(motion, params);
+  auto gradient_of_f = f;
+  const R c = T::evaluate_at(f, params, gradient_of_f);
+  const auto across = T::change_across(f, by);
+  const R along = dot(gradient_of_f.x, by.x) + dot(gradient_of_f.y, by.y) + dot(gradient_of_f.z, by.z);
+  const R compliance = min(response.softness * R(a.inverse_h2), R(largest_compliance));
+  const R gamma = min(response.softness * response.damping * R(a.inverse_h), R(most_damping));
+  const R stress = c + gamma * along, squares = stress * stress + R(2) * (gamma * gamma * across.squares());
+  const R size = sqrt(min(max(squares, R(1e-30f)), R(1e36f))), unit = R(1) / size;
+  Vec3<R> gradient[slot_count<T>];
+  T::to_corners(gradient_of_f * (stress * unit) + f.times(across) * (R(2) * gamma * unit), params, gradient);
+  const R mass = generalised_inverse_mass<T>(gradient, w);
+  const R share = (stress * unit) * (stress * unit), rigid = mass * (gamma + share);
+  const R led_part = R(a.lead) * (mass * share * (R(1) + gamma));
+  R change = R(-1) / max(max(rigid + compliance - led_part, rigid), R(smallest_denominator));
+  if constexpr (general) change = change * R(a.relaxation);
+  if constexpr (keeps_multiplier)
+    response.multiplier = response.multiplier + stress * (general ? change * response.share : change);
+  const R step = size * change;
+  PLIANT_UNROLL
+  for (int slot = 0; slot < slot_count<T>; ++slot) correction[slot] = gradient[slot] * (w[slot] * step);
+}
+
 /// Adds to the corrections what damping takes from a strain that only changes its direction. Once in a substep, as it
 /// keeps no multiplier.
 template <class T, bool general, class R>
@@ -91,7 +129,8 @@ PLIANT_HD void damp_across(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_
 ///   26)
 ///          with a = alpha / h^2 and g = alpha beta / h; that of a solid or a woven triangle in a sweep of one pass: see `led`
 ///          With Integrator::energy C is C^ of energy_law.h, and the 1 of (1 + g) is a.
-///   Types that measure the length of a strain are damped across it likewise:
+///   Types that measure the length of a strain are projected by project_strain in the first pass. With Integrator::energy they are
+///   damped across it apart:
 ///          dlambda = -g C' / (g sum w |grad C'|^2 + a), C' being strain_across of the motion since the substep's start
 ///   correction_i = w_i grad_i C dlambda
 ///   In a general sweep dlambda is multiplied by the relaxation.
@@ -101,6 +140,10 @@ PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_coun
                        const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],
                        ConstraintResponse<R>& response, const SweepArguments& a, Vec3<R> (&correction)[slot_count<T>],
                        const Vec3<R>* coast = nullptr) {
+  if constexpr (law == Law::damped && measures_strain<T>) {
+    if (coast == nullptr && a.first_pass)
+      return project_strain<T, keeps_multiplier, general>(x, w, params, motion, response, a, correction);
+  }
   Vec3<R> gradient[slot_count<T>];
   const R c = T::evaluate(x, params, gradient);
   const R mass = generalised_inverse_mass<T>(gradient, w);
@@ -132,8 +175,8 @@ PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_coun
   if constexpr (keeps_multiplier) response.multiplier = response.multiplier + (general ? change * response.share : change);
   PLIANT_UNROLL
   for (int slot = 0; slot < slot_count<T>; ++slot) correction[slot] = gradient[slot] * (w[slot] * change);
-  if constexpr (law == Law::damped && requires { T::is_length_of_strain; }) {
-    if constexpr (T::is_length_of_strain) damp_across<T, general>(x, w, params, motion, response, a, correction);
+  if constexpr (law == Law::damped && measures_strain<T>) {
+    if (coast != nullptr) damp_across<T, general>(x, w, params, motion, response, a, correction);
   }
 }
 

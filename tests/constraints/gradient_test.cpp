@@ -276,5 +276,60 @@ TYPED_TEST(Internal, CanonicalOrderIsTheSameConstraint) {
   EXPECT_GT(exchanged, is_symmetric ? samples / 4 : -1);
 }
 
+// ------------------------------------------------------------------------------------------------ damping of a strain
+
+template <class T>
+class DampedStrain : public testing::Test {
+ protected:
+  /// Stretches a tetrahedron along x by `strain`, moves it by F' = 0.01 e_x e_axis, and projects it once.
+  void project_after(double strain, double Vec3d::*axis) {
+    const Vec3d rest[4] = {{0, 0, 0}, {1, 0.1, 0}, {0.2, 1.1, 0}, {0.1, 0.3, 0.9}};
+    params_ = T::template measure<double>(rest);
+    for (int i = 0; i < 4; ++i) {
+      x_[i] = {(1 + strain) * rest[i].x, rest[i].y, rest[i].z};
+      motion_[i] = {0.01 * (rest[i].*axis), 0, 0};
+    }
+    SweepArguments arguments;
+    arguments.h = 1.f / 64;
+    arguments.inverse_h = 64;
+    arguments.inverse_h2 = 64 * 64;
+    arguments.first_pass = true;
+    project<T, Law::damped, true, false, double>(x_, w_, params_, motion_, response_, arguments, correction_);
+  }
+
+  double mass_along(const Vec3d (&gradient)[4]) const { return generalised_inverse_mass<T, double>(gradient, w_); }
+
+  double w_[4] = {1, 2, 0.5, 1};
+  ParamsOf<T, double> params_;
+  Vec3d x_[4], motion_[4], correction_[4];
+  ConstraintResponse<double> response_{1e-3, 20, 0};
+  const double compliance_ = 1e-3 * 64 * 64, gamma_ = 1e-3 * 20 * 64;
+};
+
+using StrainTypes = testing::Types<TetrahedronShear, CorotationalStrain, GreenStrain>;
+TYPED_TEST_SUITE(DampedStrain, StrainTypes, NameOfType);
+
+TYPED_TEST(DampedStrain, KeepsAShareOfTheRateAcrossTheStrain) {
+  this->project_after(1e-6, &Vec3d::y);
+  Vec3d gradient[4];
+  const double rate = TypeParam::strain_across(this->x_, this->motion_, this->params_, gradient);
+  double left = rate;
+  for (int i = 0; i < 4; ++i) left += dot(gradient[i], this->correction_[i]);
+  EXPECT_NEAR(rate, 0.01, 1e-6);  // sqrt(2) |E'|
+  EXPECT_NEAR(left / rate, this->compliance_ / (this->gamma_ * this->mass_along(gradient) + this->compliance_), 1e-3);
+}
+
+TYPED_TEST(DampedStrain, AlongTheStrainIsThatOfXpbd) {
+  this->project_after(0.01, &Vec3d::x);
+  Vec3d gradient[4];
+  const double c = TypeParam::evaluate(this->x_, this->params_, gradient);
+  const double motion = motion_along<TypeParam, double>(gradient, this->motion_);
+  const double change =
+      -(c + this->gamma_ * motion) / ((1 + this->gamma_) * this->mass_along(gradient) + this->compliance_);
+  EXPECT_NEAR(this->response_.multiplier / change, 1, 1e-9);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_LT(length(this->correction_[i] - gradient[i] * (this->w_[i] * change)), 1e-9 * std::fabs(change));
+}
+
 }  // namespace
 }  // namespace pliant

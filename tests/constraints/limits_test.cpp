@@ -70,9 +70,10 @@ Stencil<T, float> projected(const Stencil<T, float>& at, const ParamsOf<T, float
   for (std::size_t i = 0; i < size_of<T>; ++i) {
     x[i] = at[i];
     w[i] = i % 2 == 0 ? 1.f : 50.f;
-    motion[i] = {};
+    motion[i] = Vec3f{at[i].y, -at[i].x, at[i].z} * 0.1f;
   }
   for (int time = 0; time < times; ++time) {
+    arguments.first_pass = time == 0;
     project<T, law, true, false, float>(x, w, params, motion, response, arguments, correction);
     for (std::size_t i = 0; i < size_of<T>; ++i) x[i] += correction[i];
   }
