@@ -309,6 +309,7 @@ void look_through(Problems& problems, const Scene& scene) {
   if (problems.grave_count() == 0) {
     doubt_soft_bodies(problems, scene);
     doubt_substeps_of_soft_bodies(problems, scene);
+    doubt_bent_solids(problems, scene);
     doubt_substeps_of_woven(problems, scene);
     doubt_substeps_of_hinges(problems, scene);
     doubt_substeps_of_rods(problems, scene);

@@ -22,12 +22,26 @@ struct TooSoft {
 };
 
 /// How many times as much a body yields as with enough substeps, which are `longer` times as many. Fitted to bars in
-/// tension and bent, of a Poisson's ratio of 0.3 and 0.49, with up to seven times too few (docs/internals/solids.md).
+/// tension and bent, of a Poisson's ratio of 0.3 to 0.49, with up to seven times too few (docs/internals/solids.md).
 /// With more iterations than one the compliance is not lowered (solver/project.h).
 double yield_over_right_one(double longer, int iterations) {
-  constexpr double slope = 0.085, harmless = 3.2, slope_of_more = 0.1;
+  constexpr double slope = 0.09, harmless = 1.2, slope_of_more = 0.1;
   if (iterations > 1) return 1 + slope_of_more * longer * longer / iterations;
   return 1 + slope * std::max(longer * longer - harmless, 0.);
+}
+
+TooSoft words_of_too_soft(const Object& object, int substeps, double needed, double times, bool are_named) {
+  const std::string wanted = std::to_string(std::llround(std::ceil(std::min(needed, 1e9))));
+  const std::string yields =
+      "'" + object.name + "' will yield about " + words(std::round(10 * times) / 10) + " times as much as its modulus says";
+  if (!are_named && substeps >= most_soft_substeps)
+    return {&object, "are " + std::to_string(substeps) + ", the most by default, so that " + yields,
+            "give \"substeps\": " + wanted + ", or use larger tetrahedra, a smaller modulus or a rigid body"};
+  return {&object, "are " + std::to_string(substeps) + ", so few that " + yields,
+          are_named ? "give " + wanted + (needed > most_soft_substeps ? "" : ", or leave substeps out")
+                    : "it needs " + wanted +
+                          ": use larger tetrahedra, a smaller modulus or a rigid body, and no PBD "
+                          "stiffness in what it meets"};
 }
 
 std::vector<TooSoft> find_too_soft(const Scene& scene, const Settings& settings) {
@@ -40,14 +54,7 @@ std::vector<TooSoft> find_too_soft(const Scene& scene, const Settings& settings)
     const double needed = needed_substeps_of_soft_body(scene.objects[o], static_cast<double>(scene.frame_time));
     const double times = yield_over_right_one(needed / all[o], settings.iterations);
     if (times <= tolerated) continue;
-    const std::string wanted = std::to_string(std::llround(std::ceil(std::min(needed, 1e9))));
-    found.push_back({&scene.objects[o],
-                     "are " + std::to_string(all[o]) + ", so few that '" + scene.objects[o].name + "' will yield about " +
-                         words(std::round(10 * times) / 10) + " times as much as its modulus says",
-                     settings.substeps > 0 ? "give " + wanted + ", or leave substeps out"
-                                           : "it needs " + wanted +
-                                                 ": use larger tetrahedra, a smaller modulus or a rigid body, and no PBD "
-                                                 "stiffness in what it meets"});
+    found.push_back(words_of_too_soft(scene.objects[o], all[o], needed, times, settings.substeps > 0));
   }
   return found;
 }

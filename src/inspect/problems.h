@@ -101,6 +101,8 @@ void doubt_flows(Problems& problems, const Scene& scene);
 void doubt_soft_bodies(Problems& problems, const Scene& scene);
 /// Says by how much too few substeps soften soft bodies. The scene must have no grave findings.
 void doubt_substeps_of_soft_bodies(Problems& problems, const Scene& scene);
+/// Says how many times too stiffly slender solids of few cells across will bend. The scene must have no grave findings.
+void doubt_bent_solids(Problems& problems, const Scene& scene);
 /// Doubts particles of liquids, gases and grains that start inside solids.
 void doubt_starts_in_solids(Problems& problems, const Scene& scene);
 /// Doubts woven cloth whose triangles yield much more than their stiffness says.

@@ -19,7 +19,7 @@ namespace {
 /// Edges that a shear wave passes in a substep. One sweep carries a force about an edge far, so a body that is solved
 /// with longer substeps yields more than its modulus says: with twice as long ones by 15 % (docs/internals/solids.md).
 constexpr double edges_per_substep = 0.25;
-constexpr int fewest_soft_substeps = 20, most_soft_substeps = 1000;
+constexpr int fewest_soft_substeps = 20;
 /// What a tetrahedron of a cube of side a, cut into six, has: sum of squared gradients of its four barycentric coordinates, times a^2; and
 /// the mean of its squared edges over a^2.
 constexpr double gradients_of_cube = 6, edges_of_cube = 5. / 3;
@@ -136,6 +136,12 @@ double more_for_volume(double ratio) {
 bool is_soft_body(const Object& object) {
   return std::any_of(object.constraints.begin(), object.constraints.end(),
                      [](const ConstraintGroup& group) { return gives_shape(group.type); });
+}
+
+bool keeps_volumes_jointly(const Object& object) {
+  constexpr double least_ratio = 3.99;  // as least_ratio of join_volumes.cpp, up to rounding
+  const MeasuredSolid solid = solid_of(object);
+  return solid.of_volume >= least_ratio * solid.stiffness;
 }
 
 double needed_substeps_of_soft_body(const Object& object, double frame_time) {

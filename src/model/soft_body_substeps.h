@@ -12,7 +12,13 @@ bool is_soft_body(const Object& object);
 /// an edge of three in four of its tetrahedra, or less where its constraints are damped. At least 20.
 double needed_substeps_of_soft_body(const Object& object, double frame_time);
 
-/// The same, rounded up, at most 1000.
+/// True if tetrahedra around edges keep their volume together (model/join_volumes.h), as from a Poisson's ratio of 0.4 on.
+bool keeps_volumes_jointly(const Object& object);
+
+/// The most substeps by default.
+inline constexpr int most_soft_substeps = 1000;
+
+/// The same, rounded up, at most most_soft_substeps.
 int substeps_of_soft_body(const Object& object, double frame_time);
 
 /// What is said of a soft body's numbers before it runs.
