@@ -9,6 +9,11 @@ static float floats[81];
 static int32_t integers[9];
 static pliant_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
 
+static pliant_status no_sink(void* user, const char* path, const void* bytes, size_t count) {
+  (void)user, (void)path, (void)bytes, (void)count;
+  return PLIANT_OK;
+}
+
 /* Every function of a World with this handle. */
 static void with_world(pliant_world* world, pliant_status expected) {
   const pliant_id id = object_at(0);
@@ -49,6 +54,7 @@ static void with_world(pliant_world* world, pliant_status expected) {
   GIVES(expected, pliant_report_advice(world, text, 8, &count));
   GIVES(expected, pliant_report_json(world, text, 8, &count));
   GIVES(expected, pliant_writer_open(world, "never.obj", &writer));
+  GIVES(expected, pliant_writer_open_sink(world, "never.obj", no_sink, NULL, &writer));
   CHECK(scene == NULL && state == NULL && writer == NULL);
 }
 

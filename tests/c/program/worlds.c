@@ -189,6 +189,69 @@ void test_reports(void) {
   OK(pliant_world_free(world));
 }
 
+/* Files of a writer in memory, their number, and what it does beside keeping them. */
+struct kept {
+  char path[64];
+  char bytes[16384];
+  size_t count;
+  int files;
+  pliant_status gives;      /* what the sink returns */
+  pliant_writer* reentered; /* the writer to be called from its own sink, or null */
+  const pliant_world* world;
+};
+
+static pliant_status keep(void* user, const char* path, const void* bytes, size_t count) {
+  struct kept* into = (struct kept*)user;
+  if (into->reentered != NULL) {
+    SAYS(PLIANT_BUSY, "to its sink", pliant_writer_add(into->reentered, into->world));
+    GIVES(PLIANT_BUSY, pliant_writer_finish(into->reentered));
+  }
+  into->count = 0;
+  ++into->files;
+  if (!CHECK(strlen(path) < sizeof into->path && count <= sizeof into->bytes)) return PLIANT_TOO_SMALL;
+  strcpy(into->path, path);
+  memcpy(into->bytes, bytes, count);
+  into->count = count;
+  return into->gives;
+}
+
+/* The bytes of the file "c.glb" that test_files wrote of the same frames. */
+static void test_sink(const char* folder) {
+  static struct kept kept;
+  static char from_disk[16384];
+  pliant_world* world = sheet_world();
+  pliant_writer* writer = NULL;
+  FILE* file = fopen(path_in(folder, "c.glb"), "rb");
+  OK(pliant_writer_open_sink(world, "c.glb", keep, &kept, &writer));
+  for (int i = 0; i < 3; ++i) {
+    OK(pliant_writer_add(writer, world));
+    OK(pliant_world_step(world, 0));
+  }
+  CHECK(kept.files == 0);
+  OK(pliant_writer_finish(writer));
+  OK(pliant_writer_free(writer));
+  CHECK(kept.files == 1 && strcmp(kept.path, "c.glb") == 0 && fopen("c.glb", "rb") == NULL);
+  if (CHECK(file != NULL)) {
+    CHECK(fread(from_disk, 1, sizeof from_disk, file) == kept.count && memcmp(from_disk, kept.bytes, kept.count) == 0);
+    fclose(file);
+  }
+  kept.gives = PLIANT_NO_MEMORY;
+  OK(pliant_writer_open_sink(world, "run.obj", keep, &kept, &writer));
+  kept.reentered = writer;
+  kept.world = world;
+  SAYS(PLIANT_NO_MEMORY, "did not take the file 'run_0003.obj'; it returned 8", pliant_writer_add(writer, world));
+  CHECK(kept.files == 2 && memcmp(kept.bytes, "# time ", 7) == 0);
+  kept.gives = PLIANT_OK;
+  OK(pliant_writer_free(writer));
+  writer = NULL;
+  SAYS(PLIANT_NULL, "'sink' is a null pointer", pliant_writer_open_sink(world, "run.obj", NULL, NULL, &writer));
+  SAYS(PLIANT_REFUSED, "'.gif' is not a geometry format",
+       pliant_writer_open_sink(world, "run.gif", keep, &kept, &writer));
+  GIVES(PLIANT_NULL, pliant_writer_open_sink(world, NULL, keep, &kept, &writer));
+  CHECK(writer == NULL);
+  OK(pliant_world_free(world));
+}
+
 void test_files(const char* folder) {
   const pliant_array array = sheet_array();
   pliant_world* world = sheet_world();
@@ -212,6 +275,7 @@ void test_files(const char* folder) {
     CHECK(fread(text, 1, 4, file) == 4 && memcmp(text, "glTF", 4) == 0);
     fclose(file);
   }
+  test_sink(folder);
   /* The ids of what was added later are not those of a scene. */
   OK(pliant_world_add_object(world, "{\"name\": \"late\", \"cloth\": {\"mesh\": {\"array\": \"sheet\"}}}", &array, 1,
                              NULL));

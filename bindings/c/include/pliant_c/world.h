@@ -153,6 +153,18 @@ PLIANT_API pliant_status pliant_report_json(const pliant_world* world, char* int
  * complete after pliant_writer_finish. */
 PLIANT_API pliant_status pliant_writer_open(const pliant_world* world, const char* path, pliant_writer** writer);
 
+/* Receives a complete file in memory: its path as it would be on disk, and its bytes, which are valid during the call.
+ * It returns PLIANT_OK; another status ends the call of the writer with that status. It must not call the writer. */
+typedef pliant_status (*pliant_file_sink)(void* user, const char* path, const void* bytes, size_t count);
+
+/* The same in memory: every file goes to `sink` instead of to disk, as soon as it is complete and with the bytes that it
+ * would have there. `path` names the format and the files: "run.glb" and "run.usda" give one file in
+ * pliant_writer_finish, "run.pc2" also "run.obj"; "run.obj" and "run.ply" give "run_0000.obj", ... in each
+ * pliant_writer_add; "run.pvd" gives "run/OBJECT_0000.vtp", ... in each pliant_writer_add, and itself at the end. `user`
+ * is passed on to `sink`. */
+PLIANT_API pliant_status pliant_writer_open_sink(const pliant_world* world, const char* path, pliant_file_sink sink,
+                                                 void* user, pliant_writer** writer);
+
 /* Adds the present state as a frame: once at the start and once after each step. Refused if the writer was opened
  * for another World. */
 PLIANT_API pliant_status pliant_writer_add(pliant_writer* writer, const pliant_world* world);
