@@ -133,7 +133,9 @@ class GlbWriter final : public FormatWriter {
 
   void finish() override {
     if (std::exchange(finished_, true)) return;
-    if (times_.empty()) refuse("there are no frames to write");
+    if (times_.empty())
+      throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there are no frames to write",
+                  "add one before finishing");
     Document document;
     json nodes = json::array();
     std::vector<int> moving;

@@ -101,6 +101,7 @@ static void test_contacts(pliant_world* world, pliant_id ground) {
   double all = 0;
   float down[27];
   for (int i = 0; i < 27; ++i) down[i] = i % 3 == 1 ? -1 : 0;
+  SAYS(PLIANT_REFUSED, "call pliant_world_record_contacts", pliant_world_contacts(world, contacts, 8, &count));
   OK(pliant_world_record_contacts(world, 1));
   OK(pliant_object_set_velocities(world, object_at(0), down, 9));
   OK(pliant_world_run(world, 3, NULL));
@@ -122,7 +123,8 @@ void test_contents(void) {
   size_t count = 0;
   OK(pliant_world_find(world, PLIANT_OBJECT, "flag", &found));
   CHECK(found.kind == PLIANT_OBJECT && found.slot == 0 && found.generation == 0);
-  SAYS(PLIANT_NOT_FOUND, "no mesh collider 'flag'", pliant_world_find(world, PLIANT_MESH_COLLIDER, "flag", &found));
+  SAYS(PLIANT_NOT_FOUND, "no mesh collider 'flag'; it is an object",
+       pliant_world_find(world, PLIANT_MESH_COLLIDER, "flag", &found));
   OK(pliant_world_add_collider(world, "{\"name\": \"ground\", \"plane\": {}, \"position\": [0, -0.01, 0]}", NULL, 0,
                                &ground));
   test_contacts(world, ground);
@@ -252,6 +254,27 @@ static void test_sink(const char* folder) {
   OK(pliant_world_free(world));
 }
 
+/* Paths in what is added to a World are relative to the folder of its scene. */
+static void test_folder(const char* folder) {
+  pliant_scene_options options;
+  pliant_scene* scene = NULL;
+  pliant_world* world = NULL;
+  pliant_id id;
+  FILE* file = fopen(path_in(folder, "piece.obj"), "w");
+  memset(&options, 0, sizeof options);
+  options.size = sizeof options;
+  options.folder = folder;
+  if (!CHECK(file != NULL)) return;
+  fputs("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\n", file);
+  fclose(file);
+  OK(pliant_scene_parse("{\"objects\": []}", &options, &scene));
+  world = world_of(scene);
+  OK(pliant_world_add_object(world, "{\"name\": \"a\", \"cloth\": {\"mesh\": {\"file\": \"piece.obj\"}}}", NULL, 0,
+                             &id));
+  OK(pliant_world_add_collider(world, "{\"mesh\": {\"file\": \"piece.obj\"}, \"position\": [0, -1, 0]}", NULL, 0, &id));
+  OK(pliant_world_free(world));
+}
+
 void test_files(const char* folder) {
   const pliant_array array = sheet_array();
   pliant_world* world = sheet_world();
@@ -276,6 +299,7 @@ void test_files(const char* folder) {
     fclose(file);
   }
   test_sink(folder);
+  test_folder(folder);
   /* The ids of what was added later are not those of a scene. */
   OK(pliant_world_add_object(world, "{\"name\": \"late\", \"cloth\": {\"mesh\": {\"array\": \"sheet\"}}}", &array, 1,
                              NULL));
