@@ -7,44 +7,33 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "output_file.h"
 
 namespace pliant {
 
 /// A file being written. Nothing is visible under `path` before commit() returns.
-class AtomicFile {
+class AtomicFile final : public OutputFile {
  public:
   /// Creates the temporary file. Follows symbolic links; writes directly to a device or pipe. Throws an Error that names
   /// the path if its folder is missing, or the path is a folder or not writable.
   explicit AtomicFile(std::string path);
 
   /// Discards the file unless commit() has succeeded.
-  ~AtomicFile();
-
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile() override;
 
   /// Appends bytes. Throws an Error that names the path if the disk is full or the write fails.
-  void write(const void* bytes, std::size_t count);
-  void write(std::string_view text) { write(text.data(), text.size()); }
+  void write(const void* bytes, std::size_t count) override;
+  using OutputFile::write;
 
-  /// Appends the bytes of a value as they are in memory (little-endian on every supported machine).
-  template <class T>
-  void write_value(const T& value) {
-    write(&value, sizeof value);
-  }
-
-  /// Replaces `count` bytes that were written at `offset` before: for headers that count what follows.
-  void overwrite(std::size_t offset, const void* bytes, std::size_t count);
-
-  /// The number of bytes written so far.
-  std::size_t size() const { return written_ + buffer_.size(); }
+  void overwrite(std::size_t offset, const void* bytes, std::size_t count) override;
+  std::size_t size() const override { return written_ + buffer_.size(); }
 
   /// Syncs the file to disk and gives it its name. If that fails, throws an Error that names the path.
-  void commit();
+  void commit() override;
 
-  const std::string& path() const { return path_; }
+  const std::string& path() const override { return path_; }
 
  private:
   [[noreturn]] void fail(const char* what, int code) const;

@@ -190,8 +190,8 @@ std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Sc
   const bool has_all_points = parts.suffix == ".glb" || parts.suffix == ".pc2";
   for (std::size_t o = 0; o < objects.size() && !has_all_points; ++o)
     objects[o].varies = !objects[o].is_remeshed && world.object(ids[o]).flows();
-  return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time), scene, world.objects(),
-                                       options, has_all_points);
+  return std::make_unique<WorldWriter>(output::make_format_writer(path, objects, scene.frame_time, options.sink), scene,
+                                       world.objects(), options, has_all_points);
 }
 
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const World& world,

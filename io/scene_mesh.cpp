@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 
@@ -167,20 +168,34 @@ void check_places(const JsonDocument& document, const JsonValue& at, const std::
   const auto inside = [](float x) { return x >= -largest_place && x <= largest_place; };  // false for NaN
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec3f& p = positions[i];
+    if (std::isnan(p.x + p.y + p.z)) document.fail(at, "vertex " + std::to_string(i) + " is not finite", "mend the mesh");
     if (!inside(p.x) || !inside(p.y) || !inside(p.z))
       document.fail(at, "vertex " + std::to_string(i) + " lies more than 1000 km from the origin",
                     "scale or move the mesh");
   }
 }
 
-/// What the scene calls by the name `at`, of the arrays in memory.
-template <class Map>
-const typename Map::mapped_type& array_named(const JsonDocument& document, const JsonValue& at, const Map* arrays) {
-  if (arrays != nullptr)
-    if (const auto found = arrays->find(at.text); found != arrays->end()) return found->second;
+/// What the array of that name has, whatever its kind; empty if there is none.
+std::string contents_of(const std::string& name, const SceneArrays& arrays) {
+  if (arrays.meshes.count(name) > 0) return "triangles";
+  if (arrays.tetrahedra.count(name) > 0) return "tetrahedra";
+  return arrays.points.count(name) > 0 ? "points alone" : "";
+}
+
+/// What the scene calls by the name `at`, of the arrays in memory. `needed`: what it has to have.
+template <class Array>
+const Array& array_named(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder,
+                         std::map<std::string, Array> SceneArrays::*kind, const char* needed) {
+  static const SceneArrays none;
+  const SceneArrays& arrays = folder.arrays == nullptr ? none : *folder.arrays;
+  const std::map<std::string, Array>& of_kind = arrays.*kind;
+  if (const auto found = of_kind.find(at.text); found != of_kind.end()) return found->second;
+  if (const std::string other = contents_of(at.text, arrays); !other.empty())
+    document.fail(at, "array " + printable(at.text) + " has " + other + ", but " + needed + " are needed here",
+                  "give it with " + std::string(needed));
   std::vector<std::string> names;
-  if (arrays != nullptr)
-    for (const auto& [name, array] : *arrays) names.push_back(name);
+  names.reserve(of_kind.size());
+  for (const auto& [name, array] : of_kind) names.push_back(name);
   const std::string nearest = nearest_name(at.text, names);
   document.fail(at, "there is no array " + printable(at.text) + " of this kind",
                 nearest.empty() ? "give an array of this name with the scene, or name a 'file'"
@@ -197,11 +212,11 @@ void check_indices(const JsonDocument& document, const JsonValue& at, const std:
         document.fail(at,
                       std::string(kind) + " " + std::to_string(i) + " of array " + printable(at.text) + " has vertex " +
                           std::to_string(vertex) + ", but there are " + std::to_string(vertices),
-                      "give indices from 0");
+                      "give indices from 0 to " + std::to_string(static_cast<std::ptrdiff_t>(vertices) - 1));
 }
 
 TriangleMesh mesh_named(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder) {
-  TriangleMesh mesh = array_named(document, at, folder.arrays == nullptr ? nullptr : &folder.arrays->meshes);
+  TriangleMesh mesh = array_named(document, at, folder, &SceneArrays::meshes, "triangles");
   check_indices(document, at, mesh.triangles, mesh.positions.size(), "triangle");
   return mesh;
 }
@@ -269,7 +284,7 @@ SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const Mes
 }
 
 TetrahedralMesh tetrahedra_named(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder) {
-  TetrahedralMesh mesh = array_named(document, at, folder.arrays == nullptr ? nullptr : &folder.arrays->tetrahedra);
+  TetrahedralMesh mesh = array_named(document, at, folder, &SceneArrays::tetrahedra, "tetrahedra");
   check_indices(document, at, mesh.tetrahedra, mesh.positions.size(), "tetrahedron");
   return mesh;
 }
@@ -279,7 +294,7 @@ std::vector<Vec3f> positions_at(const JsonDocument& document, const JsonValue& a
   if (positions == nullptr) return {};
   std::vector<Vec3f> places;
   if (positions->kind == JsonValue::Kind::object) {
-    places = array_named(document, *positions->find("array"), folder.arrays == nullptr ? nullptr : &folder.arrays->points);
+    places = array_named(document, *positions->find("array"), folder, &SceneArrays::points, "points alone");
     check_places(document, *positions, places);
     return places;
   }

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "atomic_file.h"
 #include "pliant/error.h"
 #include "write_bodies.h"
 
@@ -107,7 +106,7 @@ std::string identifier(const std::string& name) {
 
 }  // namespace
 
-void FormatWriter::commit(AtomicFile& file) {
+void FormatWriter::commit(OutputFile& file) {
   file.commit();
   written_.push_back({file.path(), file.size()});
 }
@@ -247,7 +246,9 @@ std::string frame_number(std::int64_t frame) {
   return digits.size() < 4 ? std::string(4 - digits.size(), '0') + digits : digits;
 }
 
-std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time) {
+std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time,
+                                                 const FileSink& sink) {
+  const Destination to{path, sink ? std::make_shared<const FileSink>(sink) : nullptr};
   const SplitPath parts = split_path(path);
   const std::string& suffix = parts.suffix;
   const auto remeshed =
@@ -255,17 +256,17 @@ std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const 
   if (remeshed != objects.end() && (suffix == ".glb" || suffix == ".pc2"))
     throw Error({.file = path, .line = 0, .object = remeshed->name, .element = {}},
                 "is the surface of a liquid, or tears: another mesh in each frame, which '" + suffix + "' cannot have",
-                "end it in .obj, .ply, .usda or .pvd");
-  const auto glb = [&](const Objects& all) { return make_glb_writer(path, all); };
+                "write .obj, .ply, .usda or .pvd");
+  const auto glb = [&](const Objects& all) { return make_glb_writer(to, all); };
   if (suffix == ".glb") return make_segment_writer(objects, glb);
-  if (suffix == ".usda") return make_usda_writer(path, objects, frame_time);
+  if (suffix == ".usda") return make_usda_writer(to, objects, frame_time);
   const auto surfaces = [&](auto make) { return make_surface_writer(objects, make); };
-  if (suffix == ".obj") return surfaces([&](const Objects& all) { return make_obj_sequence(path, all); });
-  if (suffix == ".ply") return surfaces([&](const Objects& all) { return make_ply_sequence(path, all); });
-  const auto pc2 = [&](const Objects& all) { return make_pc2_writer(path, all, frame_time); };
+  if (suffix == ".obj") return surfaces([&](const Objects& all) { return make_obj_sequence(to, all); });
+  if (suffix == ".ply") return surfaces([&](const Objects& all) { return make_ply_sequence(to, all); });
+  const auto pc2 = [&](const Objects& all) { return make_pc2_writer(to, all, frame_time); };
   if (suffix == ".pc2")
     return make_segment_writer(objects, [&](const Objects& segments) { return make_surface_writer(segments, pc2); });
-  if (suffix == ".pvd") return surfaces([&](const Objects& all) { return make_pvd_writer(path, all); });
+  if (suffix == ".pvd") return surfaces([&](const Objects& all) { return make_pvd_writer(to, all); });
   throw Error({.file = path, .line = 0, .object = {}, .element = {}}, "'" + suffix + "' is not a geometry format",
               "end it in .obj, .ply, .glb, .usda, .pc2 or .pvd");
 }

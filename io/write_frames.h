@@ -11,13 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "output_file.h"
 #include "pliant/io.h"
 #include "pliant/scene.h"
 #include "pliant/vec3.h"
-
-namespace pliant {
-class AtomicFile;
-}
 
 namespace pliant::output {
 
@@ -80,8 +77,8 @@ class FormatWriter {
   virtual const std::vector<WrittenFile>& written() const { return written_; }
 
  protected:
-  /// Completes a file and lists it in written(). Throws as AtomicFile::commit does.
-  void commit(AtomicFile& file);
+  /// Completes a file and lists it in written(). Throws as OutputFile::commit does.
+  void commit(OutputFile& file);
 
  private:
   std::vector<WrittenFile> written_;
@@ -134,14 +131,14 @@ std::string file_name(const std::string& path);
 /// The number of a frame as text, with at least four digits.
 std::string frame_number(std::int64_t frame);
 
-// A function for each format. `path` is the user's path with suffix; `frame_time` is the usual time between frames [s].
+// A function for each format. `frame_time` is the usual time between frames [s].
 using Objects = std::vector<FrameObject>;
-std::unique_ptr<FormatWriter> make_obj_sequence(const std::string& path, const Objects& objects);
-std::unique_ptr<FormatWriter> make_ply_sequence(const std::string& path, const Objects& objects);
-std::unique_ptr<FormatWriter> make_glb_writer(const std::string& path, const Objects& objects);
-std::unique_ptr<FormatWriter> make_usda_writer(const std::string& path, const Objects& objects, double frame_time);
-std::unique_ptr<FormatWriter> make_pc2_writer(const std::string& path, const Objects& objects, double frame_time);
-std::unique_ptr<FormatWriter> make_pvd_writer(const std::string& path, const Objects& objects);
+std::unique_ptr<FormatWriter> make_obj_sequence(const Destination& to, const Objects& objects);
+std::unique_ptr<FormatWriter> make_ply_sequence(const Destination& to, const Objects& objects);
+std::unique_ptr<FormatWriter> make_glb_writer(const Destination& to, const Objects& objects);
+std::unique_ptr<FormatWriter> make_usda_writer(const Destination& to, const Objects& objects, double frame_time);
+std::unique_ptr<FormatWriter> make_pc2_writer(const Destination& to, const Objects& objects, double frame_time);
+std::unique_ptr<FormatWriter> make_pvd_writer(const Destination& to, const Objects& objects);
 
 /// A writer of a format without bodies, which gets their surfaces as vertices that move. `make` makes it for given objects.
 std::unique_ptr<FormatWriter> make_surface_writer(const Objects& objects,
@@ -152,8 +149,9 @@ std::unique_ptr<FormatWriter> make_surface_writer(const Objects& objects,
 std::unique_ptr<FormatWriter> make_segment_writer(const Objects& objects,
                                                   const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
 
-/// Makes the writer for the suffix of `path`. Throws an Error that lists the known suffixes if it is unknown, or cannot have an object
-/// that is remeshed.
-std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time);
+/// Makes the writer for the suffix of `path`, whose files go to `sink` if there is one. Throws an Error that lists the
+/// known suffixes if it is unknown, or cannot have an object that is remeshed.
+std::unique_ptr<FormatWriter> make_format_writer(const std::string& path, const Objects& objects, double frame_time,
+                                                 const FileSink& sink = {});
 
 }  // namespace pliant::output

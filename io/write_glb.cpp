@@ -10,7 +10,6 @@
 #include <limits>
 #include <utility>
 
-#include "atomic_file.h"
 #include "glb_document.h"
 #include "pliant/error.h"
 #include "write_frames.h"
@@ -30,7 +29,7 @@ std::vector<Vec3f> difference(const std::vector<Vec3f>& a, const std::vector<Vec
 /// The vertices of one object: for each frame a block of positions and, for surfaces, of normals.
 class Part {
  public:
-  Part(const std::string& path, const FrameObject& object) : object_(object), spool_(path) {}
+  Part(const Destination& to, const FrameObject& object) : object_(object), spool_(to) {}
 
   void add(const std::vector<Vec3f>& positions) {
     if (positions.empty()) return;
@@ -107,10 +106,10 @@ int add_part(Document& document, const Part& part) {
 
 class GlbWriter final : public FormatWriter {
  public:
-  GlbWriter(const std::string& path, const Objects& objects) : path_(path), objects_(objects), file_(path) {
+  GlbWriter(const Destination& to, const Objects& objects) : path_(to.path), objects_(objects), file_(to.open(to.path)) {
     for (std::size_t o = 0; o < objects_.size(); ++o) {
       if (objects_[o].has_matter()) {
-        parts_.emplace_back(path, objects_[o]);
+        parts_.emplace_back(to, objects_[o]);
         part_objects_.push_back(o);
       }
       if (!objects_[o].bodies.empty()) {
@@ -134,7 +133,9 @@ class GlbWriter final : public FormatWriter {
 
   void finish() override {
     if (std::exchange(finished_, true)) return;
-    if (times_.empty()) refuse("there are no frames to write");
+    if (times_.empty())
+      throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there are no frames to write",
+                  "add one before finishing");
     Document document;
     json nodes = json::array();
     std::vector<int> moving;
@@ -190,32 +191,32 @@ class GlbWriter final : public FormatWriter {
     const std::uint64_t binary = document.binary_size();
     const std::uint64_t size = 12 + 8 + text.size() + (binary > 0 ? 8 + binary : 0);
     if (size > largest_file) refuse("grows beyond the 4 GiB that the format allows");
-    file_.write("glTF");
+    file_->write("glTF");
     for (const std::uint64_t word : {std::uint64_t{2}, size, std::uint64_t{text.size()}})
-      file_.write_value(static_cast<std::uint32_t>(word));
-    file_.write("JSON");
-    file_.write(text);
+      file_->write_value(static_cast<std::uint32_t>(word));
+    file_->write("JSON");
+    file_->write(text);
     if (binary > 0) {
-      file_.write_value(static_cast<std::uint32_t>(binary));
-      file_.write("BIN", 4);
+      file_->write_value(static_cast<std::uint32_t>(binary));
+      file_->write("BIN", 4);
       write_binary(morphs);
     }
-    commit(file_);
+    commit(*file_);
   }
 
   /// Writes the buffers in the order of the document's buffer views.
   void write_binary(bool morphs) {
     for (Part& part : parts_) {
       if (part.blocks().empty()) continue;
-      part.vertices().copy_to(file_);
+      part.vertices().copy_to(*file_);
       const std::vector<std::uint32_t> indices = part.indices();
-      file_.write(indices.data(), indices.size() * 4);
+      file_->write(indices.data(), indices.size() * 4);
     }
-    for (const GlbBodies& bodies : bodies_) bodies.write_meshes(file_);
+    for (const GlbBodies& bodies : bodies_) bodies.write_meshes(*file_);
     if (times_.size() < 2) return;
-    file_.write(times_.data(), times_.size() * 4);
+    file_->write(times_.data(), times_.size() * 4);
     if (morphs) write_weights();
-    for (const GlbBodies& bodies : bodies_) bodies.write_tracks(file_);
+    for (const GlbBodies& bodies : bodies_) bodies.write_tracks(*file_);
   }
 
   void write_weights() {
@@ -223,13 +224,13 @@ class GlbWriter final : public FormatWriter {
     for (std::size_t frame = 0; frame < times_.size(); ++frame) {
       std::fill(row.begin(), row.end(), 0.f);
       if (frame > 0) row[frame - 1] = 1;
-      file_.write(row.data(), row.size() * 4);
+      file_->write(row.data(), row.size() * 4);
     }
   }
 
   std::string path_;
   Objects objects_;
-  AtomicFile file_;
+  std::unique_ptr<OutputFile> file_;
   std::vector<Part> parts_;
   std::vector<GlbBodies> bodies_;
   std::vector<std::size_t> part_objects_, body_objects_;  // indices of their objects
@@ -240,8 +241,8 @@ class GlbWriter final : public FormatWriter {
 
 }  // namespace
 
-std::unique_ptr<FormatWriter> make_glb_writer(const std::string& path, const Objects& objects) {
-  return std::make_unique<GlbWriter>(path, objects);
+std::unique_ptr<FormatWriter> make_glb_writer(const Destination& to, const Objects& objects) {
+  return std::make_unique<GlbWriter>(to, objects);
 }
 
 }  // namespace pliant::output

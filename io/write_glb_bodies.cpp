@@ -9,7 +9,7 @@ namespace pliant::output {
 namespace {
 
 template <class T>
-void write_all(AtomicFile& file, const std::vector<T>& values) {
+void write_all(OutputFile& file, const std::vector<T>& values) {
   file.write(values.data(), values.size() * sizeof(T));
 }
 
@@ -99,7 +99,7 @@ void GlbBodies::add_channels(Document& document, int input, json& samplers, json
   }
 }
 
-void GlbBodies::write_meshes(AtomicFile& file) const {
+void GlbBodies::write_meshes(OutputFile& file) const {
   for (const ShadedMesh& mesh : meshes_) {
     if (mesh.triangles.empty()) continue;
     write_all(file, mesh.positions);
@@ -108,7 +108,7 @@ void GlbBodies::write_meshes(AtomicFile& file) const {
   }
 }
 
-void GlbBodies::write_tracks(AtomicFile& file) const {
+void GlbBodies::write_tracks(OutputFile& file) const {
   for (const Track& track : tracks_) {
     if (track.moves()) write_all(file, track.translations);
     if (track.turns()) write_all(file, track.rotations);

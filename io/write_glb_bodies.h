@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "atomic_file.h"
 #include "glb_document.h"
+#include "output_file.h"
 #include "write_bodies.h"
 #include "write_frames.h"
 
@@ -26,8 +26,8 @@ class GlbBodies {
   /// Adds a sampler and a channel for each translation and rotation that changes; `input` is the accessor of the times.
   void add_channels(Document& document, int input, json& samplers, json& channels) const;
 
-  void write_meshes(AtomicFile& file) const;
-  void write_tracks(AtomicFile& file) const;
+  void write_meshes(OutputFile& file) const;
+  void write_tracks(OutputFile& file) const;
 
  private:
   /// The poses of one body over all frames.

@@ -9,7 +9,6 @@
 #include <limits>
 #include <utility>
 
-#include "atomic_file.h"
 #include "pliant/error.h"
 #include "write_frames.h"
 #include "write_obj.h"
@@ -36,25 +35,25 @@ void refuse_foreign_mesh(const std::string& path, const std::string& mesh) {
 
 class Pc2Writer final : public FormatWriter {
  public:
-  Pc2Writer(const std::string& path, Objects objects)
-      : path_(path), objects_(std::move(objects)), file_(path), mesh_path_(split_path(path).stem + ".obj") {
-    refuse_foreign_mesh(path_, mesh_path_);
+  Pc2Writer(const Destination& to, Objects objects)
+      : to_(to), objects_(std::move(objects)), file_(to.open(to.path)), mesh_path_(split_path(to.path).stem + ".obj") {
+    if (to_.is_disk()) refuse_foreign_mesh(to_.path, mesh_path_);
     std::int32_t points = 0;
     for (const FrameObject& object : objects_) points += object.particles;
-    file_.write("POINTCACHE2", 12);
-    file_.write_value(std::int32_t{1});
-    file_.write_value(points);
-    file_.write_value(0.f);
-    file_.write_value(1.f);
-    samples_at_ = file_.size();
-    file_.write_value(std::int32_t{0});
+    file_->write("POINTCACHE2", 12);
+    file_->write_value(std::int32_t{1});
+    file_->write_value(points);
+    file_->write_value(0.f);
+    file_->write_value(1.f);
+    samples_at_ = file_->size();
+    file_->write_value(std::int32_t{0});
   }
 
   void add(const Frame& frame) override {
-    check_frame(path_, objects_, frame, last_time_);
+    check_frame(to_.path, objects_, frame, last_time_);
     if (samples_ == 0) mesh_ = mesh(frame);
     for (const std::vector<Vec3f>& positions : frame.positions)
-      file_.write(positions.data(), positions.size() * sizeof(Vec3f));
+      file_->write(positions.data(), positions.size() * sizeof(Vec3f));
     last_time_ = frame.time;
     ++samples_;
   }
@@ -62,18 +61,18 @@ class Pc2Writer final : public FormatWriter {
   void finish() override {
     if (std::exchange(finished_, true)) return;
     if (samples_ == 0)
-      throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "there are no frames to write",
+      throw Error({.file = to_.path, .line = 0, .object = {}, .element = {}}, "there are no frames to write",
                   "add one before finishing");
-    file_.overwrite(samples_at_, &samples_, sizeof samples_);
-    AtomicFile mesh(mesh_path_);
-    mesh.write(mesh_);
-    commit(file_);
-    commit(mesh);
+    file_->overwrite(samples_at_, &samples_, sizeof samples_);
+    const std::unique_ptr<OutputFile> mesh = to_.open(mesh_path_);
+    mesh->write(mesh_);
+    commit(*file_);
+    commit(*mesh);
   }
 
  private:
   std::string mesh(const Frame& frame) const {
-    std::string text = first_words + file_name(path_) + " moves, at its first sample\n";
+    std::string text = first_words + file_name(to_.path) + " moves, at its first sample\n";
     for (const std::vector<Vec3f>& positions : frame.positions) text += obj_vertices(positions);
     const std::vector<std::string> names = identifiers(objects_);
     int first = 1;
@@ -84,9 +83,9 @@ class Pc2Writer final : public FormatWriter {
     return text;
   }
 
-  std::string path_;
+  Destination to_;
   Objects objects_;
-  AtomicFile file_;
+  std::unique_ptr<OutputFile> file_;
   std::string mesh_path_;
   std::string mesh_;  // text of the .obj, kept so that both files are replaced together
   std::size_t samples_at_ = 0;
@@ -97,8 +96,8 @@ class Pc2Writer final : public FormatWriter {
 
 }  // namespace
 
-std::unique_ptr<FormatWriter> make_pc2_writer(const std::string& path, const Objects& objects, double) {
-  return std::make_unique<Pc2Writer>(path, objects);
+std::unique_ptr<FormatWriter> make_pc2_writer(const Destination& to, const Objects& objects, double) {
+  return std::make_unique<Pc2Writer>(to, objects);
 }
 
 }  // namespace pliant::output

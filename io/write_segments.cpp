@@ -59,7 +59,7 @@ class SegmentWriter final : public FormatWriter {
     const std::vector<Link> left = links_of(frame.lines[o]);
     if (!std::includes(links_[o].begin(), links_[o].end(), left.begin(), left.end()))
       throw Error({"", 0, objects_[o].name, ""}, "has links that were not there at the start",
-                  "end the file in .obj, .ply, .usda or .pvd");
+                  "write .obj, .ply, .usda or .pvd");
     std::vector<Vec3f>& ends = divided.positions[o];
     ends.clear();
     auto next = left.begin();

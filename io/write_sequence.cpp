@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "atomic_file.h"
 #include "write_frames.h"
 #include "write_obj.h"
 #include "write_text.h"
@@ -16,34 +15,34 @@ namespace {
 
 class SequenceWriter : public FormatWriter {
  public:
-  SequenceWriter(const std::string& path, Objects objects)
-      : split_(split_path(path)), path_(path), objects_(std::move(objects)) {}
+  SequenceWriter(const Destination& to, Objects objects)
+      : split_(split_path(to.path)), to_(to), objects_(std::move(objects)) {}
 
   void add(const Frame& frame) final {
-    check_frame(path_, objects_, frame, last_time_);
-    AtomicFile file(split_.stem + "_" + frame_number(frame.number) + path_.substr(split_.stem.size()));
-    write(file, frame);
-    commit(file);
+    check_frame(to_.path, objects_, frame, last_time_);
+    const std::unique_ptr<OutputFile> file =
+        to_.open(split_.stem + "_" + frame_number(frame.number) + to_.path.substr(split_.stem.size()));
+    write(*file, frame);
+    commit(*file);
     last_time_ = frame.time;
   }
 
   void finish() final {}
 
  protected:
-  virtual void write(AtomicFile& file, const Frame& frame) = 0;
+  virtual void write(OutputFile& file, const Frame& frame) = 0;
   const Objects& objects() const { return objects_; }
 
  private:
   SplitPath split_;
-  std::string path_;
+  Destination to_;
   Objects objects_;
   double last_time_ = -std::numeric_limits<double>::infinity();
 };
 
 class ObjSequence final : public SequenceWriter {
  public:
-  ObjSequence(const std::string& path, const Objects& objects)
-      : SequenceWriter(path, objects), elements_(elements(objects)) {}
+  ObjSequence(const Destination& to, const Objects& objects) : SequenceWriter(to, objects), elements_(elements(objects)) {}
 
  private:
   /// The faces, lines and points of each object as text, which is the same in every frame.
@@ -57,7 +56,7 @@ class ObjSequence final : public SequenceWriter {
     return result;
   }
 
-  void write(AtomicFile& file, const Frame& frame) override {
+  void write(OutputFile& file, const Frame& frame) override {
     std::string text = "# time ";
     append(text, frame.time);
     file.write(text + " s, lengths in metres\n");
@@ -83,7 +82,7 @@ std::array<unsigned char, 3> bytes(const Vec3f& linear) {
 
 class PlySequence final : public SequenceWriter {
  public:
-  PlySequence(const std::string& path, const Objects& objects) : SequenceWriter(path, objects) { describe(objects); }
+  PlySequence(const Destination& to, const Objects& objects) : SequenceWriter(to, objects) { describe(objects); }
 
  private:
   /// Makes the header, the faces and the edges, which are the same in every frame unless an object is remeshed.
@@ -120,7 +119,7 @@ class PlySequence final : public SequenceWriter {
     }
   }
 
-  void write(AtomicFile& file, const Frame& frame) override {
+  void write(OutputFile& file, const Frame& frame) override {
     if (is_any_varying(objects())) describe(present_objects(objects(), frame));
     file.write(header_);
     for (std::size_t o = 0; o < objects().size(); ++o) {
@@ -141,12 +140,12 @@ class PlySequence final : public SequenceWriter {
 
 }  // namespace
 
-std::unique_ptr<FormatWriter> make_obj_sequence(const std::string& path, const Objects& objects) {
-  return std::make_unique<ObjSequence>(path, objects);
+std::unique_ptr<FormatWriter> make_obj_sequence(const Destination& to, const Objects& objects) {
+  return std::make_unique<ObjSequence>(to, objects);
 }
 
-std::unique_ptr<FormatWriter> make_ply_sequence(const std::string& path, const Objects& objects) {
-  return std::make_unique<PlySequence>(path, objects);
+std::unique_ptr<FormatWriter> make_ply_sequence(const Destination& to, const Objects& objects) {
+  return std::make_unique<PlySequence>(to, objects);
 }
 
 }  // namespace pliant::output

@@ -18,7 +18,13 @@ namespace {
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
 }
 
-Spool::Spool(std::string beside) : beside_(std::move(beside)) {
+Spool::Spool(std::string beside) : beside_(std::move(beside)) { open(); }
+
+Spool::Spool(const Destination& to) : beside_(to.path) {
+  if (to.is_disk()) open();
+}
+
+void Spool::open() {
   const std::size_t slash = beside_.rfind('/');
   std::string name = (slash == std::string::npos ? "" : beside_.substr(0, slash + 1)) + ".pliant-spool-XXXXXX";
   descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
@@ -47,7 +53,7 @@ void Spool::fail(int code) const {
 void Spool::write(const void* bytes, std::size_t count) {
   const char* const first = static_cast<const char*>(bytes);
   buffer_.insert(buffer_.end(), first, first + count);
-  if (buffer_.size() >= buffer_size) flush();
+  if (descriptor_ >= 0 && buffer_.size() >= buffer_size) flush();
 }
 
 void Spool::flush() {
@@ -62,7 +68,8 @@ void Spool::flush() {
   buffer_.clear();
 }
 
-void Spool::copy_to(AtomicFile& file) {
+void Spool::copy_to(OutputFile& file) {
+  if (descriptor_ < 0) return file.write(buffer_.data(), buffer_.size());
   flush();
   std::vector<char> block(buffer_size);
   for (std::size_t at = 0; at < written_;) {

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "atomic_file.h"
 #include "pliant/error.h"
 #include "usda_text.h"
 #include "write_frames.h"
@@ -22,9 +21,9 @@ namespace {
 /// The prim of an object: its points in the prim's order, and the samples so far.
 class Prim {
  public:
-  Prim(const std::string& path, const FrameObject& object) : object_(object), points_(path), extents_(path) {
-    if (object.is_remeshed) counts_.emplace(path), indices_.emplace(path);
-    if (object.is_relinked) counts_.emplace(path);
+  Prim(const Destination& to, const FrameObject& object) : object_(object), points_(to), extents_(to) {
+    if (object.is_remeshed) counts_.emplace(to), indices_.emplace(to);
+    if (object.is_relinked) counts_.emplace(to);
     order_by(object.lines);
   }
 
@@ -46,7 +45,7 @@ class Prim {
     indices_->write("            " + time + ": " + indices_of(triangles) + ",\n");
   }
 
-  void write(AtomicFile& file, const std::string& name) {
+  void write(OutputFile& file, const std::string& name) {
     file.write("\n    def " + std::string(type()) + " \"" + name + "\" (\n        doc = " + usda_string(object_.name) +
                "\n    )\n    {\n");
     file.write(topology());
@@ -67,7 +66,7 @@ class Prim {
   bool curves() const { return !object_.is_surface() && !object_.lines.empty(); }
   const char* type() const { return curves() ? "BasisCurves" : object_.is_surface() ? "Mesh" : "Points"; }
 
-  static void write_samples(AtomicFile& file, const std::string& attribute, Spool& samples) {
+  static void write_samples(OutputFile& file, const std::string& attribute, Spool& samples) {
     file.write("        " + attribute + ".timeSamples = {\n");
     samples.copy_to(file);
     file.write("        }\n");
@@ -138,10 +137,13 @@ double frames_per_second(double frame_time) {
 
 class UsdaWriter final : public FormatWriter {
  public:
-  UsdaWriter(const std::string& path, Objects objects, double frame_time)
-      : path_(path), objects_(std::move(objects)), frame_time_(frame_time > 0 ? frame_time : 1. / 60), file_(path) {
+  UsdaWriter(const Destination& to, Objects objects, double frame_time)
+      : path_(to.path),
+        objects_(std::move(objects)),
+        frame_time_(frame_time > 0 ? frame_time : 1. / 60),
+        file_(to.open(to.path)) {
     for (std::size_t o = 0; o < objects_.size(); ++o) {
-      if (objects_[o].has_matter()) prims_.emplace_back(path, objects_[o]), prim_objects_.push_back(o);
+      if (objects_[o].has_matter()) prims_.emplace_back(to, objects_[o]), prim_objects_.push_back(o);
       if (!objects_[o].bodies.empty()) bodies_.emplace_back(objects_[o]), body_objects_.push_back(o);
     }
   }
@@ -169,17 +171,17 @@ class UsdaWriter final : public FormatWriter {
                   "add one before finishing");
     std::string rate;
     append(rate, frames_per_second(frame_time_));
-    file_.write("#usda 1.0\n(\n    defaultPrim = \"World\"\n    startTimeCode = " + first_code_ + "\n    endTimeCode = " +
-                last_code_ + "\n    timeCodesPerSecond = " + rate + "\n    framesPerSecond = " + rate +
-                "\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Xform \"World\"\n{");
+    file_->write("#usda 1.0\n(\n    defaultPrim = \"World\"\n    startTimeCode = " + first_code_ + "\n    endTimeCode = " +
+                 last_code_ + "\n    timeCodesPerSecond = " + rate + "\n    framesPerSecond = " + rate +
+                 "\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Xform \"World\"\n{");
     std::vector<std::string> names;
     for (const auto* indices : {&prim_objects_, &body_objects_})
       for (const std::size_t o : *indices) names.push_back(objects_[o].name);
     names = identifiers(names);
-    for (std::size_t p = 0; p < prims_.size(); ++p) prims_[p].write(file_, names[p]);
-    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].write(file_, names[prims_.size() + b]);
-    file_.write("}\n");
-    commit(file_);
+    for (std::size_t p = 0; p < prims_.size(); ++p) prims_[p].write(*file_, names[p]);
+    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].write(*file_, names[prims_.size() + b]);
+    file_->write("}\n");
+    commit(*file_);
   }
 
  private:
@@ -192,7 +194,7 @@ class UsdaWriter final : public FormatWriter {
   std::string path_;
   Objects objects_;
   double frame_time_;
-  AtomicFile file_;
+  std::unique_ptr<OutputFile> file_;
   std::vector<Prim> prims_;
   std::vector<UsdaBodies> bodies_;
   std::vector<std::size_t> prim_objects_, body_objects_;  // indices of their objects
@@ -203,8 +205,8 @@ class UsdaWriter final : public FormatWriter {
 
 }  // namespace
 
-std::unique_ptr<FormatWriter> make_usda_writer(const std::string& path, const Objects& objects, double frame_time) {
-  return std::make_unique<UsdaWriter>(path, objects, frame_time);
+std::unique_ptr<FormatWriter> make_usda_writer(const Destination& to, const Objects& objects, double frame_time) {
+  return std::make_unique<UsdaWriter>(to, objects, frame_time);
 }
 
 }  // namespace pliant::output

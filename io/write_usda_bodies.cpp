@@ -50,7 +50,7 @@ void UsdaBodies::add(const std::string& time, const std::vector<BodyMotion>& fra
   }
 }
 
-void UsdaBodies::write_solid(AtomicFile& file, const std::string& name, const ShadedMesh& mesh) const {
+void UsdaBodies::write_solid(OutputFile& file, const std::string& name, const ShadedMesh& mesh) const {
   const auto number = [](std::string& text, int i) { append(text, i); };
   std::vector<int> indices;
   for (const auto& triangle : mesh.triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
@@ -67,7 +67,7 @@ void UsdaBodies::write_solid(AtomicFile& file, const std::string& name, const Sh
              " (\n                interpolation = \"vertex\"\n            )\n        }\n");
 }
 
-void UsdaBodies::write_body(AtomicFile& file, std::size_t body, const std::string& name, const std::string& solid) const {
+void UsdaBodies::write_body(OutputFile& file, std::size_t body, const std::string& name, const std::string& solid) const {
   file.write("\n        def Mesh \"" + name + "\" (\n            doc = " + usda_string(object_.bodies[body].name) +
              "\n            inherits = <" + solid + ">\n        )\n        {\n");
   const auto place = [](const RigidPose& pose) { return pose.position; };
@@ -77,7 +77,7 @@ void UsdaBodies::write_body(AtomicFile& file, std::size_t body, const std::strin
   file.write("            uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]\n        }\n");
 }
 
-void UsdaBodies::write(AtomicFile& file, const std::string& name) const {
+void UsdaBodies::write(OutputFile& file, const std::string& name) const {
   std::vector<std::string> names(object_.solids.size(), "solid");
   for (const FrameBody& body : object_.bodies) names.push_back(body.name);
   names = identifiers(names);

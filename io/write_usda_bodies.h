@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "atomic_file.h"
+#include "output_file.h"
 #include "write_bodies.h"
 #include "write_frames.h"
 
@@ -18,11 +18,11 @@ class UsdaBodies {
 
   /// Adds a frame; `time` is its time code.
   void add(const std::string& time, const std::vector<BodyMotion>& frame);
-  void write(AtomicFile& file, const std::string& name) const;
+  void write(OutputFile& file, const std::string& name) const;
 
  private:
-  void write_solid(AtomicFile& file, const std::string& name, const ShadedMesh& mesh) const;
-  void write_body(AtomicFile& file, std::size_t body, const std::string& name, const std::string& solid) const;
+  void write_solid(OutputFile& file, const std::string& name, const ShadedMesh& mesh) const;
+  void write_body(OutputFile& file, std::size_t body, const std::string& name, const std::string& solid) const;
 
   FrameObject object_;
   std::vector<std::string> times_;

@@ -11,7 +11,6 @@
 #include <system_error>
 #include <utility>
 
-#include "atomic_file.h"
 #include "pliant/error.h"
 #include "write_frames.h"
 #include "write_text.h"
@@ -101,10 +100,10 @@ struct Piece {
 
 class PvdWriter final : public FormatWriter {
  public:
-  PvdWriter(const std::string& path, Objects objects)
-      : path_(path), objects_(std::move(objects)), file_(path), folder_(split_path(path).stem) {
-    if (folder_ == path_) folder_ += "_frames";
-    if (::mkdir(folder_.c_str(), 0777) != 0 && errno != EEXIST)
+  PvdWriter(const Destination& to, Objects objects)
+      : to_(to), objects_(std::move(objects)), file_(to.open(to.path)), folder_(split_path(to.path).stem) {
+    if (folder_ == to_.path) folder_ += "_frames";
+    if (to_.is_disk() && ::mkdir(folder_.c_str(), 0777) != 0 && errno != EEXIST)
       throw Error({.file = folder_, .line = 0, .object = {}, .element = {}},
                   "cannot create the folder of the frames: " + std::generic_category().message(errno),
                   "write somewhere else");
@@ -113,7 +112,7 @@ class PvdWriter final : public FormatWriter {
   }
 
   void add(const Frame& frame) override {
-    check_frame(path_, objects_, frame, last_time_);
+    check_frame(to_.path, objects_, frame, last_time_);
     std::string time;
     append(time, frame.time);
     for (std::size_t o = 0; o < objects_.size(); ++o) {
@@ -127,12 +126,12 @@ class PvdWriter final : public FormatWriter {
 
   void finish() override {
     if (std::exchange(finished_, true)) return;
-    file_.write(
+    file_->write(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
         "byte_order=\"LittleEndian\">\n<Collection>\n");
-    file_.write(entries_);
-    file_.write("</Collection>\n</VTKFile>\n");
-    commit(file_);
+    file_->write(entries_);
+    file_->write("</Collection>\n</VTKFile>\n");
+    commit(*file_);
   }
 
  private:
@@ -146,22 +145,22 @@ class PvdWriter final : public FormatWriter {
   }
 
   void write_piece(const std::string& name, const Frame& frame, std::size_t o) {
-    AtomicFile file(folder_ + "/" + name);
+    const std::unique_ptr<OutputFile> file = to_.open(folder_ + "/" + name);
     if (is_any_varying({objects_[o]}))
       pieces_[o] = Piece(pieces_[o].name, present_objects({objects_[o]}, part_of(frame, o)).front());
-    file.write(pieces_[o].head);
+    file->write(pieces_[o].head);
     if (!frame.velocities.empty() && !objects_[o].is_remeshed)
-      file.write("<PointData Vectors=\"velocity\">\n" + array("Float32", "velocity", 3, frame.velocities[o]) +
-                 "</PointData>\n");
-    file.write("<Points>\n" + array("Float32", "Points", 3, frame.positions[o]) + "</Points>\n");
-    file.write(pieces_[o].cells);
-    file.write("</Piece>\n</PolyData>\n</VTKFile>\n");
-    commit(file);
+      file->write("<PointData Vectors=\"velocity\">\n" + array("Float32", "velocity", 3, frame.velocities[o]) +
+                  "</PointData>\n");
+    file->write("<Points>\n" + array("Float32", "Points", 3, frame.positions[o]) + "</Points>\n");
+    file->write(pieces_[o].cells);
+    file->write("</Piece>\n</PolyData>\n</VTKFile>\n");
+    commit(*file);
   }
 
-  std::string path_;
+  Destination to_;
   Objects objects_;
-  AtomicFile file_;
+  std::unique_ptr<OutputFile> file_;
   std::string folder_, entries_;
   std::vector<Piece> pieces_;
   bool finished_ = false;
@@ -170,8 +169,8 @@ class PvdWriter final : public FormatWriter {
 
 }  // namespace
 
-std::unique_ptr<FormatWriter> make_pvd_writer(const std::string& path, const Objects& objects) {
-  return std::make_unique<PvdWriter>(path, objects);
+std::unique_ptr<FormatWriter> make_pvd_writer(const Destination& to, const Objects& objects) {
+  return std::make_unique<PvdWriter>(to, objects);
 }
 
 }  // namespace pliant::output

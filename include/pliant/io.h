@@ -1,7 +1,9 @@
 // Reads and writes meshes, scenes and animations. It is part of the library pliant_io; the core library accesses no files.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -180,11 +182,20 @@ class FrameWriter {
 /// .glb and .usda, and surfaces in the others. Throws an Error for other suffixes.
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world);
 
-/// How a frame writer shows liquids.
+/// Receives a file of a frame writer in memory, as soon as it is complete: its path, as it would be on disk, and its bytes.
+/// What it throws comes out of the writer's add() or finish().
+using FileSink = std::function<void(const std::string& path, std::vector<std::byte> bytes)>;
+
+/// How a frame writer shows liquids, and where its files go.
 struct FrameWriterOptions {
   /// True: the surface of each liquid (liquid_surface), a new mesh in each frame, instead of its particles as points. Only .obj, .ply,
   /// .usda and .pvd can have it; other suffixes throw an Error if the scene has a liquid.
   bool liquid_surfaces = false;
+  /// Where files go instead of to disk, with the bytes that they would have there; empty: to disk. No file or folder is then
+  /// made, and the path of the writer names the format and the files alone: "run.glb" gives one file at finish(); "run.pc2" also
+  /// "run.obj"; "run.obj" gives "run_0000.obj", ... at each add(); "run.pvd" gives "run/OBJECT_0000.vtp", ... at each add(), and
+  /// itself at finish().
+  FileSink sink{};
 };
 
 /// Makes a writer with options.

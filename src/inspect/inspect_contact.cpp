@@ -312,6 +312,34 @@ void check_mesh_collider(Problems& problems, const MeshCollider& collider) {
   if (!is_finite(collider.colour)) problems.grave("colour", "is not finite", "give red, green and blue from 0 to 1");
 }
 
+namespace {
+
+/// The object of that name; null if there is none.
+const Object* object_called(const Scene& scene, const std::string& name) {
+  const auto found =
+      std::find_if(scene.objects.begin(), scene.objects.end(), [&](const Object& object) { return object.name == name; });
+  return found == scene.objects.end() ? nullptr : &*found;
+}
+
+bool has_solids(const Object& object) {
+  return std::any_of(object.bodies.begin(), object.bodies.end(),
+                     [](const ObjectBody& body) { return !body.solids.empty(); });
+}
+
+/// Doubts a pair of particles or surfaces with the solids of bodies, whose contacts have the properties of each.
+void doubt_pair_with_solids(Problems& problems, const Scene& scene, const PairProperties& pair, const std::string& name) {
+  const Object *first = object_called(scene, pair.first), *second = object_called(scene, pair.second);
+  if (first == nullptr || second == nullptr || has_solids(*first) == has_solids(*second)) return;
+  const std::string solid = has_solids(*first) ? pair.first : pair.second;
+  problems.doubtful(name,
+                    "has no effect: '" + solid +
+                        "' is rigid bodies, and what has no solids meets these with the "
+                        "friction and thickness of the two objects",
+                    "set those of the objects");
+}
+
+}  // namespace
+
 void check_pairs(Problems& problems, const Scene& scene) {
   const auto exists = [&](const std::string& name) {
     const auto called = [&](const auto& one) { return one.name == name; };
@@ -332,6 +360,7 @@ void check_pairs(Problems& problems, const Scene& scene) {
     if (pair.static_friction && pair.kinetic_friction && *pair.kinetic_friction > *pair.static_friction)
       problems.grave(name + ", kinetic_friction", "is larger than the static one",
                      "lower it to the static friction or less");
+    if (problems.wants_doubts()) doubt_pair_with_solids(problems, scene, pair, name);
   }
 }
 

@@ -152,7 +152,7 @@ void measure_areas(ClothDraft& piece) {
     const double area = std::sqrt(length_squared(normal)) / 2;
     if (!(area > 0) || !std::isfinite(area))
       piece.refuse("triangle " + std::to_string(t), area > 0 ? "is too large" : "has no area",
-                   area > 0 ? "scale the mesh to metres" : "remove it, or let read_mesh do so");
+                   area > 0 ? "scale the mesh to metres" : "remove it; mesh files are read without such");
     piece.areas.push_back(area);
   }
 }

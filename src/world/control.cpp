@@ -11,6 +11,7 @@
 #include "collision/fields/collider_pose.h"
 #include "constraints/joint_rows.h"
 #include "core/at.h"
+#include "inspect/problems.h"
 #include "math/motion.h"
 #include "math/vector.h"
 #include "pliant/error.h"
@@ -26,16 +27,22 @@ namespace {
   throw Error({.object = object, .element = element}, problem, advice);
 }
 
-/// Throws an Error unless `values` has one finite vector for each particle of the object.
-void require(const CompiledObject& object, std::span<const Vec3f> values, const char* what) {
+/// Throws an Error unless `values` has one finite vector for each particle, or vertex of a mesh collider.
+void require(const CompiledObject& object, std::span<const Vec3f> values, const char* what,
+             const std::string& particle = "particle", const char* particles = "particles") {
   if (values.size() != static_cast<std::size_t>(object.user_particles)) {
     refuse(object.name, what,
-           "are " + std::to_string(values.size()) + " for " + std::to_string(object.user_particles) + " particles",
-           "give one per particle");
+           "are " + std::to_string(values.size()) + " for " + std::to_string(object.user_particles) + " " + particles,
+           "give one per " + particle);
   }
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!is_finite(values[i]))
-      refuse(object.name, what + (" of particle " + std::to_string(i)), "is not finite", "give finite numbers");
+      refuse(object.name, what + (" of " + particle + " " + std::to_string(i)), "is not finite", "give finite numbers");
+}
+
+/// Throws an Error if a place is so far from the origin that scenes may not have it: an uninitialised or wrong number.
+void require_near(const Vec3f& place, const std::string& object, const std::string& element, const char* what) {
+  if (!is_place(place)) refuse(object, element, what + std::string(" is more than 1e9 m from the origin"), "give metres");
 }
 
 struct Listed {
@@ -57,6 +64,7 @@ void require(const Listed& of, std::span<const int> numbers, std::span<const Vec
     if (numbers[i] < 0 || numbers[i] >= of.count)
       refuse(of.object.name, element, "does not exist; there are " + std::to_string(of.count), "indices count from 0");
     if (!is_finite(places[i])) refuse(of.object.name, element, "its target is not finite", "give finite numbers");
+    require_near(places[i], of.object.name, element, "its target");
   }
 }
 
@@ -236,7 +244,7 @@ void ObjectHandle::set_targets(std::span<const int> particles, std::span<const V
   for (const int particle : particles) {
     if (of.positions[of.place[particle]].w > 0)
       refuse(of.name, "particle " + std::to_string(particle), "is dynamic, so it cannot have a target",
-             "pin it first, by an edit of the object, or use an attachment");
+             "pin it in the description or by an edit of the object, or use an attachment");
   }
   wake_bodies(*world_, number);
   put_targets(listed, particles, positions, first, world_->state, world_->workspace.control.objects[number].targets);
@@ -260,6 +268,7 @@ void ObjectHandle::set_pose(int body, const RigidPose& pose) {
   const std::string& name = of.bodies.labels[index].name;
   const std::string element = "body " + std::to_string(body) + (name.empty() ? "" : " '" + name + "'");
   require_pose(pose, of.name, element);
+  require_near(pose.position, of.name, element, "its pose");
   State& state = world_->state;
   const std::size_t frame = at(std::int64_t{world_->model.first_frame[number]} + place.frame);
   if (state.positions[first + place.particle].w > 0 || !is_zero(state.frames.inverse_inertias[frame]))
@@ -333,7 +342,9 @@ void MeshColliderHandle::set_pose(const RigidPose& pose) {
 void MeshColliderHandle::set_positions(std::span<const Vec3f> positions) {
   const int number = world_->ids.mesh_colliders.number(id());
   const CompiledObject& of = world_->model.objects[number];
-  require(of, positions, "positions");
+  require(of, positions, "positions", "vertex", "vertices");
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    require_near(positions[i], of.name, "vertex " + std::to_string(i), "its target");
   if (of.groups == 0 && of.mask == 0)
     refuse(of.name, "", "is a distance grid or a heightfield, which cannot deform", "use it as triangles, or set its pose");
   forget_pose(*world_, true, id().slot);

@@ -33,7 +33,8 @@ MotorPlace find_motor(const CompiledObject& of, const std::string& joint, const 
   const auto found =
       std::find_if(of.joints.begin(), of.joints.end(), [&](const CompiledJoint& one) { return one.name == joint; });
   if (found == of.joints.end())
-    refuse_command(of.name, "joint '" + joint + "'", "does not exist", "give the name of a joint of the object");
+    refuse_command(of.name, "joint '" + joint + "'", "does not exist",
+                   of.joints.empty() ? "the object has no joints" : "name one of " + names_of(of.joints));
   const std::vector<CompiledJoint::Motor>& motors = found->motors;
   const auto index = static_cast<std::size_t>(found - of.joints.begin());
   if (motors.empty())

@@ -32,7 +32,7 @@ void read(const CompiledObject& from, const Record* records, std::span<Vec3f> in
     throw Error(
         {.object = from.name},
         "has " + std::to_string(from.user_particles) + " particles, but there is room for " + std::to_string(into.size()),
-        "give room for each particle");
+        "give room for " + std::to_string(from.user_particles) + " points; a point of three numbers counts as one");
   }
   for (int user = 0; user < from.user_particles; ++user) {
     const Record& r = records[from.place[user]];

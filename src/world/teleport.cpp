@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/at.h"
+#include "inspect/problems.h"
 #include "math/record.h"
 #include "math/vector.h"
 #include "pliant/error.h"
@@ -39,7 +40,8 @@ Posed motion_of(const std::string& name, const RigidPose& by) {
 
 /// Throws an Error that names what holds an object back where it is.
 void require_no_anchor(const CompiledObject& of) {
-  const std::string advice = "edit the object first to change or remove that, or remove the object and add it elsewhere";
+  const std::string advice =
+      "remove the object and add it elsewhere, or change or remove that by an edit of the object first";
   if (!of.kinematics.empty()) {
     const int number = of.order[at(of.kinematics.front().particle)];
     const std::string element = number < of.user_particles ? "the pin of particle " + std::to_string(number)
@@ -76,12 +78,12 @@ void turn_velocity(const Posed& motion, int particle, State& state) {
   v = {turned.x, turned.y, turned.z, 0};
 }
 
-/// Throws an Error if a particle of a block would be where floats cannot be.
+/// Throws an Error if a particle of a block would be farther from the origin than scenes may have it.
 void require_places(const WorldData& world, int number, const Posed& motion) {
   for (int i = world.model.first[at(number)]; i < world.model.end_of(number); ++i)
-    if (!is_finite(convert<float>(to_world(motion, precise_place(world.state, i)))))
-      refuse_move(world.model.objects[at(number)].name, "teleport", "it would be at a place that is not finite",
-                  "give a smaller displacement");
+    if (!is_place(convert<float>(to_world(motion, precise_place(world.state, i)))))
+      refuse_move(world.model.objects[at(number)].name, "teleport", "it would be more than 1e9 m from the origin",
+                  "give a smaller displacement, in metres");
 }
 
 void move_particles(WorldData& world, int number, const Posed& motion) {

@@ -168,8 +168,7 @@ TEST(MotorCommands, WrongOnesAreNamed) {
     }
     return std::string();
   };
-  EXPECT_EQ(refusal("nose", {}),
-            "object 'mechanism', joint 'nose': does not exist; give the name of a joint of the object");
+  EXPECT_EQ(refusal("nose", {}), "object 'mechanism', joint 'nose': does not exist; name one of 'plain', 'two'");
   EXPECT_EQ(refusal("plain", {}), "object 'mechanism', joint 'plain': has no motor; describe one when you add the joint");
   EXPECT_EQ(refusal("two", {}),
             "object 'mechanism', joint 'two': has several motors; name one of 'slide_motor', 'turn_motor'");

@@ -82,6 +82,7 @@ pliant_status pliant_world_create(const pliant_scene* scene, int32_t threads, pl
     try {
       auto made = std::make_shared<WorldHandle>(World(from->scene, KeepDescription{}), from->scene.frame_time,
                                                 from->scene.frames);
+      made->folder = from->folder;
       from->scene.settings.threads = own;
       give_world(std::move(made), world);
     } catch (...) {
@@ -175,6 +176,7 @@ pliant_status pliant_world_scene(const pliant_world* world, pliant_scene** scene
     auto made = std::make_shared<SceneHandle>();
     made->scene = of->world.description();
     made->forces = made->scene.forces;
+    made->folder = of->folder;
     give_handle(std::move(made), scene);
   });
 }

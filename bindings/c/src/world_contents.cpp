@@ -8,7 +8,7 @@ namespace pliant::c {
 namespace {
 
 const char* word_of(std::int32_t kind) {
-  return kind == PLIANT_OBJECT ? "object" : kind == PLIANT_COLLIDER ? "collider" : "mesh collider";
+  return kind == PLIANT_OBJECT ? "object" : kind == PLIANT_COLLIDER ? "primitive collider" : "mesh collider";
 }
 
 std::string one_of(std::int32_t kind) { return std::string(kind == PLIANT_OBJECT ? "an " : "a ") + word_of(kind); }
@@ -46,11 +46,26 @@ std::vector<pliant_id> ids_of(const std::vector<Id>& from) {
 
 /// Gives an id that was found, or throws a StatusError.
 template <class Id>
-void give_found(const std::optional<Id>& found, const char* name, std::int32_t kind, pliant_id* into) {
-  if (!found)
-    throw StatusError(PLIANT_NOT_FOUND, std::string("there is no ") + word_of(kind) + " '" + name + "'",
-                      "pliant_world_ids and pliant_world_name list those that exist");
-  *into = id_of(*found);
+void give_found(const World& world, const std::optional<Id>& found, const char* name, std::int32_t kind,
+                pliant_id* into) {
+  if (found) {
+    *into = id_of(*found);
+    return;
+  }
+  const std::int32_t other = world.find(name)                 ? PLIANT_OBJECT
+                             : world.find_collider(name)      ? PLIANT_COLLIDER
+                             : world.find_mesh_collider(name) ? PLIANT_MESH_COLLIDER
+                                                              : kind;
+  throw StatusError(
+      PLIANT_NOT_FOUND, std::string("there is no ") + word_of(kind) + " '" + name + "'",
+      other == kind ? "pliant_world_ids and pliant_world_name list those that exist" : "it is " + one_of(other));
+}
+
+/// Throws a StatusError unless contacts are recorded.
+void require_recorded(const WorldHandle& world) {
+  if (!world.records_contacts)
+    throw StatusError(PLIANT_REFUSED, "contacts are not recorded",
+                      "call pliant_world_record_contacts before the step; a loaded World does not record them");
 }
 
 pliant_contact contact_of(const ContactEvent& event) {
@@ -103,9 +118,9 @@ pliant_status pliant_world_find(const pliant_world* world, int32_t kind, const c
     const auto of = at(world);
     require(name, "name");
     require(id, "id");
-    if (kind == PLIANT_OBJECT) return give_found(of->world.find(name), name, kind, id);
-    if (kind == PLIANT_COLLIDER) return give_found(of->world.find_collider(name), name, kind, id);
-    if (kind == PLIANT_MESH_COLLIDER) return give_found(of->world.find_mesh_collider(name), name, kind, id);
+    if (kind == PLIANT_OBJECT) return give_found(of->world, of->world.find(name), name, kind, id);
+    if (kind == PLIANT_COLLIDER) return give_found(of->world, of->world.find_collider(name), name, kind, id);
+    if (kind == PLIANT_MESH_COLLIDER) return give_found(of->world, of->world.find_mesh_collider(name), name, kind, id);
     refuse_kind(kind);
   });
 }
@@ -138,7 +153,7 @@ pliant_status pliant_world_add_object(pliant_world* world, const char* json, con
   return guarded([&] {
     const auto to = at(world);
     require(json, "json");
-    const ObjectId made = to->world.add(parse_object(json, "object", ".", with_arrays(arrays, count)));
+    const ObjectId made = to->world.add(parse_object(json, "object", to->folder, with_arrays(arrays, count)));
     if (id != nullptr) *id = id_of(made);
   });
 }
@@ -148,7 +163,7 @@ pliant_status pliant_world_add_collider(pliant_world* world, const char* json, c
   return guarded([&] {
     const auto to = at(world);
     require(json, "json");
-    const auto collider = parse_collider(json, "collider", ".", with_arrays(arrays, count));
+    const auto collider = parse_collider(json, "collider", to->folder, with_arrays(arrays, count));
     const pliant_id made = std::visit([&](const auto& one) { return id_of(to->world.add(one)); }, collider);
     if (id != nullptr) *id = made;
   });
@@ -162,12 +177,17 @@ pliant_status pliant_world_remove(pliant_world* world, pliant_id id) {
 }
 
 pliant_status pliant_world_record_contacts(pliant_world* world, int32_t on) {
-  return guarded([&] { at(world)->world.record_contact_events(on != 0); });
+  return guarded([&] {
+    const auto of = at(world);
+    of->world.record_contact_events(on != 0);
+    of->records_contacts = on != 0;
+  });
 }
 
 pliant_status pliant_world_contacts(const pliant_world* world, pliant_contact* into, size_t capacity, size_t* count) {
   return guarded([&] {
     const auto of = at(world);
+    require_recorded(*of);
     const std::vector<ContactEvent>& events = of->world.contact_events();
     if (!tell<pliant_contact>({into, capacity, count}, events.size(), "contacts")) return;
     std::transform(events.begin(), events.end(), into, contact_of);
@@ -178,6 +198,7 @@ pliant_status pliant_world_body_touches(const pliant_world* world, pliant_body_t
                                         size_t* count) {
   return guarded([&] {
     const auto of = at(world);
+    require_recorded(*of);
     const std::vector<BodyTouch>& touches = of->world.body_touches();
     if (!tell<pliant_body_touch>({into, capacity, count}, touches.size(), "touches")) return;
     std::transform(touches.begin(), touches.end(), into, touch_of);

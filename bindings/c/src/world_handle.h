@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <string>
 #include <thread>
 
 #include "handles.h"
@@ -18,7 +19,8 @@ struct WorldHandle {
   float frame_time;  ///< [s]
   int frames;
   Report report{};
-  bool records_joint_loads = false;
+  bool records_joint_loads = false, records_contacts = false;
+  std::string folder = ".";  ///< of the paths in what is added
   /// The thread that steps it; of no thread between steps.
   std::atomic<std::thread::id> stepper{};
   bool is_stepping() const { return stepper.load() != std::thread::id(); }

@@ -13,7 +13,7 @@ True
 (64, 3)
 """
 
-from . import _calls, _errors, _types  # noqa: F401  (the compiled part looks for them)
+from . import _calls, _errors, _types, format  # noqa: F401  (the compiled part looks for the first three)
 from ._errors import Error
 from ._pliant import (
     Batch,

@@ -4,7 +4,7 @@
 from collections.abc import Iterator, Sequence
 import os
 import types
-from typing import Any
+from typing import Any, IO
 
 import pliant._scene
 import pliant._types
@@ -340,7 +340,7 @@ class Object:
 
     def multipliers(self, type: str) -> pliant._types.FloatArray:
         """
-        Multipliers of the last substep of the constraints of a type, as "distance"; empty unless they were stored (settings.record_multipliers). The force is the multiplier over the square of the substep [s^2].
+        Multipliers of the last substep of the constraints of a type, as "distance"; empty unless they were stored (settings.record_multipliers). The force is the multiplier over the square of the substep [s^2]. Raises Error if it has no constraints of the type: `constraints` lists them.
         """
 
     def pose(self, body: int | str = 0) -> pliant._types.Pose:
@@ -407,7 +407,7 @@ class Object:
         Gives the surface of a body a velocity along itself, as a conveyor belt has, in the body's frame [m/s].
         """
 
-    def set_motor(self, joint: str, target: float, most: float | None = None, motor: str = '') -> None:
+    def set_motor(self, joint: int | str, target: float, most: float | None = None, motor: str = '') -> None:
         """
         Gives the motor of a joint a new target: an angle [rad], displacement [m] or speed [rad/s or m/s], as its kind says. `most`: greatest torque [N m] or force [N]; None: as before. `motor`: its name if the joint has several.
         """
@@ -710,11 +710,13 @@ class World:
         """Starts or ends the recording of contact events; off at first."""
 
     def contact_events(self) -> list[pliant._types.ContactEvent]:
-        """The contact events of the last step, if they are recorded."""
+        """
+        The contact events of the last step. Raises Error unless record_contact_events() is on.
+        """
 
     def body_touches(self) -> list[pliant._types.BodyTouch]:
         """
-        What each rigid body touched in the last step, and how hard, if contact events are recorded.
+        What each rigid body touched in the last step, and how hard. Raises Error unless record_contact_events() is on.
         """
 
     def record_joint_loads(self, on: bool = True) -> None:
@@ -791,14 +793,14 @@ class World:
     def __setstate__(self, bytes: bytes) -> None:
         """Reads the bytes of the save format."""
 
-    def writer(self, path: str | os.PathLike[str], liquid_surfaces: bool = False) -> Writer:
+    def writer(self, path: str | os.PathLike[str] | IO[bytes] | None = None, liquid_surfaces: bool = False, *, format: str | None = None) -> Writer:
         """
-        A Writer of frames by suffix: .obj, .ply, .glb, .usda, .pc2 or .pvd. The present state is its first frame. `liquid_surfaces`: surfaces of liquids instead of points.
+        A Writer of frames. The suffix of `path` is the format: .obj, .ply, .glb, .usda, .pc2 or .pvd. The present state is the first frame. `liquid_surfaces`: surfaces of liquids instead of points. In memory: without a path, `format` such as 'glb' says what Writer.files will hold; a `path` that is a file object gets the bytes of format 'glb' or 'usda' at finish(). Raises Error if the format is unknown or cannot show the World.
         """
 
 class Writer:
     """
-    Writes frames of a World to files: a context manager that World.writer() returns.
+    Writes frames of a World to files or into memory: a context manager that World.writer() returns.
     """
 
     def add(self) -> None:
@@ -809,7 +811,15 @@ class Writer:
 
     @property
     def written(self) -> list[str]:
-        """Paths of the files that are written; after finish() all."""
+        """
+        Paths of the files that are written, or their names in memory; after finish() all.
+        """
+
+    @property
+    def files(self) -> dict[str, bytes]:
+        """
+        The files of a Writer that World.writer(format=...) made, by name: 'frames.glb' and 'frames.usda' after finish(); 'frames_0000.obj' and .ply, and 'frames/OBJECT_0000.vtp' of 'frames.pvd', after each add(); 'frames.pc2' with 'frames.obj'. It is always the same dict: remove what you no longer need. Raises Error if the files are on disk or in a file object.
+        """
 
     def __enter__(self) -> Writer:
         """Itself."""
@@ -896,7 +906,7 @@ class Batch:
     """
     Many worlds of a scene that step side by side, each on one thread, with the bits that it has alone.
 
-    Batch(scene, n) makes n equal worlds. `vary`: values of members that differ, {JSON pointer: n values}, or a function (scene, i) that changes a copy of the scene for world i. `threads`: how many worlds step at once; 0: as many as the machine has threads.
+    Batch(scene, n) makes n equal worlds. `vary`: values of members that differ, {JSON pointer: n values}, or a function (scene, i) that changes a copy of the scene for world i and returns nothing. `threads`: how many worlds step at once; 0: as many as the machine has threads.
     """
 
     def __init__(self, scene: pliant._scene.SceneLike, n: int, vary: pliant._scene.Vary | None = None, threads: int = 0) -> None:

@@ -450,9 +450,18 @@ def _varied(scene: Scene, i: int, vary: Vary) -> Scene:
     if isinstance(vary, Mapping):
         for pointer, values in vary.items():
             one.assign(pointer, values[i])
-    else:
-        vary(one, i)
+    elif vary(one, i) is not None:
+        raise TypeError("the function of vary returned something: change the scene that it is given, and return nothing")
     return one
+
+
+def _of_world(i: int, scene: Scene) -> _pliant.Description:
+    try:
+        return scene.compiled()
+    except Error as error:
+        raise Error(
+            f"of world {i}: {error.problem}", error.advice, file=error.file, object=error.object, element=error.element
+        ) from None
 
 
 def variants(scene: SceneLike, n: int, vary: Vary | None) -> list[_pliant.Description]:
@@ -468,4 +477,4 @@ def variants(scene: SceneLike, n: int, vary: Vary | None) -> list[_pliant.Descri
             if len(values) != n:
                 raise Error(f"there are {len(values)} values for {n} worlds", "give one for each", element=pointer)
     base = as_scene(scene)
-    return [_varied(base, i, vary).compiled() for i in range(n)]
+    return [_of_world(i, _varied(base, i, vary)) for i in range(n)]

@@ -14,12 +14,16 @@ import pickle
 import queue
 from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence, Union
 
+import numpy as np
+
 from . import _pliant
 from ._errors import Error
 from ._scene import Scene, SceneLike, as_scene, copied, files_of
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future, ProcessPoolExecutor
+
+_COLUMNS = frozenset(("ok", "explain", "state_hash", "frames", "milliseconds"))
 
 Measure = Callable[["_pliant.World"], Any]
 Measures = Union[Measure, Mapping[str, Measure]]
@@ -93,7 +97,7 @@ class Variant:
             self._run_into(row)
         except Exception as error:  # a row for each variant, whatever happens
             row["ok"] = False
-            row["explain"] = str(error) if isinstance(error, Error) else f"{type(error).__name__}: {error}"
+            row["explain"] = _words_of(error)
         return row
 
     def failed(self, explain: str) -> dict[str, Any]:
@@ -110,11 +114,26 @@ class Variant:
             row.update(frames=report.frame, milliseconds=total / max(report.frame, 1), explain=report.explain())
         row["state_hash"] = world.state_hash()
         for name, measure in self.measures.items():
-            value = measure(world)
-            row[name] = value.item() if hasattr(value, "item") and getattr(value, "ndim", 0) == 0 else value
+            try:
+                row[name] = _plain(measure(world))
+            except Exception as error:
+                raise _InMeasure(f"measure '{name}': {_words_of(error)}") from error
         row["ok"] = report.ok and not report.stopped
         if report.stopped:
             row["explain"] = "; ".join(filter(None, [row["explain"], "the run was stopped"]))
+
+
+class _InMeasure(Exception):
+    """What a measure raised, with its name."""
+
+
+def _words_of(error: Exception) -> str:
+    return str(error) if isinstance(error, (Error, _InMeasure)) else f"{type(error).__name__}: {error}"
+
+
+def _plain(value: Any) -> Any:
+    """A numpy number or array as JSON would give it back, so that rows do not depend on `resume`."""
+    return value.tolist() if isinstance(value, (np.generic, np.ndarray)) else value
 
 
 def _stamp(folder: str, path: str) -> list[Any]:
@@ -143,6 +162,8 @@ def _measures_of(measure: Measures | None) -> dict[str, Measure]:
     for name, one in named.items():
         if not isinstance(name, str) or not callable(one):
             raise TypeError("measures are functions of a World by name")
+        if name in _COLUMNS or name.startswith("/"):
+            raise Error(f"a measure is called '{name}', as a column of each row is", "give it another name")
     return named
 
 
@@ -185,6 +206,9 @@ def variants(
     return made
 
 
+_ROW_BEGINS = '{"key": "'
+
+
 class _Kept:
     """The rows of a study that was begun, in a file: one JSON object a line, {"key": ..., "row": ...}."""
 
@@ -194,14 +218,22 @@ class _Kept:
         self._begin = ""  # what ends a line that was cut off
         if path is None or not os.path.exists(path):
             return
+        if not os.path.isfile(path):
+            raise Error("this is no file", "`resume` is the path of a file that the study makes", file=os.fspath(path))
         with open(path, encoding="utf-8", errors="replace") as file:
-            for line in file:
+            for number, line in enumerate(file, 1):
                 self._begin = "" if line.endswith("\n") else "\n"
                 try:
                     kept = json.loads(line)
                     self.rows[kept["key"]] = kept["row"]
                 except (ValueError, KeyError, TypeError):
-                    continue  # the last line of a run that was killed
+                    # The last line of a run that was killed may be cut off; such a run may have been resumed since.
+                    if line.strip() and not line.startswith(_ROW_BEGINS[: len(line.rstrip())]):
+                        raise Error(
+                            f"line {number} is no row of a study, so that nothing was added to it",
+                            "`resume` is a file of the study's own: name one that is not there yet",
+                            file=os.fspath(path),
+                        ) from None
 
     def add(self, key: str, row: dict[str, Any]) -> None:
         if self.path is None:
@@ -242,7 +274,8 @@ def study(
     """Runs variants of a scene side by side, and returns a row for each.
 
     ``vary``: {JSON pointer: values}, of which all combinations are taken, or a list of {JSON pointer: value}.
-    ``measure``: a function of the World at the end, or a dict of functions by name. ``frames``: None for the scene's
+    ``measure``: a function of the World at the end, or a dict of functions by name; it may also go on with the World,
+    as an episode with control does. It returns a number, a str, or a list; arrays become lists. ``frames``: None for the scene's
     number. ``workers``: number of processes, as many as the machine has threads if None; 0: this process alone.
     ``executor``: anything with ``submit`` instead, such as a ThreadPoolExecutor or a ``Client`` of dask. ``threads`` of
     each World. ``resume``: a file that keeps rows as they come: what it has of another run is not run again, unless

@@ -123,11 +123,12 @@ void restore(const Batch& self, nb::handle given) {
 void bind_batch(nb::module_& m) {
   bind_batch_object(m);
   static PyType_Slot slots[] = {{Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)}, {0, nullptr}};
-  nb::class_<Batch>(m, "Batch", nb::type_slots(slots),
-                    "Many worlds of a scene that step side by side, each on one thread, with the bits that it has "
-                    "alone.\n\nBatch(scene, n) makes n equal worlds. `vary`: values of members that differ, {JSON "
-                    "pointer: n values}, or a function (scene, i) that changes a copy of the scene for world i. "
-                    "`threads`: how many worlds step at once; 0: as many as the machine has threads.")
+  nb::class_<Batch>(
+      m, "Batch", nb::type_slots(slots),
+      "Many worlds of a scene that step side by side, each on one thread, with the bits that it has "
+      "alone.\n\nBatch(scene, n) makes n equal worlds. `vary`: values of members that differ, {JSON "
+      "pointer: n values}, or a function (scene, i) that changes a copy of the scene for world i and returns nothing. "
+      "`threads`: how many worlds step at once; 0: as many as the machine has threads.")
       .def(
           "__init__",
           [](Batch* self, nb::handle scene, int n, nb::handle vary, int threads) {
@@ -176,7 +177,7 @@ void bind_batch(nb::module_& m) {
       .def(
           "record_contact_events",
           [](const Batch& self, bool on) {
-            for (const SharedWorld& world : *self.worlds) world->idle().record_contact_events(on);
+            for (const SharedWorld& world : *self.worlds) world->record_contacts(on);
           },
           nb::arg("on") = true, "World.record_contact_events() of each world; batch.worlds have the events.")
       .def(

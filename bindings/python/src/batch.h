@@ -1,6 +1,8 @@
 // What the files of pliant.Batch share.
 #pragma once
 
+#include <cmath>
+
 #include "object.h"
 
 namespace pliant::python {
@@ -28,6 +30,11 @@ struct BatchObject {
 
 /// The objects of that name. Throws nb::key_error if a world has none, an Error if their numbers of particles differ.
 BatchObject batch_object(const std::shared_ptr<const Worlds>& worlds, const std::string& name);
+
+/// True where a World accepts targets and poses of bodies: setters look first, so that they change all worlds or none.
+inline bool is_near_origin(const Vec3f& p) {
+  return std::fabs(p.x) <= 1e9f && std::fabs(p.y) <= 1e9f && std::fabs(p.z) <= 1e9f;
+}
 
 void bind_batch_object(nb::module_& m);
 /// BatchObject.poses, set_pose, set_motor, joint_states and the like (batch_joints.cpp).

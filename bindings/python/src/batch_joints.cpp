@@ -219,6 +219,8 @@ void set_pose(const BatchObject& self, nb::handle body, nb::handle positions, nb
     const std::string element = "world " + std::to_string(i);
     if (!is_finite(at[i].x) || !is_finite(at[i].y) || !is_finite(at[i].z) || !std::all_of(q, q + 4, is_finite))
       throw Error({.object = self.name, .element = element}, "the pose is not finite", "give finite numbers");
+    if (!is_near_origin(at[i]))
+      throw Error({.object = self.name, .element = element}, "the pose is more than 1e9 m from the origin", "give metres");
     const float square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];  // as World::set_pose refuses it
     if (!(square > 1e-30f) || !std::isfinite(square))
       throw Error({.object = self.name, .element = element},

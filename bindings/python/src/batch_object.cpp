@@ -69,6 +69,15 @@ class VectorsOfWorlds {
     throw Error({.object = object, .element = "row " + std::to_string(at % n_) + " of world " + std::to_string(at / n_)},
                 std::string(what) + " are not finite", "give finite numbers");
   }
+  /// Throws an Error unless all are where a World accepts targets.
+  void require_near(const std::string& object, const char* what) const {
+    const std::span<const Vec3f> all = numbers_.vectors();
+    const auto far = std::find_if_not(all.begin(), all.end(), is_near_origin);
+    if (far == all.end()) return;
+    const auto at = static_cast<std::size_t>(far - all.begin());
+    throw Error({.object = object, .element = "row " + std::to_string(at % n_) + " of world " + std::to_string(at / n_)},
+                std::string(what) + " are more than 1e9 m from the origin", "give metres");
+  }
   /// Also unless there is one for each particle.
   void require_each(const BatchObject& of, const char* what) const {
     require_finite(of.name, what);
@@ -153,6 +162,7 @@ auto writer_of_some(WriteSome write, Accepts accepts, const char* which) {
     const Numbers some(indices, 'i', 0, which);
     const VectorsOfWorlds vectors(positions, self.size(), "positions");
     vectors.require_finite(self.name, "positions");
+    vectors.require_near(self.name, "positions");
     std::vector<ObjectHandle> handles = self.handles();
     for (std::size_t i = 0; i < self.size(); ++i)
       if (!accepts(self.present(i), some.integers())) (handles[i].*write)(some.integers(), vectors.of(i));

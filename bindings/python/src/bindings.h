@@ -94,6 +94,12 @@ class OwnedWorld {
   std::atomic<bool> stop{false};
   double last_milliseconds = 1e9;  ///< of the last step; large before the first
   int views = 0;                   ///< of records that are alive
+  bool records_contacts = false;   ///< contact events, for messages
+
+  /// Starts or ends the recording of contact events.
+  void record_contacts(bool on);
+  /// The World. Throws an Error unless contact events are recorded: an empty list would look as if nothing touched.
+  World& recording();
 
  private:
   friend class Stepping;

@@ -1,6 +1,8 @@
 // Saving, loading and writers of frames.
 #include "files.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <span>
 
@@ -15,6 +17,7 @@ namespace {
 /// Writes frames of a World, as a context manager.
 struct Writer {
   SharedWorld world;
+  nb::object target;  ///< a dict of files in memory or a file object, which the sink only borrows; null: files go to disk
   std::unique_ptr<FrameWriter> writer;
   bool is_finished = false;
 
@@ -24,11 +27,52 @@ struct Writer {
   }
 };
 
-Writer make_writer(const WorldRef& self, const std::string& path, bool liquid_surfaces) {
+/// tp_traverse: a file object may refer to its Writer.
+int traverse_writer(PyObject* self, visitproc visit, void* arg) {
+  if (nb::inst_ready(self)) Py_VISIT(nb::inst_ptr<Writer>(self)->target.ptr());
+  return traverse_world<Writer>(self, visit, arg);
+}
+
+PyType_Slot* writer_slots() {
+  static PyType_Slot slots[] = {{Py_tp_setattro, reinterpret_cast<void*>(refuse_attribute)},
+                                {Py_tp_init, reinterpret_cast<void*>(refuse_construction)},
+                                {Py_tp_traverse, reinterpret_cast<void*>(traverse_writer)},
+                                {0, nullptr}};
+  return slots;
+}
+
+nb::bytes bytes_from(const std::vector<std::byte>& bytes) { return nb::bytes(bytes.data(), bytes.size()); }
+
+/// The name of the files of a format that was given as "glb", ".glb" or "GLB". Throws an Error if there is none such.
+std::string name_of_format(const std::string& given) {
+  std::string format = given.substr(!given.empty() && given.front() == '.' ? 1 : 0);
+  std::transform(format.begin(), format.end(), format.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const char* known : {"obj", "ply", "glb", "usda", "pc2", "pvd"})
+    if (format == known) return "frames." + format;
+  throw Error({}, "'" + given + "' is not a format of frames", "choose 'obj', 'ply', 'glb', 'usda', 'pc2' or 'pvd'");
+}
+
+/// A sink into a dict of files by name.
+FileSink sink_into_dict(nb::handle files) {
+  return [files](const std::string& path, const std::vector<std::byte>& bytes) {
+    nb::borrow<nb::dict>(files)[path.c_str()] = bytes_from(bytes);
+  };
+}
+
+/// A sink into a file object. Throws an Error if the object cannot take the format.
+FileSink sink_into_file(nb::handle file, const std::string& name) {
+  if (!name.ends_with(".glb") && !name.ends_with(".usda"))
+    throw Error({}, "a run as '" + name.substr(name.rfind('.')) + "' is several files, and a file object holds one",
+                "give format='glb' or 'usda', or leave the path out and read Writer.files");
+  if (nb::isinstance(file, nb::module_::import_("io").attr("TextIOBase")))
+    throw Error({}, "the file object takes text, and frames are bytes", "open it with mode 'wb', or use io.BytesIO");
+  return [file](const std::string&, const std::vector<std::byte>& bytes) { file.attr("write")(bytes_from(bytes)); };
+}
+
+Writer make_writer(const WorldRef& self, const std::string& path, FrameWriterOptions options, nb::object target = {}) {
   const World& world = self.world->idle();
-  FrameWriterOptions options;
-  options.liquid_surfaces = liquid_surfaces;
-  Writer writer{self.world, make_frame_writer(path, self.world->present(), world, options)};
+  Writer writer{self.world, std::move(target), make_frame_writer(path, self.world->present(), world, options)};
   writer.writer->add(world);
   return writer;
 }
@@ -37,6 +81,13 @@ void finish(Writer& self) {
   if (self.is_finished) return;
   self.writer->finish();
   self.is_finished = true;
+}
+
+nb::object files(const Writer& self) {
+  if (!PyDict_Check(self.target.is_valid() ? self.target.ptr() : Py_None))
+    throw Error({}, "the files of this Writer are not in memory",
+                "their paths are in `written`; make a Writer by World.writer(format=...) to have their bytes");
+  return self.target;
 }
 
 nb::list written(const Writer& self) {
@@ -56,6 +107,28 @@ std::string path_of(nb::handle path) {
   return nb::cast<std::string>(text);
 }
 
+bool is_path(nb::handle path) { return nb::isinstance<nb::str>(path) || nb::hasattr(path, "__fspath__"); }
+
+/// World.writer(): to a path, to a file object, or into memory.
+Writer writer_of(const WorldRef& self, nb::object path, bool liquid_surfaces, const std::optional<std::string>& format) {
+  FrameWriterOptions options;
+  options.liquid_surfaces = liquid_surfaces;
+  if (is_path(path)) {
+    if (format) throw Error({}, "`format` is given beside a path", "leave it out: the suffix of the path is the format");
+    return make_writer(self, path_of(path), options);
+  }
+  if (path.is_none() && !format)
+    throw Error({}, "a Writer needs a path or a format",
+                "give a path such as 'run.glb', or format='glb' to write into memory");
+  if (!path.is_none() && !nb::hasattr(path, "write"))
+    throw wrong_type("path", path, "a str, an os.PathLike, or a file object that takes bytes");
+  if (!format) throw Error({}, "a file object has no suffix that is the format", "give format='glb' or format='usda'");
+  const std::string name = name_of_format(*format);
+  const nb::object target = path.is_none() ? nb::object(nb::dict()) : std::move(path);
+  options.sink = PyDict_Check(target.ptr()) ? sink_into_dict(target) : sink_into_file(target, name);
+  return make_writer(self, name, std::move(options), target);
+}
+
 void save_world(const WorldRef& self, nb::handle path) {
   const World& world = self.world->idle();
   save(path_of(path), world, self.world->present());
@@ -66,8 +139,6 @@ WorldRef ref_of(LoadedWorld loaded) {
   file->scene = std::move(loaded.scene);
   return {SharedWorld(std::make_unique<OwnedWorld>(std::move(file), std::move(loaded.world)))};
 }
-
-nb::bytes bytes_from(const std::vector<std::byte>& bytes) { return nb::bytes(bytes.data(), bytes.size()); }
 
 std::span<const std::byte> span_of(const nb::bytes& bytes) {
   return {reinterpret_cast<const std::byte*>(bytes.c_str()), bytes.size()};
@@ -102,24 +173,33 @@ void bind_saving(nb::class_<WorldRef>& c) {
           },
           nb::arg("bytes"), "Reads the bytes of the save format.")
       .def(
-          "writer",
-          [](const WorldRef& self, nb::handle path, bool liquid_surfaces) {
-            return make_writer(self, path_of(path), liquid_surfaces);
-          },
-          nb::arg("path"), nb::arg("liquid_surfaces") = false,
-          nb::sig("def writer(self, path: str | os.PathLike[str], liquid_surfaces: bool = False) -> Writer"),
-          "A Writer of frames by suffix: .obj, .ply, .glb, .usda, .pc2 or .pvd. The present state is its first frame. "
-          "`liquid_surfaces`: surfaces of liquids instead of points.");
+          "writer", &writer_of, nb::arg("path") = nb::none(), nb::arg("liquid_surfaces") = false, nb::kw_only(),
+          nb::arg("format") = nb::none(),
+          nb::sig("def writer(self, path: str | os.PathLike[str] | typing.IO[bytes] | None = None, liquid_surfaces: bool = "
+                  "False, *, format: str | None = None) -> Writer"),
+          "A Writer of frames. The suffix of `path` is the format: .obj, .ply, .glb, .usda, .pc2 or .pvd. The present "
+          "state "
+          "is the first frame. `liquid_surfaces`: surfaces of liquids instead of points. In memory: without a path, "
+          "`format` "
+          "such as 'glb' says what Writer.files will hold; a `path` that is a file object gets the bytes of format 'glb' "
+          "or "
+          "'usda' at finish(). Raises Error if the format is unknown or cannot show the World.");
 }
 
 void bind_files(nb::module_& m) {
-  nb::class_<Writer>(m, "Writer", nb::type_slots(collected_slots<Writer>()),
-                     "Writes frames of a World to files: a context manager that World.writer() returns.")
+  nb::class_<Writer>(m, "Writer", nb::type_slots(writer_slots()),
+                     "Writes frames of a World to files or into memory: a context manager that World.writer() returns.")
       .def(
           "add", [](Writer& self) { self.open().add(self.world->idle()); }, "Adds the present state as the next frame.")
       .def("finish", &finish, "Completes the files; the end of a `with` block calls it.")
       .def_prop_ro("written", &written, nb::sig("def written(self) -> list[str]"),
-                   "Paths of the files that are written; after finish() all.")
+                   "Paths of the files that are written, or their names in memory; after finish() all.")
+      .def_prop_ro(
+          "files", &files, nb::sig("def files(self) -> dict[str, bytes]"),
+          "The files of a Writer that World.writer(format=...) made, by name: 'frames.glb' and 'frames.usda' after "
+          "finish(); 'frames_0000.obj' and .ply, and 'frames/OBJECT_0000.vtp' of 'frames.pvd', after each add(); "
+          "'frames.pc2' with 'frames.obj'. It is always the same dict: remove what you no longer need. Raises Error "
+          "if the files are on disk or in a file object.")
       .def(
           "__enter__", [](nb::handle self) { return nb::borrow(self); }, nb::sig("def __enter__(self) -> Writer"),
           "Itself.")

@@ -1,6 +1,10 @@
 // pliant.Gauges: reads the gauges of a scene.
 
 #include "pliant/gauges.h"
+
+#include <algorithm>
+#include <string_view>
+
 #include "pliant/error.h"
 #include "world.h"
 
@@ -18,7 +22,11 @@ GaugesRef gauges_of(const WorldRef& self) {
   const std::vector<Gauge>& of_scene = self.world->file().gauges;
   if (of_scene.empty())
     throw Error({.element = "/gauges"}, "the scene has no gauges", "add \"gauges\" to the scene before the World is made");
-  return {self.world, Gauges(of_scene, self.world->present(), world)};
+  GaugesRef made{self.world, Gauges(of_scene, self.world->present(), world)};
+  const auto measures_force = [](const Gauge& gauge) { return std::string_view(unit_of(gauge)) == "N"; };
+  if (std::any_of(made.gauges.gauges().begin(), made.gauges.gauges().end(), measures_force))
+    self.world->records_contacts = true;  // by the Gauges
+  return made;
 }
 
 nb::dict read(GaugesRef& self) {

@@ -66,6 +66,21 @@ nb::dict constraints(const ObjectRef& self) {
   return dict;
 }
 
+nb::object multipliers(const ObjectRef& self, const std::string& type) {
+  const std::map<std::string, int> known = [&] {
+    const auto found = self.view().info().constraints;
+    return std::map<std::string, int>(found.begin(), found.end());
+  }();
+  if (!known.contains(type)) {
+    std::string names;
+    for (const auto& [name, count] : known) names += (names.empty() ? "'" : ", '") + name + "'";
+    throw Error({.object = self.name()}, "has no constraints of the type '" + type + "'",
+                names.empty() ? "it has none" : "it has " + names);
+  }
+  const std::vector<float> all = self.view().multipliers(type);
+  return float_rows(all.data(), all.size(), 0);
+}
+
 nb::object orientations(const ObjectRef& self) {
   const std::vector<Quatf> all = self.view().orientations();
   return float_rows(reinterpret_cast<const float*>(all.data()), all.size(), 4);
@@ -73,13 +88,22 @@ nb::object orientations(const ObjectRef& self) {
 
 float float_from(nb::handle given, const char* what) { return static_cast<float>(number_from(given, what)); }
 
-void set_motor(const ObjectRef& self, const std::string& joint, nb::handle target, nb::handle most,
-               const std::string& motor) {
+/// The name of a joint that was given by name or index.
+std::string joint_name(const ObjectRef& self, nb::handle joint) {
+  if (nb::isinstance<nb::str>(joint)) return nb::cast<std::string>(joint);
+  const auto index = static_cast<std::size_t>(joint_index(self.view(), joint));
+  const std::vector<ObjectJoint>& joints = self.world->described(self.id).joints;
+  if (index < joints.size()) return joints[index].name;
+  throw Error({.object = self.name(), .element = "joint " + nb::cast<std::string>(nb::str(joint))},
+              "does not exist; there are " + std::to_string(joints.size()) + " joints", "indices count from 0");
+}
+
+void set_motor(const ObjectRef& self, nb::handle joint, nb::handle target, nb::handle most, const std::string& motor) {
   MotorCommand command;
   command.target = float_from(target, "target");
   if (!most.is_none()) command.most = float_from(most, "most");
   command.motor = motor;
-  self.handle().set_motor(joint, command);
+  self.handle().set_motor(joint_name(self, joint), command);
 }
 
 int joint_of(const ObjectRef& self, nb::handle joint) { return joint_index(self.view(), joint); }
@@ -141,15 +165,12 @@ void bind_reading(nb::class_<ObjectRef>& c) {
       .def(
           "enclosed_volume", [](const ObjectRef& o) { return o.view().enclosed_volume(); },
           "Volume that its triangles enclose [m^3].")
-      .def(
-          "multipliers",
-          [](const ObjectRef& o, const std::string& type) {
-            const std::vector<float> all = o.view().multipliers(type);
-            return float_rows(all.data(), all.size(), 0);
-          },
-          nb::arg("type"), nb::sig("def multipliers(self, type: str) -> pliant._types.FloatArray"),
-          "Multipliers of the last substep of the constraints of a type, as \"distance\"; empty unless they were stored "
-          "(settings.record_multipliers). The force is the multiplier over the square of the substep [s^2].");
+      .def("multipliers", &multipliers, nb::arg("type"),
+           nb::sig("def multipliers(self, type: str) -> pliant._types.FloatArray"),
+           "Multipliers of the last substep of the constraints of a type, as \"distance\"; empty unless they were stored "
+           "(settings.record_multipliers). The force is the multiplier over the square of the substep [s^2]. Raises Error "
+           "if "
+           "it has no constraints of the type: `constraints` lists them.");
 }
 
 void bind_joints(nb::class_<ObjectRef>& c) {
@@ -207,7 +228,8 @@ void bind_control_of_bodies(nb::class_<ObjectRef>& c) {
           "Gives the surface of a body a velocity along itself, as a conveyor belt has, in the body's frame [m/s].")
       .def("set_motor", &set_motor, nb::arg("joint"), nb::arg("target"), nb::arg("most") = nb::none(),
            nb::arg("motor") = "",
-           nb::sig("def set_motor(self, joint: str, target: float, most: float | None = None, motor: str = '') -> None"),
+           nb::sig(
+               "def set_motor(self, joint: int | str, target: float, most: float | None = None, motor: str = '') -> None"),
            "Gives the motor of a joint a new target: an angle [rad], displacement [m] or speed [rad/s or m/s], as its kind "
            "says. `most`: "
            "greatest torque [N m] or force [N]; None: as before. `motor`: its name if the joint has several.")

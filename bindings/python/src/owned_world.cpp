@@ -25,6 +25,19 @@ OwnedWorld::OwnedWorld(std::shared_ptr<const SceneFile> file, World made)
   names_ = std::move(names);
 }
 
+void OwnedWorld::record_contacts(bool on) {
+  idle().record_contact_events(on);
+  records_contacts = on;
+}
+
+World& OwnedWorld::recording() {
+  World& world = idle();
+  if (!records_contacts)
+    throw Error({}, "contact events are not recorded",
+                "call record_contact_events() before the step; loaded and copied Worlds do not record them");
+  return world;
+}
+
 World& OwnedWorld::idle() {
   if (is_stepping_)
     throw Error({}, "this World is stepping, in another thread or around this call", "wait until its step has ended");
@@ -34,10 +47,10 @@ World& OwnedWorld::idle() {
 World& OwnedWorld::changing(const char* what) {
   World& world = idle();
   if (views > 0)
-    throw Error(
-        {},
-        "a World cannot be " + std::string(what) + " while " + std::to_string(views) + " views of its records are alive",
-        "delete what records() returned first, or read positions()");
+    throw Error({},
+                "a World cannot be " + std::string(what) + " while " + std::to_string(views) +
+                    (views == 1 ? " view of its records is alive" : " views of its records are alive"),
+                "delete what records() returned first, or read positions()");
   return world;
 }
 

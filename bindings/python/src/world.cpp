@@ -60,7 +60,7 @@ nb::list contact_events(const WorldRef& self) {
   static constexpr const char* changes[] = {"begin", "persist", "end"};
   nb::list list;
   const Names& names = *self.world->names();
-  for (const ContactEvent& event : self.world->idle().contact_events())
+  for (const ContactEvent& event : self.world->recording().contact_events())
     list.append((*type)(changes[static_cast<int>(event.change)], names.of(event.first), names.of(event.second),
                         event.contacts, event.impulse, tuple_of(event.position), tuple_of(event.normal),
                         nb::make_tuple(event.push.x, event.push.y, event.push.z)));
@@ -80,7 +80,7 @@ nb::list body_touches(const WorldRef& self) {
   static const nb::object* type = new nb::object(python_part("pliant._types", "BodyTouch"));
   nb::list list;
   const Names& names = *self.world->names();
-  for (const BodyTouch& touch : self.world->idle().body_touches())
+  for (const BodyTouch& touch : self.world->recording().body_touches())
     list.append((*type)(names.of(touch.first.thing), body_name(*self.world, touch.first), names.of(touch.second.thing),
                         body_name(*self.world, touch.second), touch.contacts, touch.impulse, tuple_of(touch.position),
                         nb::make_tuple(touch.push.x, touch.push.y, touch.push.z)));
@@ -147,15 +147,15 @@ void bind_contents(nb::class_<WorldRef>& c) {
            nb::sig("def remove(self, thing: Object | Collider | MeshCollider | str) -> None"),
            "Removes an object or collider; a name is that of an object.")
       .def(
-          "record_contact_events", [](const WorldRef& self, bool on) { self.world->idle().record_contact_events(on); },
+          "record_contact_events", [](const WorldRef& self, bool on) { self.world->record_contacts(on); },
           nb::arg("on") = true, "Starts or ends the recording of contact events; off at first.")
       .def("contact_events", &contact_events, nb::sig("def contact_events(self) -> list[pliant._types.ContactEvent]"),
-           "The contact events of the last step, if they are recorded.");
+           "The contact events of the last step. Raises Error unless record_contact_events() is on.");
 }
 
 void bind_recording(nb::class_<WorldRef>& c) {
   c.def("body_touches", &body_touches, nb::sig("def body_touches(self) -> list[pliant._types.BodyTouch]"),
-        "What each rigid body touched in the last step, and how hard, if contact events are recorded.")
+        "What each rigid body touched in the last step, and how hard. Raises Error unless record_contact_events() is on.")
       .def(
           "record_joint_loads", [](const WorldRef& self, bool on) { self.world->idle().record_joint_loads(on); },
           nb::arg("on") = true,

@@ -41,6 +41,13 @@ def test_equal_worlds_are_equal() -> None:
     assert repr(batch) == "<pliant.Batch of 4 worlds>"
 
 
+def test_vary_that_is_wrong_says_where() -> None:
+    with pytest.raises(TypeError, match="return nothing"):
+        pliant.Batch(cloth_scene(), 2, vary=lambda scene, i: scene.copy())
+    with pytest.raises(pliant.Error, match="of world 1: -1 is out of range"):
+        pliant.Batch(cloth_scene(), 3, vary={"/objects/0/thickness": [0.01, -1, 0.01]})
+
+
 def test_vary_by_a_function() -> None:
     def vary(scene: pliant.Scene, i: int) -> None:
         scene["objects"][0]["cloth"]["material"] = ["cotton", "silk"][i]
@@ -246,7 +253,7 @@ def test_a_list_of_states_is_restored_in_all_worlds_or_none() -> None:
         batch.restore([*start[:2], pliant.World(cloth_scene(7)).state()])
     assert batch.state_hashes() == before
     records = batch.worlds[2]["cloth"].records()
-    with pytest.raises(pliant.Error, match="views of its records"):
+    with pytest.raises(pliant.Error, match="view of its records"):
         batch.restore(start)
     assert batch.state_hashes() == before and len(records) > 0
 

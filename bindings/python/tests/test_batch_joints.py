@@ -185,6 +185,7 @@ REFUSED_BY_ONE: dict[str, tuple[Any, Callable[[Any], Any], str]] = {
     "no such motor": (None, lambda m: m.set_motor(["left hinge", RIGHT], 1, motor="turbo"), "has no motor 'turbo'"),
     "a target that is too large": (None, lambda m: m.set_motor(RIGHT, [1, 1, 2e30]), "not finite"),
     "a tiny rotation": (None, lambda m: m.set_pose("post", (0, 0.1, 0), [[0, 0, 0, 1]] * 2 + [[0, 0, 0, 1e-16]]), "zero"),
+    "a far place": (None, lambda m: m.set_pose("post", [[0, 0.1, 0]] * 2 + [[2e9, 0, 0]]), "1e9 m from the origin"),
     "a huge one": (None, lambda m: m.set_pose("post", (0, 0.1, 0), [[0, 0, 0, 1]] * 2 + [[0, 0, 0, 1e20]]), "too large"),
 }  # fmt: skip
 

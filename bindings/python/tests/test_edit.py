@@ -348,7 +348,7 @@ def test_an_edit_from_before_a_tear_is_refused(step: Callable[[pliant.Batch], An
 def test_what_is_gone_or_looked_at_is_not_edited(world: pliant.World) -> None:
     edit = world.edit("cloth")
     records = world["cloth"].records()
-    with pytest.raises(pliant.Error, match="cannot be edited while 1 views of its records"):
+    with pytest.raises(pliant.Error, match="cannot be edited while 1 view of its records"):
         edit.apply()
     assert len(records) > 0
     del records

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 import pathlib
 import pickle
@@ -398,6 +399,9 @@ WORLDS: dict[str, Callable[[Any, pathlib.Path], Any]] = {
     "writing a suffix": lambda w, p: w.writer(p / "a.mpg"),
     "writing to a number": lambda w, p: w.writer(7),
     "writing to None": lambda w, p: w.writer(None),
+    "writing a format that is unknown": lambda w, p: w.writer(format="mpg"),
+    "writing a format that is a number": lambda w, p: w.writer(format=3),
+    "writing many files to one": lambda w, p: w.writer(io.BytesIO(), format="obj"),
     "events of a str": lambda w, p: w.record_contact_events("yes"),
     "advice of nothing": lambda w, p: w.advice(None),
     "advice of a dict": lambda w, p: w.advice({}),

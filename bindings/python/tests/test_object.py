@@ -125,6 +125,8 @@ def test_a_balloon_has_a_volume_and_a_gas_a_temperature() -> None:
     assert world["ball"].enclosed_volume() == pytest.approx(4 / 3 * np.pi, rel=0.02)
     world.step()
     assert world["ball"].multipliers("distance").shape == (world["ball"].constraints["distance"],)
+    with pytest.raises(pliant.Error, match="no constraints of the type 'dist'; it has .*'distance'"):
+        world["ball"].multipliers("dist")
     np.testing.assert_array_equal(world["ball"].present(), np.arange(world["ball"].particles))
     with pytest.raises(pliant.Error, match="no channel 'temperature'"):
         world["ball"].channel("temperature")

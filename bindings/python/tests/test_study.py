@@ -82,7 +82,30 @@ def test_failures_are_rows() -> None:
     assert "'paper'" in table[0]["explain"] and table[0]["state_hash"] is None
     assert [row["explain"] for row in table.failures] == [table[i]["explain"] for i in (0, 2, 3)]
     table = pliant.study(cloth_scene(), {"/settings/substeps": [5]}, measure=fails, workers=0)
-    assert not table[0]["ok"] and table[0]["explain"] == "RuntimeError: no measure" and table[0]["fails"] is None
+    assert not table[0]["ok"] and table[0]["explain"] == "measure 'fails': RuntimeError: no measure" and table[0]["fails"] is None
+
+
+def test_names_of_measures_that_are_columns() -> None:
+    for name in ("ok", "frames", "explain", "/gravity"):
+        with pytest.raises(pliant.Error, match=f"a measure is called '{name}'"):
+            pliant.study(cloth_scene(), {"/settings/substeps": [5]}, measure={name: fails}, workers=0)
+
+
+def test_resume_keeps_files_of_others(tmp_path: pathlib.Path) -> None:
+    scene = tmp_path / "scene.json"
+    scene.write_text(json.dumps({"objects": []}, indent=2), encoding="utf-8")
+    notes = tmp_path / "notes.txt"
+    notes.write_text("precious", encoding="utf-8")
+    for path in (scene, notes):
+        before = path.read_bytes()
+        with pytest.raises(pliant.Error, match="line [12] is no row of a study"):
+            pliant.study(cloth_scene(), {"/settings/substeps": [5]}, frames=1, workers=0, resume=path)
+        assert path.read_bytes() == before
+    with pytest.raises(pliant.Error, match="this is no file"):
+        pliant.study(cloth_scene(), {"/settings/substeps": [5]}, frames=1, workers=0, resume=tmp_path)
+    cut = tmp_path / "cut.jsonl"
+    cut.write_text('{"key": "12', encoding="utf-8")
+    assert pliant.study(cloth_scene(), {"/settings/substeps": [5]}, frames=1, workers=0, resume=cut)[0]["ok"]
 
 
 def test_a_process_that_dies_is_a_row() -> None:

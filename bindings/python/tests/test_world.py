@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import copy
+import gc
+import io
 import os
 import pathlib
 import pickle
 import threading
 import time
+import weakref
+from typing import Any
 
 import numpy as np
 import pytest
@@ -143,10 +147,96 @@ def test_a_writer_writes_frames(world: pliant.World, tmp_path: pathlib.Path) -> 
     assert len(vertices) == 36
 
 
+def write(world: pliant.World, *given: Any, **options: Any) -> pliant.Writer:
+    with world.writer(*given, **options) as out:
+        for _ in range(2):
+            world.step()
+            out.add()
+    return out
+
+
+@pytest.mark.parametrize("suffix", ["obj", "ply", "glb", "usda", "pc2", "pvd"])
+def test_a_writer_in_memory_has_the_bytes_of_the_files(tmp_path: pathlib.Path, suffix: str) -> None:
+    on_disk = write(pliant.World(cloth_scene(), threads=1), tmp_path / f"frames.{suffix}")
+    there = {str(pathlib.Path(path).relative_to(tmp_path)): pathlib.Path(path).read_bytes() for path in on_disk.written}
+    out = write(pliant.World(cloth_scene(), threads=1), format=suffix)
+    assert out.files == there
+    assert out.written == list(there)
+    assert out.files is out.files
+    with pytest.raises(pliant.Error, match="not in memory"):
+        print(on_disk.files)
+
+
+def test_files_of_frames_in_memory_come_at_once(world: pliant.World) -> None:
+    out = world.writer(format=".PLY")
+    assert list(out.files) == ["frames_0000.ply"]
+    del out.files["frames_0000.ply"]
+    world.step()
+    out.add()
+    assert list(out.files) == ["frames_0001.ply"]
+
+
+@pytest.mark.parametrize("suffix", ["glb", "usda"])
+def test_a_file_object_gets_the_bytes(tmp_path: pathlib.Path, suffix: str) -> None:
+    buffer = io.BytesIO()
+    write(pliant.World(cloth_scene(), threads=1), buffer, format=suffix)
+    in_memory = write(pliant.World(cloth_scene(), threads=1), format=suffix).files[f"frames.{suffix}"]
+    assert buffer.getvalue() == in_memory
+    with open(tmp_path / "run", "wb") as file:
+        write(pliant.World(cloth_scene(), threads=1), file, format=suffix)
+    assert (tmp_path / "run").read_bytes() == in_memory
+
+
+def test_what_a_file_object_raises_comes_out_of_finish(world: pliant.World) -> None:
+    class Full:
+        def write(self, data: bytes) -> None:
+            raise OSError(f"no room for {data[:4]!r}")
+
+    out = world.writer(Full(), format="glb")  # type: ignore[arg-type]
+    with pytest.raises(OSError, match="no room for b'glTF'"):
+        out.finish()
+
+
+def test_a_file_object_that_refers_to_its_writer_is_freed(world: pliant.World) -> None:
+    class Refers:
+        writer: Any = None
+
+        def write(self, data: bytes) -> None:
+            pass
+
+    file = Refers()
+    file.writer = world.writer(file, format="glb")  # type: ignore[arg-type]
+    gone = weakref.ref(file)
+    del file
+    gc.collect()
+    assert gone() is None
+
+
+@pytest.mark.parametrize(
+    "given, words",
+    [
+        (lambda: {}, "needs a path or a format"),
+        (lambda: {"path": "a.glb", "format": "glb"}, "`format` is given beside a path; leave it out"),
+        (lambda: {"path": io.BytesIO()}, "give format='glb' or format='usda'"),
+        (lambda: {"path": io.BytesIO(), "format": "pvd"}, "a run as '.pvd' is several files"),
+        (lambda: {"path": io.StringIO(), "format": "glb"}, "takes text, and frames are bytes; open it with mode 'wb'"),
+        (lambda: {"format": "gltf"}, "'gltf' is not a format of frames; choose 'obj'"),
+        (lambda: {"format": ""}, "'' is not a format"),
+    ],
+)
+def test_wrong_targets_of_a_writer(world: pliant.World, given: Any, words: str) -> None:
+    with pytest.raises(pliant.Error) as caught:
+        world.writer(**given())
+    assert words in str(caught.value)
+
+
 def test_contact_events() -> None:
     scene = cloth_scene()
     del scene["objects"][0]["pins"]
     world = pliant.World(scene, threads=1)
+    for read in (world.contact_events, world.body_touches):
+        with pytest.raises(pliant.Error, match="contact events are not recorded; call record_contact_events"):
+            read()
     world.record_contact_events()
     begun = []
     for _ in world.frames(40):
@@ -265,9 +355,9 @@ def test_records_are_the_positions_in_storage_order(world: pliant.World) -> None
         np.testing.assert_array_equal(records[np.argsort(order)][:36, :3], cloth.positions())
     assert not records.flags.writeable
     state = pliant.World(cloth_scene(), threads=1).state()
-    with pytest.raises(pliant.Error, match="1 views of its records"):
+    with pytest.raises(pliant.Error, match="1 view of its records"):
         world.restore(state)
-    with pytest.raises(pliant.Error, match="views of its records"):
+    with pytest.raises(pliant.Error, match="view of its records"):
         world.remove("cloth")
     del records
     world.restore(state)

@@ -24,7 +24,7 @@ void StartOverlaps::warn(Substep& s, const ContactBodies& bodies) const {
       " where contact begins, deepest " + bodies.name(s.model, deepest_.a) + " and " + bodies.name(s.model, deepest_.b) +
       " by " + std::to_string(deepest_.depth) + " m: each pair is moved apart at " +
       std::to_string(depenetration_speed(deepest_.depth / deepest_.share)) +
-      " m/s at most; place bodies apart to avoid it");
+      " m/s at most; place bodies apart, or if they meet fast give shorter frames or more substeps");
 }
 
 void DeepOverlaps::note(Substep& s, const ContactBodies& bodies, const BodyOverlap& deepest) {

@@ -9,6 +9,11 @@ static float floats[81];
 static int32_t integers[9];
 static pliant_pose pose = {{0, 0, 0}, {0, 0, 0, 1}};
 
+static pliant_status no_sink(void* user, const char* path, const void* bytes, size_t count) {
+  (void)user, (void)path, (void)bytes, (void)count;
+  return PLIANT_OK;
+}
+
 /* Every function of a World with this handle. */
 static void with_world(pliant_world* world, pliant_status expected) {
   const pliant_id id = object_at(0);
@@ -49,6 +54,7 @@ static void with_world(pliant_world* world, pliant_status expected) {
   GIVES(expected, pliant_report_advice(world, text, 8, &count));
   GIVES(expected, pliant_report_json(world, text, 8, &count));
   GIVES(expected, pliant_writer_open(world, "never.obj", &writer));
+  GIVES(expected, pliant_writer_open_sink(world, "never.obj", no_sink, NULL, &writer));
   CHECK(scene == NULL && state == NULL && writer == NULL);
 }
 
@@ -165,12 +171,39 @@ static void test_null(void) {
   SAYS(PLIANT_NULL, "'state'", pliant_object_joint_state(world, object_at(0), 0, NULL));
   SAYS(PLIANT_NULL, "'force'", pliant_object_mean_joint_load(world, object_at(0), 0, NULL, floats));
   SAYS(PLIANT_NULL, "'torque'", pliant_object_mean_joint_load(world, object_at(0), 0, floats, NULL));
+  OK(pliant_world_record_contacts(world, 1));
   GIVES(PLIANT_NULL, pliant_world_body_touches(world, NULL, 1, &count));
   GIVES(PLIANT_NULL, pliant_state_hash(NULL, NULL, 0, &count));
   GIVES(PLIANT_NULL, pliant_writer_add(NULL, world));
   GIVES(PLIANT_NULL, pliant_writer_finish(NULL));
   OK(pliant_world_free(world));
   OK(pliant_scene_free(scene));
+}
+
+/* What is finite but farther from the origin than scenes may have it is refused, too. */
+static void test_far_places(void) {
+  pliant_world* world = sheet_world();
+  pliant_id wall = object_at(0);
+  const pliant_pose far = {{2e9f, 0, 0}, {0, 0, 0, 1}};
+  const int32_t pinned = 0;
+  float there[27];
+  char before[65] = "1", after[65] = "2";
+  for (int i = 0; i < 27; ++i) there[i] = -1e30f;
+  OK(pliant_world_add_collider(
+      world, "{\"name\": \"wall\", \"mesh\": {\"grid\": {\"columns\": 3, \"rows\": 3, \"width\": 1, \"depth\": 1}}}",
+      NULL, 0, &wall));
+  hash_of(world, before);
+  SAYS(PLIANT_REFUSED, "particle 0: its target is more than 1e9 m from the origin; give metres",
+       pliant_object_set_targets(world, object_at(0), &pinned, there, 1));
+  SAYS(PLIANT_REFUSED, "1e9 m", pliant_object_teleport(world, object_at(0), &far));
+  SAYS(PLIANT_REFUSED, "1e9 m", pliant_collider_teleport(world, wall, &far));
+  SAYS(PLIANT_REFUSED, "vertex 0: its target is more", pliant_collider_set_positions(world, wall, there, 9));
+  SAYS(PLIANT_REFUSED, "are 8 for 9 vertices; give one per vertex",
+       pliant_collider_set_positions(world, wall, there, 8));
+  OK(pliant_world_step(world, 0));
+  hash_of(world, after);
+  CHECK(strcmp(before, after) != 0);
+  OK(pliant_world_free(world));
 }
 
 static void test_values(void) {
@@ -190,7 +223,8 @@ static void test_values(void) {
   GIVES(PLIANT_REFUSED, pliant_object_set_forces(world, object_at(0), floats, 9));
   floats[4] = 0;
   GIVES(PLIANT_REFUSED, pliant_object_set_forces(world, object_at(0), floats, 8));
-  GIVES(PLIANT_REFUSED, pliant_object_positions(world, object_at(0), floats, 10));
+  SAYS(PLIANT_REFUSED, "give room for 9 points; a point of three numbers counts as one",
+       pliant_object_positions(world, object_at(0), floats, 27));
   GIVES(PLIANT_REFUSED, pliant_object_set_targets(world, object_at(0), &beyond, floats, 1));
   GIVES(PLIANT_REFUSED, pliant_object_teleport(world, object_at(0), &nowhere));
   GIVES(PLIANT_REFUSED, pliant_object_set_rest_factor(world, object_at(0), 99, 1));
@@ -218,12 +252,23 @@ static void test_values(void) {
   array = sheet_array();
   array.position_count = 8;
   SAYS(PLIANT_REFUSED, "/mesh", pliant_scene_add_object(scene, json, &array, 1, NULL));
+  array = sheet_array();
+  array.corners = 0;
+  array.element_count = 0;
+  SAYS(PLIANT_REFUSED, "array sheet has points alone, but triangles are needed here; give it with triangles",
+       pliant_scene_add_object(scene, json, &array, 1, NULL));
+  array = sheet_array();
+  floats[4] = NAN;
+  array.positions = floats;
+  SAYS(PLIANT_REFUSED, "vertex 1 is not finite", pliant_scene_add_object(scene, json, &array, 1, NULL));
+  floats[4] = 0;
   OK(pliant_world_free(world));
   OK(pliant_scene_free(scene));
 }
 
 void test_misuse(void) {
   test_null();
+  test_far_places();
   test_values();
 }
 

@@ -101,6 +101,7 @@ static void test_contacts(pliant_world* world, pliant_id ground) {
   double all = 0;
   float down[27];
   for (int i = 0; i < 27; ++i) down[i] = i % 3 == 1 ? -1 : 0;
+  SAYS(PLIANT_REFUSED, "call pliant_world_record_contacts", pliant_world_contacts(world, contacts, 8, &count));
   OK(pliant_world_record_contacts(world, 1));
   OK(pliant_object_set_velocities(world, object_at(0), down, 9));
   OK(pliant_world_run(world, 3, NULL));
@@ -122,7 +123,8 @@ void test_contents(void) {
   size_t count = 0;
   OK(pliant_world_find(world, PLIANT_OBJECT, "flag", &found));
   CHECK(found.kind == PLIANT_OBJECT && found.slot == 0 && found.generation == 0);
-  SAYS(PLIANT_NOT_FOUND, "no mesh collider 'flag'", pliant_world_find(world, PLIANT_MESH_COLLIDER, "flag", &found));
+  SAYS(PLIANT_NOT_FOUND, "no mesh collider 'flag'; it is an object",
+       pliant_world_find(world, PLIANT_MESH_COLLIDER, "flag", &found));
   OK(pliant_world_add_collider(world, "{\"name\": \"ground\", \"plane\": {}, \"position\": [0, -0.01, 0]}", NULL, 0,
                                &ground));
   test_contacts(world, ground);
@@ -189,6 +191,90 @@ void test_reports(void) {
   OK(pliant_world_free(world));
 }
 
+/* Files of a writer in memory, their number, and what it does beside keeping them. */
+struct kept {
+  char path[64];
+  char bytes[16384];
+  size_t count;
+  int files;
+  pliant_status gives;      /* what the sink returns */
+  pliant_writer* reentered; /* the writer to be called from its own sink, or null */
+  const pliant_world* world;
+};
+
+static pliant_status keep(void* user, const char* path, const void* bytes, size_t count) {
+  struct kept* into = (struct kept*)user;
+  if (into->reentered != NULL) {
+    SAYS(PLIANT_BUSY, "to its sink", pliant_writer_add(into->reentered, into->world));
+    GIVES(PLIANT_BUSY, pliant_writer_finish(into->reentered));
+  }
+  into->count = 0;
+  ++into->files;
+  if (!CHECK(strlen(path) < sizeof into->path && count <= sizeof into->bytes)) return PLIANT_TOO_SMALL;
+  strcpy(into->path, path);
+  memcpy(into->bytes, bytes, count);
+  into->count = count;
+  return into->gives;
+}
+
+/* The bytes of the file "c.glb" that test_files wrote of the same frames. */
+static void test_sink(const char* folder) {
+  static struct kept kept;
+  static char from_disk[16384];
+  pliant_world* world = sheet_world();
+  pliant_writer* writer = NULL;
+  FILE* file = fopen(path_in(folder, "c.glb"), "rb");
+  OK(pliant_writer_open_sink(world, "c.glb", keep, &kept, &writer));
+  for (int i = 0; i < 3; ++i) {
+    OK(pliant_writer_add(writer, world));
+    OK(pliant_world_step(world, 0));
+  }
+  CHECK(kept.files == 0);
+  OK(pliant_writer_finish(writer));
+  OK(pliant_writer_free(writer));
+  CHECK(kept.files == 1 && strcmp(kept.path, "c.glb") == 0 && fopen("c.glb", "rb") == NULL);
+  if (CHECK(file != NULL)) {
+    CHECK(fread(from_disk, 1, sizeof from_disk, file) == kept.count && memcmp(from_disk, kept.bytes, kept.count) == 0);
+    fclose(file);
+  }
+  kept.gives = PLIANT_NO_MEMORY;
+  OK(pliant_writer_open_sink(world, "run.obj", keep, &kept, &writer));
+  kept.reentered = writer;
+  kept.world = world;
+  SAYS(PLIANT_NO_MEMORY, "did not take the file 'run_0003.obj'; it returned 8", pliant_writer_add(writer, world));
+  CHECK(kept.files == 2 && memcmp(kept.bytes, "# time ", 7) == 0);
+  kept.gives = PLIANT_OK;
+  OK(pliant_writer_free(writer));
+  writer = NULL;
+  SAYS(PLIANT_NULL, "'sink' is a null pointer", pliant_writer_open_sink(world, "run.obj", NULL, NULL, &writer));
+  SAYS(PLIANT_REFUSED, "'.gif' is not a geometry format",
+       pliant_writer_open_sink(world, "run.gif", keep, &kept, &writer));
+  GIVES(PLIANT_NULL, pliant_writer_open_sink(world, NULL, keep, &kept, &writer));
+  CHECK(writer == NULL);
+  OK(pliant_world_free(world));
+}
+
+/* Paths in what is added to a World are relative to the folder of its scene. */
+static void test_folder(const char* folder) {
+  pliant_scene_options options;
+  pliant_scene* scene = NULL;
+  pliant_world* world = NULL;
+  pliant_id id;
+  FILE* file = fopen(path_in(folder, "piece.obj"), "w");
+  memset(&options, 0, sizeof options);
+  options.size = sizeof options;
+  options.folder = folder;
+  if (!CHECK(file != NULL)) return;
+  fputs("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 3 2\n", file);
+  fclose(file);
+  OK(pliant_scene_parse("{\"objects\": []}", &options, &scene));
+  world = world_of(scene);
+  OK(pliant_world_add_object(world, "{\"name\": \"a\", \"cloth\": {\"mesh\": {\"file\": \"piece.obj\"}}}", NULL, 0,
+                             &id));
+  OK(pliant_world_add_collider(world, "{\"mesh\": {\"file\": \"piece.obj\"}, \"position\": [0, -1, 0]}", NULL, 0, &id));
+  OK(pliant_world_free(world));
+}
+
 void test_files(const char* folder) {
   const pliant_array array = sheet_array();
   pliant_world* world = sheet_world();
@@ -212,6 +298,8 @@ void test_files(const char* folder) {
     CHECK(fread(text, 1, 4, file) == 4 && memcmp(text, "glTF", 4) == 0);
     fclose(file);
   }
+  test_sink(folder);
+  test_folder(folder);
   /* The ids of what was added later are not those of a scene. */
   OK(pliant_world_add_object(world, "{\"name\": \"late\", \"cloth\": {\"mesh\": {\"array\": \"sheet\"}}}", &array, 1,
                              NULL));

@@ -70,7 +70,8 @@ PLIANT_API pliant_status pliant_object_set_forces(pliant_world* world, pliant_id
                                                   size_t count);
 
 /* Moves `count` pinned particles to positions [m] that they reach, at constant velocity, at the end of the next
- * step. After that they stay, or follow their keyframes. */
+ * step. After that they stay, or follow their keyframes. Places more than 1e9 m from the origin are refused here, by
+ * pliant_object_teleport and by pliant_object_set_body_pose. */
 PLIANT_API pliant_status pliant_object_set_targets(pliant_world* world, pliant_id object, const int32_t* particles,
                                                    const float* positions, size_t count);
 

@@ -150,7 +150,7 @@ typedef struct pliant_error_parts {
 typedef struct pliant_world_info {
   size_t size;       /* sizeof(pliant_world_info) */
   double time;       /* simulated time [s] */
-  int64_t frame;     /* number of complete steps */
+  int64_t frame;     /* number of steps that were not stopped; one that met a value that is not finite counts */
   double frame_time; /* of its scene [s] */
   int64_t frames;    /* of its scene: the length of a run */
   int64_t objects;

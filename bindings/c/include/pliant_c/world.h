@@ -21,7 +21,8 @@ PLIANT_API pliant_status pliant_world_free(pliant_world* world);
 
 /* Advances by `dt` seconds, > 0; 0: by the frame time of its scene. Keep it constant. Refused if it is negative, not
  * finite or too short. PLIANT_NOT_FINITE if the step met a value that is not finite: the World then stays within the
- * frame and refuses steps until a state is restored. PLIANT_STOPPED if pliant_world_stop ended it.
+ * frame, which counts in its info, and refuses steps until a state is restored. PLIANT_STOPPED if pliant_world_stop
+ * ended it.
  * pliant_report_json and the like tell how it went, in these cases too. */
 PLIANT_API pliant_status pliant_world_step(pliant_world* world, float dt);
 
@@ -53,7 +54,8 @@ PLIANT_API pliant_status pliant_world_ids(const pliant_world* world, int32_t kin
 PLIANT_API pliant_status pliant_world_name(const pliant_world* world, pliant_id id, char* into, size_t capacity,
                                            size_t* length);
 
-/* Adds an object between steps, at the current time: JSON and arrays as of pliant_scene_add_object. */
+/* Adds an object between steps, at the current time: JSON and arrays as of pliant_scene_add_object. Paths are relative
+ * to the folder of the scene; to the working directory if the World was loaded. */
 PLIANT_API pliant_status pliant_world_add_object(pliant_world* world, const char* json, const pliant_array* arrays,
                                                  size_t count, pliant_id* id);
 
@@ -74,11 +76,13 @@ PLIANT_API pliant_status pliant_world_measure(const pliant_world* world, const c
  * of a step. */
 PLIANT_API pliant_status pliant_world_record_contacts(pliant_world* world, int32_t on);
 
-/* The contacts of the last step, ordered by participants: those that began, persist or ended. */
+/* The contacts of the last step, ordered by participants: those that began, persist or ended. Refused unless
+ * pliant_world_record_contacts is on. */
 PLIANT_API pliant_status pliant_world_contacts(const pliant_world* world, pliant_contact* into, size_t capacity,
                                                size_t* count);
 
-/* The contacts of each rigid body in the last step, ordered by participants, if contacts are recorded. */
+/* The contacts of each rigid body in the last step, ordered by participants. Refused unless
+ * pliant_world_record_contacts is on. */
 PLIANT_API pliant_status pliant_world_body_touches(const pliant_world* world, pliant_body_touch* into, size_t capacity,
                                                    size_t* count);
 
@@ -90,7 +94,8 @@ PLIANT_API pliant_status pliant_world_record_joint_loads(pliant_world* world, in
  * of pliant_scene_from_json, it has no members to set. */
 PLIANT_API pliant_status pliant_world_scene(const pliant_world* world, pliant_scene** scene);
 
-/* Writes the World to a file. After loading, the next step gives the same bits. Forces and targets that were set for
+/* Writes the World to a file. After loading, the next step gives the same bits: also that of a World which stopped at a
+ * value that is not finite fails again, so save after good steps. Forces and targets that were set for
  * the next step, and what is recorded, are not in it. If writing fails, a file that was there stays as it was.
  * Refused if the World has forces. */
 PLIANT_API pliant_status pliant_world_save(const pliant_world* world, const char* path);
@@ -149,9 +154,21 @@ PLIANT_API pliant_status pliant_report_json(const pliant_world* world, char* int
 
 /* ---------------------------------------------------------------- files */
 
-/* Begins a file of the frames of a World: .obj or .ply (a file for each frame), .glb, .usda, .pc2, .pvd. It is
- * complete after pliant_writer_finish. */
+/* Begins a file of the frames of a World: .glb, .usda, .pc2, .pvd, complete after pliant_writer_finish; or .obj or
+ * .ply, a file for each frame: "run.obj" becomes "run_0000.obj" for frame 0. */
 PLIANT_API pliant_status pliant_writer_open(const pliant_world* world, const char* path, pliant_writer** writer);
+
+/* Receives a complete file in memory: its path as it would be on disk, and its bytes, which are valid during the call.
+ * It returns PLIANT_OK; another status ends the call of the writer with that status. It must not call the writer. */
+typedef pliant_status (*pliant_file_sink)(void* user, const char* path, const void* bytes, size_t count);
+
+/* The same in memory: every file goes to `sink` instead of to disk, as soon as it is complete and with the bytes that
+ * it would have there. `path` names the format and the files: "run.glb" and "run.usda" give one file in
+ * pliant_writer_finish, "run.pc2" also "run.obj"; "run.obj" and "run.ply" give "run_0000.obj", ... in each
+ * pliant_writer_add; "run.pvd" gives "run/OBJECT_0000.vtp", ... in each pliant_writer_add, and itself at the end.
+ * `user` is passed on to `sink`. */
+PLIANT_API pliant_status pliant_writer_open_sink(const pliant_world* world, const char* path, pliant_file_sink sink,
+                                                 void* user, pliant_writer** writer);
 
 /* Adds the present state as a frame: once at the start and once after each step. Refused if the writer was opened
  * for another World. */
