@@ -88,9 +88,9 @@ void detect_pair(const Detection& d, const ClusterSides& sides, const PairLanes&
   if (distance - lanes.paths.falls[lane] > kept.thickness || lanes.paths.apart[lane] > kept.thickness || d.is_exempt(pair))
     return;
   // A covered pair that does not touch yet would push the surfaces sideways; one with a mesh does so if it touches, too.
+  if (distance > kept.thickness && d.covered.covers(pair, lanes.at, lane, d.particles.positions)) return;
   const int mesh = mesh_side(*d.near.model.shared, pair);
   if (mesh >= 0 && d.covered.is_closer_on_mesh(pair, mesh, lanes.at, lane, d.particles.positions, d.is_exempt)) return;
-  if (distance > kept.thickness && d.covered.covers(pair, lanes.at, lane, d.particles.positions)) return;
   add_contact(pair, lanes.at, lane, kept, d.particles, contacts);
 }
 

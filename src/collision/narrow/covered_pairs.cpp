@@ -65,7 +65,8 @@ bool CoveredPairs::rises_beside(const Feature& feature, const Vec3f& towards, in
     // By rounding of the closest point along an edge, one end of the edge may seem to rise.
     if (corner == holds[0] || (feature.held == 2 && corner == holds[1])) return false;
     const Vec3f beside = xyz(positions[corner]) - xyz(positions[origin]) - feature.point;
-    return dot(towards, beside) > least_rise * length(beside);
+    const float rise = dot(towards, beside);
+    return rise > 0 && rise > least_rise * length(beside);  // most corners of flat meshes need no length
   };
   return std::any_of(around_.begin(holds[0]), around_.end(holds[0]), [&](int number) {
     const Triangle& t = elements_.triangles[static_cast<std::size_t>(number)];
