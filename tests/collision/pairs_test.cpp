@@ -12,6 +12,7 @@
 #include <random>
 
 #include "collision/random_support.h"
+#include "geometry/triangle.h"
 #include "math/vector.h"
 #include "pliant/mesh.h"
 
@@ -193,8 +194,34 @@ class Soup {
     return model_.shared->rules.material(a, b);
   }
 
+  /// The side of a pair that is of an immovable mesh; -1: none.
+  int mesh_side(const PairStencil& pair) const {
+    const auto movable = [&](int i) { return bodies_[model_.shared->vertex_body[pair.vertex[i]]].movable; };
+    return !movable(3) ? 1 : !movable(0) ? 0 : -1;
+  }
+
+  /// True if a triangle of an immovable mesh, at a corner of the pair's primitive on it, is closer to the closest point on the
+  /// other side than that primitive is.
+  bool is_closer_on_mesh(const PairStencil& pair) const {
+    const int mesh = mesh_side(pair);
+    if (mesh < 0) return false;
+    const PairDistance at = pair_distance(pair, positions_.data());
+    const auto is_on_mesh = [&](int i) { return (i < pair.first_side) == (mesh == 0); };
+    Vec3d other{};
+    for (int i = 0; i < 4; ++i)
+      if (!is_on_mesh(i)) other += place(pair.vertex[i]) * std::abs(at.weight[i]);
+    return std::any_of(model_.elements.triangles.begin(), model_.elements.triangles.end(), [&](const Triangle& t) {
+      bool touches = false;
+      for (int i = 0; i < 4; ++i)
+        touches = touches || (is_on_mesh(i) && std::find(t.begin(), t.end(), pair.vertex[i]) != t.end());
+      return touches && length(closest_on_triangle(other, place(t[0]), place(t[1]), place(t[2])).point - other) <
+                            at.distance * (1 - 1e-8);
+    });
+  }
+
   float thickness(const PairStencil& pair) const {
-    const double rest = 0.9 * pair_distance(pair, model_.shared->rest.data()).distance;
+    const double share = mesh_side(pair) < 0 ? 0.9 : 1,
+                 rest = share * pair_distance(pair, model_.shared->rest.data()).distance;
     return std::min(material(pair).thickness, static_cast<float>(rest));
   }
 
@@ -216,7 +243,8 @@ class Soup {
   }
 
   /// Every pair that is nearer than its thickness, or will be after the predicted motion, must be a contact, exactly
-  /// once, and in order. A pair that others cover may become one later, when it is nearer.
+  /// once, and in order. A pair that others cover may become one later, when it is nearer. Of an immovable mesh only what is
+  /// closest counts.
   void check_contacts() {
     using Key = std::array<std::int32_t, 4>;
     // The same four vertices may be a vertex and a triangle as well as two edges.
@@ -229,7 +257,7 @@ class Soup {
       const double kept = double(thickness(pair)) * (1 - 1e-4);
       const double now = pair_distance(own, starts).distance, then = pair_distance(own, ends).distance;
       const bool near = now > 1e-6 && std::min(now, then) < kept;
-      if (near && now >= kept && is_covered(pair, now)) continue;
+      if (near && ((now >= kept && is_covered(pair, now)) || is_closer_on_mesh(pair))) continue;
       wanted[pair.vertex] += near ? 1 : 0;
       ASSERT_TRUE(!near || found[pair.vertex] >= wanted[pair.vertex])
           << "a pair at " << now << ", then " << then << ", is no contact";

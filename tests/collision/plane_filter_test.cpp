@@ -182,6 +182,23 @@ TEST(PlaneFilter, LeavesNoExactCrossingOfATriangleThatStandsStill) {
   EXPECT_GT(would_cross, 1000);
 }
 
+/// 2 mm above a level mesh, 20 mm before its triangle or edge, and 4.5 mm past that border in one step.
+TEST(PlaneFilter, LeavesWhatSlidesOverALevelMesh) {
+  for (const int first_side : {1, 2}) {
+    Case c;
+    c.pair.first_side = first_side;
+    c.least = 2e-4;
+    c.positions[0] = record({-0.02, 0.002, 0}, 1);
+    c.positions[1] = first_side == 2 ? record({-0.05, 0.002, 0.01}, 1) : record({0.2, 0, 0});
+    c.positions[2] = record({0, 0, -0.1});
+    c.positions[3] = record({0, 0, 0.1});
+    for (int i = 0; i < first_side; ++i) c.displacements[i] = record({0.0245, 0, 0});
+    std::array<float, 4> shares{};
+    EXPECT_EQ(filter(c, shares), Separation::free) << first_side;
+    for (const float share : shares) EXPECT_EQ(share, 1);
+  }
+}
+
 TEST(PlaneFilter, LeavesWhatCannotBeShortened) {
   Random random(83);
   int moved_and_kept = 0, unresolvable = 0;

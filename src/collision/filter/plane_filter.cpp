@@ -84,6 +84,18 @@ Vec3d normal_between(const PairStencil& pair, const Vec3d& at_start, const Recor
   return size > 1e-6 ? sum * (1 / size) : Vec3d{};
 }
 
+/// The normal of a triangle that nothing moves, or of two edges of which one is such, at the substep's start, towards the first side.
+/// Zero if there is none.
+Vec3d normal_of_fixed_face(const PairStencil& pair, const Vec3d& at_start, const Record* positions) {
+  const bool has_edges = pair.first_side == 2;
+  const auto is_fixed = [&](int i) { return !(positions[pair.vertex[i]].w > 0); };
+  if (!(is_fixed(pair.first_side) && is_fixed(3)) && !(has_edges && is_fixed(0) && is_fixed(1))) return {};
+  const auto side = [&](int from, int to) { return start_of(positions[pair.vertex[to]], positions[pair.vertex[from]]); };
+  const Vec3d normal = has_edges ? cross(side(0, 1), side(2, 3)) : cross(side(1, 2), side(1, 3));
+  const double size = length(normal);
+  return size > 0 ? normal * (dot(normal, at_start) < 0 ? -1 / size : 1 / size) : Vec3d{};
+}
+
 }  // namespace
 
 Separation plan_separation(const PairStencil& pair, const PairDistance& at, const Record* positions,
@@ -99,6 +111,9 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
   // What slides past an edge has a normal that turns: a plane along neither keeps it apart, but one between them.
   const Vec3d between = normal_between(pair, at.normal, positions, displacements);
   if (heights_of(pair, between, positions, displacements, {}).stay_apart(least_gap)) return Separation::free;
+  // What slides over a mesh is above the plane of a triangle ahead, although the nearest point of that is on its border.
+  const Vec3d of_face = normal_of_fixed_face(pair, at.normal, positions);
+  if (heights_of(pair, of_face, positions, displacements, {}).stay_apart(least_gap)) return Separation::free;
   // The plane divides the gap in proportion to the motions of both sides, but stays half a margin away from each.
   const double moves = h.first_sinks + h.second_rises;
   double share = std::clamp(moves > 0 ? h.second_rises / moves : 0.5, nearest_to_a_side, 1 - nearest_to_a_side);

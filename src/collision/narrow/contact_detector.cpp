@@ -8,6 +8,8 @@ namespace {
 
 /// A contact keeps at most this share of the distance that its two primitives have at rest.
 constexpr double share_of_rest = 0.9;
+/// With a mesh collider it keeps all of it: triangles over which an object begins would else be lower than those beside them.
+constexpr double share_of_rest_on_mesh = 1;
 constexpr float no_limit_at_rest = 1e30f;  ///< [m]
 /// When a block of static pairs is measured, all blocks of its group are that become due within this many substeps.
 constexpr float substeps_of_rest = 4;
@@ -19,6 +21,14 @@ struct Detection {
   const FunctionRef<bool(const PairStencil&)>& is_exempt;
   const CoveredPairs& covered;
 };
+
+/// The side of a pair that is of a mesh collider, 0 or 1; -1: none.
+int mesh_side(const ContactTables& tables, const PairStencil& pair) {
+  const auto is_of_mesh = [&](std::size_t i) {
+    return tables.rules.is_immovable(tables.vertex_body[static_cast<std::size_t>(pair.vertex[i])]);
+  };
+  return is_of_mesh(3) ? 1 : is_of_mesh(0) ? 0 : -1;
+}
 
 /// The largest contact distance of a pair that its distance at rest permits [m]: no limit between bodies that were
 /// described as touching, because they are moved apart when they are placed (world/touching_starts.h). `known` caches
@@ -39,7 +49,8 @@ float kept_at_rest(const Neighbourhood& near, const PairStencil& pair, float* kn
   const bool is_of_two = tables.vertex_body[pair.vertex[0]] != tables.vertex_body[pair.vertex[3]];
   const bool is_parted =
       is_of_two && (can_part[0] || can_part[1]) && distance <= double(least_margin_roundings * one_rounding * extent);
-  const auto kept = is_parted ? no_limit_at_rest : static_cast<float>(share_of_rest * distance);
+  const double share = mesh_side(tables, pair) < 0 ? share_of_rest : share_of_rest_on_mesh;
+  const auto kept = is_parted ? no_limit_at_rest : static_cast<float>(share * distance);
   if (known != nullptr) *known = kept;
   return kept;
 }
@@ -76,8 +87,10 @@ void detect_pair(const Detection& d, const ClusterSides& sides, const PairLanes&
   const float distance = lanes.at.distance[lane] * (1 - 1e-5f);
   if (distance - lanes.paths.falls[lane] > kept.thickness || lanes.paths.apart[lane] > kept.thickness || d.is_exempt(pair))
     return;
-  // A covered pair that does not touch yet would push the surfaces sideways.
+  // A covered pair that does not touch yet would push the surfaces sideways; one with a mesh does so if it touches, too.
   if (distance > kept.thickness && d.covered.covers(pair, lanes.at, lane, d.particles.positions)) return;
+  const int mesh = mesh_side(*d.near.model.shared, pair);
+  if (mesh >= 0 && d.covered.is_closer_on_mesh(pair, mesh, lanes.at, lane, d.particles.positions, d.is_exempt)) return;
   add_contact(pair, lanes.at, lane, kept, d.particles, contacts);
 }
 
@@ -188,6 +201,7 @@ std::size_t ContactDetector::detect(Executor& executor, Neighbourhood& near, con
     contacts.insert(contacts.end(), scratch.of_groups.begin(), scratch.of_groups.end());
   const std::size_t of_static_pairs = contacts.size();
   for (const Scratch& scratch : scratch_) contacts.insert(contacts.end(), scratch.of_lists.begin(), scratch.of_lists.end());
+  flush_.remove(particles.positions, contacts);
   return of_static_pairs;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collision/narrow/covered_pairs.h"
+#include "collision/narrow/flush_contacts.h"
 #include "collision/narrow/pair_contact.h"
 #include "collision/near/neighbourhood.h"
 
@@ -22,7 +23,7 @@ struct ListContacts {
 
 class ContactDetector {
  public:
-  explicit ContactDetector(const PairModel& model) : covered_(model.elements, model.triangles_around) {}
+  explicit ContactDetector(const PairModel& model) : covered_(model.elements, model.triangles_around), flush_(model) {}
 
   /// Finds the contacts of the substep: those of static neighbour pairs first, then all others, each ordered by
   /// clusters. Returns the number of the former. Pairs for which `is_exempt` returns true are skipped.
@@ -37,6 +38,7 @@ class ContactDetector {
   };
 
   CoveredPairs covered_;
+  FlushContacts flush_;
   std::vector<Scratch> scratch_;
 };
 

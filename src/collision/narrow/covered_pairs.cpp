@@ -1,6 +1,7 @@
 #include "collision/narrow/covered_pairs.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "math/record.h"
 #include "math/vector.h"
@@ -43,30 +44,56 @@ bool CoveredPairs::has_triangle_without(int a, int b, int vertex) const {
   });
 }
 
-/// For a vertex and a triangle: true if another triangle with the same closest point comes closer to the vertex.
-bool CoveredPairs::is_closer_beside(const PairStencil& pair, const Closest& at, const Record* positions) const {
-  const int vertex = pair.vertex[0];
-  std::array<int, 3> holds{};
-  int held = 0;
-  Vec3f point{};
-  for (int i = 1; i < 4; ++i) {
-    const float weight = -at.weight[i];
+CoveredPairs::Feature CoveredPairs::feature_of(const PairStencil& pair, const Closest& at, int first, int last,
+                                               const Record* positions) {
+  Feature feature;
+  for (int i = first; i < last; ++i) {
+    const float weight = abs(at.weight[i]);
     if (weight < least_corner_weight) continue;
-    holds[static_cast<std::size_t>(held++)] = pair.vertex[static_cast<std::size_t>(i)];
-    point += (xyz(positions[pair.vertex[static_cast<std::size_t>(i)]]) - xyz(positions[vertex])) * weight;
+    const int corner = pair.vertex[static_cast<std::size_t>(i)];
+    feature.holds[static_cast<std::size_t>(feature.held++)] = corner;
+    feature.point += (xyz(positions[corner]) - xyz(positions[pair.vertex[0]])) * weight;
   }
-  if (held == 0 || held == 3) return false;
+  return feature;
+}
+
+template <class Counts>
+bool CoveredPairs::rises_beside(const Feature& feature, const Vec3f& towards, int origin, const Record* positions,
+                                Counts counts) const {
+  const auto& holds = feature.holds;
   const auto rises = [&](int corner) {
     // By rounding of the closest point along an edge, one end of the edge may seem to rise.
-    if (corner == holds[0] || (held == 2 && corner == holds[1])) return false;
-    const Vec3f beside = xyz(positions[corner]) - xyz(positions[vertex]) - point;
-    return dot(at.normal, beside) > least_rise * length(beside);
+    if (corner == holds[0] || (feature.held == 2 && corner == holds[1])) return false;
+    const Vec3f beside = xyz(positions[corner]) - xyz(positions[origin]) - feature.point;
+    const float rise = dot(towards, beside);
+    return rise > 0 && rise > least_rise * length(beside);  // most corners of flat meshes need no length
   };
   return std::any_of(around_.begin(holds[0]), around_.end(holds[0]), [&](int number) {
     const Triangle& t = elements_.triangles[static_cast<std::size_t>(number)];
-    if (has(t, vertex) || (held == 2 && !has(t, holds[1]))) return false;
-    return std::any_of(t.begin(), t.end(), rises);
+    return (feature.held != 2 || has(t, holds[1])) && std::any_of(t.begin(), t.end(), rises) && counts(t);
   });
+}
+
+/// For a vertex and a triangle: true if another triangle with the same closest point comes closer to the vertex.
+bool CoveredPairs::is_closer_beside(const PairStencil& pair, const Closest& at, const Record* positions) const {
+  const Feature feature = feature_of(pair, at, 1, 4, positions);
+  if (feature.held == 0 || feature.held == 3) return false;
+  const auto counts = [&](const Triangle& t) { return !has(t, pair.vertex[0]); };
+  return rises_beside(feature, at.normal, pair.vertex[0], positions, counts);
+}
+
+bool CoveredPairs::is_closer_on_mesh(const PairStencil& pair, int side, const Closest& at, const Record* positions,
+                                     const FunctionRef<bool(const PairStencil&)>& is_exempt) const {
+  const Feature feature =
+      side == 0 ? feature_of(pair, at, 0, pair.first_side, positions) : feature_of(pair, at, pair.first_side, 4, positions);
+  if (feature.held == 0 || feature.held == 3) return false;
+  const auto other = side == 0 ? std::pair{pair.first_side, 4} : std::pair{0, pair.first_side};
+  const auto counts = [&](const Triangle& t) {
+    return std::none_of(pair.vertex.begin() + other.first, pair.vertex.begin() + other.second, [&](std::int32_t v) {
+      return is_exempt({{v, t[0], t[1], t[2]}, 1});
+    });
+  };
+  return rises_beside(feature, side == 0 ? -at.normal : at.normal, pair.vertex[0], positions, counts);
 }
 
 bool CoveredPairs::covers(const PairStencil& pair, const Closest& at, const Record* positions) const {
@@ -77,16 +104,37 @@ bool CoveredPairs::covers(const PairStencil& pair, const Closest& at, const Reco
          (second >= 0 && has_triangle_without(v[0], v[1], second));
 }
 
+namespace {
+
+/// The closest points of a pair in double precision.
+template <class Closest>
+Closest in_double(const PairStencil& pair, const Record* positions) {
+  const PairDistance fine = pair_distance(pair, positions);
+  const auto weight = [&](std::size_t i) { return static_cast<float>(fine.weight[i]); };
+  return {{weight(0), weight(1), weight(2), weight(3)}, convert<float>(fine.normal)};
+}
+
+template <class Closest>
+Closest in_lane(const PairBatch& at, int lane) {
+  return {{at.weight[0][lane], at.weight[1][lane], at.weight[2][lane], at.weight[3][lane]},
+          {at.normal[0][lane], at.normal[1][lane], at.normal[2][lane]}};
+}
+
+}  // namespace
+
 /// For slivers and nearly parallel edges, closest points in float can be wrong, so double precision must agree before a
 /// pair is dropped.
 bool CoveredPairs::covers(const PairStencil& pair, const PairBatch& at, int lane, const Record* positions) const {
-  const Closest coarse{{at.weight[0][lane], at.weight[1][lane], at.weight[2][lane], at.weight[3][lane]},
-                       {at.normal[0][lane], at.normal[1][lane], at.normal[2][lane]}};
-  if (!covers(pair, coarse, positions)) return false;
-  if (is_well_conditioned(pair, positions)) return true;
-  const PairDistance fine = pair_distance(pair, positions);
-  const auto weight = [&](std::size_t i) { return static_cast<float>(fine.weight[i]); };
-  return covers(pair, {{weight(0), weight(1), weight(2), weight(3)}, convert<float>(fine.normal)}, positions);
+  if (!covers(pair, in_lane<Closest>(at, lane), positions)) return false;
+  return is_well_conditioned(pair, positions) || covers(pair, in_double<Closest>(pair, positions), positions);
+}
+
+bool CoveredPairs::is_closer_on_mesh(const PairStencil& pair, int side, const PairBatch& at, int lane,
+                                     const Record* positions,
+                                     const FunctionRef<bool(const PairStencil&)>& is_exempt) const {
+  if (!is_closer_on_mesh(pair, side, in_lane<Closest>(at, lane), positions, is_exempt)) return false;
+  return is_well_conditioned(pair, positions) ||
+         is_closer_on_mesh(pair, side, in_double<Closest>(pair, positions), positions, is_exempt);
 }
 
 }  // namespace pliant
