@@ -11,7 +11,6 @@
 namespace pliant::validate {
 namespace {
 
-constexpr int columns = 9;
 constexpr double sag_over_length = 0.05;  // small enough for the beam's linear formula
 
 struct Cantilever {
@@ -19,6 +18,7 @@ struct Cantilever {
   int edges = 12;  // in the free length
   double moved = 0;
   bool alternates = false;
+  int columns = 9;
   double length() const {
     const double weight = double(material.area_density) * standard_gravity;
     return std::cbrt(8 * sag_over_length * double(material.bending_stiffness) / weight);
@@ -29,7 +29,7 @@ struct Cantilever {
 TriangleMesh strip_of(const Cantilever& of) {
   std::mt19937 random(1);
   const auto uniform = [&] { return of.moved * (static_cast<double>(random() % 65536) / 32768 - 1); };
-  const int rows = of.edges + 2;
+  const int rows = of.edges + 2, columns = of.columns;
   const double edge = of.length() / of.edges;
   TriangleMesh mesh;
   for (int i = 0; i < rows; ++i)
@@ -48,18 +48,19 @@ TriangleMesh strip_of(const Cantilever& of) {
   return mesh;
 }
 
-// The sag of the tip at rest over that of the beam.
-double sag_of(const Cantilever& of, int substeps) {
+// The sag of the tip at rest over that of the beam, with so many frames a second.
+double sag_of(const Cantilever& of, int substeps, int rate = 60) {
   ClothOptions options;
   options.material = of.material;
   Object object = make_cloth(strip_of(of), options);
   object.damping = 10;
-  for (int i = 0; i < 2 * columns; ++i) object.pins.push_back({i, {}});
+  for (int i = 0; i < 2 * of.columns; ++i) object.pins.push_back({i, {}});
   World world(scene_with(std::move(object), standard_gravity, substeps, 1));
-  for (int frame = 0; frame < 90; ++frame) world.step(frame_time);
+  for (int frame = 0; frame < 3 * rate / 2; ++frame) world.step(1.f / static_cast<float>(rate));
   const std::vector<Vec3f> end = world.object(0).positions();
+  const auto columns = static_cast<std::size_t>(of.columns);
   double tip = 0;
-  for (std::size_t j = end.size() - columns; j < end.size(); ++j) tip -= static_cast<double>(end[j].y) / columns;
+  for (std::size_t j = end.size() - columns; j < end.size(); ++j) tip -= static_cast<double>(end[j].y) / of.columns;
   return tip / (sag_over_length * of.length());
 }
 
@@ -85,6 +86,15 @@ void bending_rows(Result& result, bool slow) {
   for (const int substeps : {10, 20, 40, 80}) by_substeps.push_back(sag_of({cotton}, substeps) / sag_of({cotton}, 0));
   result.rows.push_back(relative("bending: engine, cotton, 10 to 80 substeps over the default, worst", 1,
                                  farthest(1, by_substeps), 0.03, "", "12 edges"));
+  std::vector<double> by_frames, small;
+  for (const int rate : {30, 120, 250, 500, 1000})
+    by_frames.push_back(sag_of({cotton, 6}, 10, rate) / sag_of({cotton, 6}, 10));
+  result.rows.push_back(relative("bending: engine, cotton, frames of 1/30 to 1/1000 s over 1/60 s, worst", 1,
+                                 farthest(1, by_frames), 0.03, "", "6 edges, 10 substeps"));
+  for (const auto& [edges, columns] : {std::array{6, 2}, {3, 5}, {2, 7}, {5, 4}})
+    small.push_back(sag_of({cotton, edges, 0, false, columns}, 0));
+  result.rows.push_back(relative("bending: engine, cotton, sag over the beam's, 16 to 28 particles, worst", 1,
+                                 farthest(1, small), 0.15, "", "2 x 8, 5 x 5, 7 x 4, 4 x 7 particles"));
 }
 
 }  // namespace pliant::validate

@@ -9,6 +9,7 @@
 #include "inspect/problems.h"
 #include "matter/advice_settings.h"
 #include "model/sheet_bending.h"
+#include "model/sheet_choice.h"
 
 namespace pliant {
 
@@ -16,6 +17,8 @@ namespace {
 
 /// Hinges that bend too far by more than this share are told; the advice is for `wanted_excess`.
 constexpr double tolerated_excess = 0.25, wanted_excess = 0.05;
+/// By what share hinges bend too far, of h^2 B / (rho e^4) (excess_of_hinges).
+constexpr double error_of_hinges = 2.3;
 /// The substeps of an object whose substeps follow the State, as compile() assumes for those that do not.
 constexpr int substeps_by_state = 20;
 
@@ -49,7 +52,9 @@ std::vector<SoftHinges> find_soft_hinges(const Scene& scene, const Settings& set
     const int substeps = substeps_of[o] > 0 ? substeps_of[o] : substeps_by_state;
     const double h = static_cast<double>(scene.frame_time) /
                      (substeps * std::sqrt(static_cast<double>(std::max(1, settings.iterations))));
-    const double excess = excess_of_hinges(object, h);
+    const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+    const double excess = has_long_edges(object, gravity) ? error_of_hinges * h * h * facts_of_sheet(object).stiffness
+                                                          : excess_of_hinges(object, h);
     if (excess > tolerated_excess) found.push_back(words_of_hinges(object, excess, substeps));
   }
   return found;

@@ -1,4 +1,4 @@
-// Which sheets bend as a whole, and what their hinges say of the material (model/sheet_bending.h).
+// Which sheets bend as a whole, and what their hinges say of the material (model/sheet_bending.h, model/sheet_choice.h).
 #include <algorithm>
 #include <cmath>
 
@@ -7,14 +7,15 @@
 #include "math/disjoint_sets.h"
 #include "math/vector.h"
 #include "model/sheet_bending.h"
+#include "model/sheet_choice.h"
 #include "topology/edges.h"
 
 namespace pliant {
 
 namespace {
 
-/// Hinges err by 2.3 of this: where s = h^2 B / (rho e^4) is less, they are within 5 %, and cost less.
-constexpr double most_of_hinges = 0.02;
+/// B / (rho g e^3) below which the edges of a sheet are long.
+constexpr double least_self_support = 11;
 /// Beyond this, l / e = 18, floats of M + h^2 K have no room for M: measured up to 16.
 constexpr double most_of_floats = 1e5;
 /// Hinges at a vertex that differ by more in their stiffness are a crease, or a seam of another material.
@@ -136,12 +137,12 @@ bool is_of_material(const ConstraintGroup& group) {
          group.keyframes.empty() && !(group.break_force > 0);
 }
 
-/// The rigidity at each particle: the mean of its hinges; 0 without one.
+/// The rigidity at each particle: the mean of its hinges with compliances; 0 without one.
 std::vector<double> rigidities(const Object& object) {
   std::vector<double> sum(object.positions.size(), 0), count(object.positions.size(), 0);
   for (const ConstraintGroup& group : object.constraints) {
     if (!is_hinge(group.type)) continue;
-    for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
+    for (std::size_t i = 0; i < group.compliances.size() && 4 * i + 3 < group.particles.size(); ++i) {
       const double b = rigidity_of(hinge_at(object, group, i), double(group.compliances[i]), is_flat_hinge(group.type));
       for (std::size_t slot = 0; slot < 4; ++slot) {
         sum[at(group.particles[4 * i + slot])] += b;
@@ -206,6 +207,19 @@ double sheet_stiffness(const Object& object) {
   return rigidity / hinges / (density * edge * edge * edge * edge);
 }
 
+/// The mean length of the edges with hinges [m]; 0 of none.
+double mean_hinge(const Object& object) {
+  double edges = 0, hinges = 0;
+  for (const ConstraintGroup& group : object.constraints) {
+    if (!is_hinge(group.type)) continue;
+    for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
+      edges += length(rest_position(object, group.particles[4 * i + 1]) - rest_position(object, group.particles[4 * i]));
+      hinges += 1;
+    }
+  }
+  return hinges > 0 ? edges / hinges : 0;
+}
+
 /// Damping over stiffness of the hinges [s].
 float damping_time(const Object& object) {
   float time = 0;
@@ -223,12 +237,17 @@ float damping_time(const Object& object) {
 
 bool bends_as_sheet(const Object& object, double h) {
   const double stiffness = sheet_stiffness(object);
-  if (!(h * h * stiffness > most_of_hinges && h * h * stiffness < most_of_floats)) return false;
+  if (!(stiffness > 0 && h * h * stiffness < most_of_floats)) return false;
   const auto can_be_sheet = [&](const ConstraintGroup& group) {
     return !is_hinge(group.type) || group.particles.empty() || is_of_material(group);
   };
   return object.bodies.empty() && std::all_of(object.constraints.begin(), object.constraints.end(), can_be_sheet) &&
          is_flat(object) && has_hinges_everywhere(object) && is_at_rest(object) && is_alike(object);
+}
+
+bool has_long_edges(const Object& object, double gravity) {
+  constexpr double on_earth = 9.81;
+  return sheet_stiffness(object) * mean_hinge(object) < least_self_support * std::max(gravity, on_earth);
 }
 
 double excess_of_hinges(const Object& object, double h) {

@@ -6,7 +6,7 @@
 //     predict       v += h g, displacement = h v                            symplectic Euler
 //                   contacts of particles with colliders along the predicted path
 //     collide       contacts between surfaces are found
-//     bend          fine flat sheets bend as a whole
+//     bend          flat sheets bend as a whole
 //     solve         iterations x (constraints in the order of the sweep, acceleration, tethers, contacts)
 //     solve again   chains and contacts in turn, where surfaces press on one another; contacts yield a little
 //     limit         the few distances that are still far too long are shortened

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/at.h"
+#include "model/sheet_choice.h"
 #include "pliant/mesh.h"
 #include "topology/edges.h"
 
@@ -211,11 +212,21 @@ TEST(SheetBending, SharedEntriesPullNoWay) {
   }
 }
 
-TEST(SheetBending, IsForFlatSheetsWithShortEdgesAndTheHingesOfAMaterial) {
+// (B / rho g)^(1/3) is 24.6 mm; edges with diagonals are 1.138 times 2 mm on average.
+TEST(SheetBending, EdgesAreLongWhereTheSheetBendsWithinTwo) {
+  const Object sheet = fine_sheet(9, 0, false);
+  const double bending_length = std::cbrt(rigidity / (density * 9.81)), edge = 1.138 * spacing;
+  const double of_long_edges = 9.81 * std::pow(bending_length * 0.45 / edge, 3);  // gravity that makes them so
+  EXPECT_FALSE(has_long_edges(sheet, 0.8 * of_long_edges));
+  EXPECT_TRUE(has_long_edges(sheet, 1.25 * of_long_edges));
+  EXPECT_FALSE(has_long_edges(sheet, 0));
+}
+
+TEST(SheetBending, IsForFlatSheetsWithTheHingesOfAMaterial) {
   constexpr double h = 1.0 / 60 / 20;
   const Object fine = fine_sheet(9, 0, false);
   EXPECT_TRUE(bends_as_sheet(fine, h));
-  EXPECT_FALSE(bends_as_sheet(fine, h / 20)) << "substeps so short that hinges converge";
+  EXPECT_TRUE(bends_as_sheet(fine, h / 2000)) << "substeps so short that hinges converge, but too soft by their mesh";
 
   Object folded = fine;
   for (Vec3f& p : folded.positions) p.y = 0.3f * std::fabs(p.x - 0.008f);
@@ -252,6 +263,8 @@ TEST(SheetBending, IsForFlatSheetsWithShortEdgesAndTheHingesOfAMaterial) {
   for (ConstraintGroup& group : as_given.constraints)
     if (group.type == "dihedral_bending") group.compliances.clear();
   EXPECT_FALSE(bends_as_sheet(as_given, h)) << "a compliance that the user gives each hinge";
+  EXPECT_EQ(facts_of_sheet(as_given).stiffness, 0);
+  EXPECT_EQ(facts_of_sheet(as_given).rigidity.front(), 0);
 }
 
 }  // namespace

@@ -1,110 +1,17 @@
 #include "solver/sheets/sheet_cycle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
-#include <type_traits>
 
 #include "core/at.h"
+#include "solver/sheets/sheet_rows.h"
 
-namespace pliant {
+namespace pliant::sheets {
 
 namespace {
 
 /// How much heavier a particle is for coarse levels that has become a pin.
 constexpr float weight_of_pins = 1e4f;
-
-/// A record as four floats: x, y, z, w side by side, in the compiler's own vector type.
-typedef float Four __attribute__((vector_size(16)));
-
-Four load(const Record& r) {
-  Four out;
-  std::memcpy(&out, &r, sizeof out);
-  return out;
-}
-void store(const Four& value, Record& r) { std::memcpy(static_cast<void*>(&r), &value, sizeof value); }
-
-/// A level's matrix beside its diagonal: `scale` times `entries`.
-struct Matrix {
-  const SheetLevel& level;
-  const float* entries = nullptr;
-  float scale = 1;
-};
-
-Matrix matrix_of(const SheetBending& sheet, const SheetScratch& scratch, std::size_t l) {
-  if (l == 0) return {sheet.levels[0], sheet.levels[0].stiffness.data(), scratch.h2};
-  return {sheet.levels[l], scratch.levels[l].entries.data(), 1};
-}
-
-/// The sums of a_ij term(j - i, row) over entries [first, last) of a pattern, less the scale, for `n` rows that share it:
-/// of two sums each, since an addition waits for the one before. Rows side by side change no bit.
-template <int n, class Term>
-[[gnu::always_inline]] inline std::array<Four, n> sums_over(const Matrix& a, std::int32_t first, std::int32_t last,
-                                                            const Term& term) {
-  std::array<Four, n> even{}, odd{};
-  const float* k = a.entries;
-  const std::int32_t* offset = a.level.offset.data();
-  std::int32_t e = first;
-  for (; e + 1 < last; e += 2)
-    for (int row = 0; row < n; ++row) {
-      even[at(row)] += term(offset[e], row) * k[e];
-      odd[at(row)] += term(offset[e + 1], row) * k[e + 1];
-    }
-  for (int row = 0; row < n; ++row) {
-    if (e < last) even[at(row)] += term(offset[e], row) * k[e];
-    even[at(row)] += odd[at(row)];
-  }
-  return even;
-}
-
-/// The same of a_ij x_j. `x`: the value of the first row.
-template <int n>
-[[gnu::always_inline]] inline std::array<Four, n> sums_of(const Matrix& a, const Record* x, std::int32_t first,
-                                                          std::int32_t last) {
-  return sums_over<n>(a, first, last, [&](std::int32_t offset, int row) { return load(x[offset + row]); });
-}
-int first_of(int block) { return block * sheet_block; }
-int last_of(int block, int rows) { return std::min(rows, (block + 1) * sheet_block); }
-
-/// So many rows of one pattern are processed at a time, which loads each entry once. Gauss-Seidel handles entries between
-/// these rows last, one row after another; storage seldom puts neighbours so near (topology/numbering.h).
-constexpr int abreast = 4;
-
-/// True if `abreast` rows from `i` on share a pattern.
-bool are_alike(const SheetLevel& level, int i) {
-  const std::int32_t* p = level.pattern.data() + i;
-  return p[1] == p[0] && p[2] == p[0] && p[3] == p[0];
-}
-
-/// Calls body(count, row, pattern) for rows [row, row + count), which share a pattern. `count` is a constant: `abreast`
-/// or one.
-template <class Body>
-void call_for(const SheetLevel& level, int count, int row, const Body& body) {
-  const std::size_t p = at(level.pattern[at(row)]);
-  if (count == abreast) return body(std::integral_constant<int, abreast>(), row, p);
-  body(std::integral_constant<int, 1>(), row, p);
-}
-
-/// Calls it for all rows of a block.
-template <class Body>
-void for_rows(const SheetLevel& level, int block, const Body& body) {
-  const int last = last_of(block, level.rows);
-  for (int i = first_of(block), count = 0; i < last; i += count) {
-    count = i + abreast <= last && are_alike(level, i) ? abreast : 1;
-    call_for(level, count, i, body);
-  }
-}
-
-/// The same from the last row to the first.
-template <class Body>
-void for_rows_down(const SheetLevel& level, int block, const Body& body) {
-  const int first = first_of(block);
-  for (int i = last_of(block, level.rows), count = 0; i > first; i -= count) {
-    count = i - abreast >= first && are_alike(level, i - abreast) ? abreast : 1;
-    call_for(level, count, i - count, body);
-  }
-}
 
 /// The first entry below a row that is near it.
 std::int32_t near_below(const SheetLevel& level, std::size_t p) {
@@ -381,10 +288,9 @@ void set_masses(const SheetBending& sheet, const Record* positions, SheetScratch
     if (l > 0) continue;
     added.assign(rows, 0);
     for (std::size_t i = 0; i < rows; ++i) {
-      const bool is_free = positions[i].w > 0 && (sheet.is_held.empty() || sheet.is_held[i] == 0);
-      const float now = is_free ? 1 / positions[i].w : weight_of_pins * own.mass[i];
-      added[i] = std::max(now - own.mass[i], 0.f);
-      own.mass[i] = is_free ? now : 0;
+      const float now = mass_of(sheet, positions, i);
+      added[i] = std::max((now > 0 ? now : weight_of_pins * own.mass[i]) - own.mass[i], 0.f);
+      own.mass[i] = now;
     }
   }
   scratch.moved.resize(scratch.levels.front().mass.size());
@@ -407,73 +313,10 @@ void factorise(const SheetBending& sheet, SheetScratch& scratch) {
     factorise_last(sheet.levels.back(), scratch.levels.back(), scratch.h2, scratch.factor);
 }
 
-float distance_squared(const Record& a, const Record& b) {
-  const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-  return x * x + y * y + z * z;
-}
-
-/// True if a block is so wide for the distances of its neighbours that places from its first row, rounded, would blur
-/// these more than positions do: pieces of a sheet that have flown apart.
-bool is_wide_block(const SheetLevel& level, const Record* x, int block) {
-  constexpr float many = 512;  // distances of neighbours; a square block is some ten wide
-  constexpr int apart = 64;    // rows between those whose neighbours are measured
-  const int first = first_of(block), last = last_of(block, level.rows);
-  float width = 0, longest = 0;
-  for (int i = first; i < last; ++i) width = std::max(width, distance_squared(x[i], x[first]));
-  for (int i = first; i < last; i += apart) {
-    const std::size_t p = at(level.pattern[at(i)]);
-    for (std::int32_t e = level.begin[p]; e < level.outside[p]; ++e)
-      longest = std::max(longest, distance_squared(x[i + level.offset[at(e)]], x[i]));
-  }
-  return width > many * many * longest;
-}
-
-void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, BlockLoop loop, SheetScratch& scratch) {
-  const SheetLevel& level = sheet.levels.front();
-  SheetLevelScratch& own = scratch.levels.front();
-  const Four gravity{forces.gravity.x, forces.gravity.y, forces.gravity.z, 0};
-  const Four load_of_all = gravity * (forces.substeps * forces.substeps);
-  // Damping resists motion alone: positions count (n h)^2 times, motion h2 times.
-  const float all = forces.substeps * forces.h, undamped = all * all, by = forces.substeps * (scratch.h2 / undamped);
-  const Record* x = forces.positions;
-  const auto motion = [&](std::int32_t i) {
-    const Four d = load(forces.displacements[i]);
-    return (x[i].w > 0 ? d - gravity : d) * by;
-  };
-  // Places from the first row of the block: what they lose by rounding is less than what positions of blocks that are
-  // not wide have lost.
-  scratch.is_wide.resize(at(level.blocks()));
-  loop(level.blocks(), [&](int block) {
-    scratch.is_wide[at(block)] = is_wide_block(level, x, block) ? 1 : 0;
-    const int first = first_of(block);
-    for (int i = first; i < last_of(block, level.rows); ++i)
-      store((load(x[i]) - load(x[first])) + motion(i), scratch.moved[at(i)]);
-  });
-  const Matrix a{level, level.stiffness.data(), undamped};
-  loop(level.blocks(), [&](int block) {
-    for_rows(level, block, [&](auto count, int first, std::size_t p) {
-      constexpr int n = decltype(count)::value;
-      const Record* y = scratch.moved.data() + first;
-      const std::int32_t end_inside = scratch.is_wide[at(block)] != 0 ? level.begin[p] : level.outside[p];
-      const auto inside = sums_over<n>(a, level.begin[p], end_inside,
-                                       [&](std::int32_t offset, int row) { return load(y[offset + row]) - load(y[row]); });
-      const auto outside = sums_over<n>(a, end_inside, level.begin[p + 1], [&](std::int32_t offset, int row) {
-        const std::int32_t i = first + row, j = i + offset;
-        return (load(x[j]) - load(x[i])) + (motion(j) - motion(i));
-      });
-      for (int row = 0; row < n; ++row) {
-        const std::size_t i = at(first + row);
-        const Four r = load_of_all * own.mass[i] - (inside[at(row)] + outside[at(row)]) * undamped;
-        store(own.inverse[i] == 0 ? Four{} : r, own.right[i]);
-      }
-    });
-  });
-}
-
 void solve_sheet(const SheetBending& sheet, int cycles, BlockLoop loop, SheetScratch& scratch) {
   if (cycles > 1) return iterate(sheet, cycles, loop, scratch);
   cycle(sheet, 0, loop, scratch);
   scratch.corrections.swap(scratch.levels.front().x);
 }
 
-}  // namespace pliant
+}  // namespace pliant::sheets

@@ -21,10 +21,17 @@ int cycles_for(float edges4) {
   for (const float limit : limits) cycles += edges4 > limit * limit * limit * limit ? 1 : 0;
   return cycles;
 }
-/// One bending is for as many substeps as keep (l / e)^4 below this, so that it bends over few edges: sheets that hang
-/// have many substeps for their stretch. Where something may be touched, each substep has a bending: fine cotton slid
-/// off a ball else.
+/// The same without coarse levels, of Gauss-Seidel: a sweep reaches about an edge.
+int sweeps_for(float edges4) { return 4 + static_cast<int>(std::sqrt(sheets::largest_of_grid * edges4) / 2); }
+
+/// One bending is for as many substeps as keep (l / e)^4 below this, so that it bends over few edges, and for so many at
+/// most: sheets that hang have many substeps for their stretch. For 9 to 40 substeps sheets of two to four edges crumpled.
+/// Where something may be touched, each substep has a bending: fine cotton slid off a ball else.
 constexpr float most_edges4 = 4;
+constexpr int most_together = 4;
+
+/// What K is multiplied by in P [s^2].
+float h2_of(const SheetBending& sheet, float seconds) { return seconds * (seconds + sheet.damping_time); }
 
 /// The substeps that one bending is for, and the number of the present one among them.
 struct Together {
@@ -34,13 +41,14 @@ struct Together {
 Together substeps_of_bending(const Substep& s, const SheetBending& sheet) {
   const bool may_touch = s.has_pairs() || s.bodies != nullptr || !s.own->colliders.empty();
   const int all = s.follows_state() ? s.planned / quarters : s.planned, number = s.number % all;
-  const int most = may_touch ? 1 : all;
-  const auto edges4 = [&](int substeps) {
-    const float seconds = static_cast<float>(substeps) * s.h;
-    return seconds * (seconds + sheet.damping_time) * sheet.stiffness;
+  const int most = may_touch ? 1 : std::min(all, most_together);
+  const auto most_within = [&](float rate, float limit) {
+    int n = 0;
+    while (n < most && h2_of(sheet, static_cast<float>(n + 1) * s.h) * rate <= limit) ++n;
+    return n;
   };
-  int period = 1;
-  while (period < most && edges4(period + 1) <= most_edges4) ++period;
+  int period = most_within(sheets::largest_of_grid * sheet.stiffness, 1);  // one term costs a quarter of a cycle
+  if (period == 0) period = std::max(1, most_within(sheet.stiffness, most_edges4));
   const int begun = number - number % period;
   return {std::min(period, all - begun), number - begun};
 }
@@ -51,12 +59,13 @@ bool is_sheet(const Substep& s, int object) { return s.model.objects[at(object)]
 void begin_sheet(Substep& s, int object, float seconds, SheetScratch& scratch) {
   const CompiledObject& of = s.model.objects[at(object)];
   const SheetBending& sheet = of.sheet;
-  const float h2 = seconds * (seconds + sheet.damping_time);
+  const float h2 = h2_of(sheet, seconds);
   if (s.made > 0 && scratch.h2 == h2) return;
   scratch.h2 = h2;
   const Record* positions = s.state.positions.data() + s.model.first[at(object)];
-  set_masses(sheet, positions, scratch);
-  factorise(sheet, scratch);
+  if (sheets::terms_for(sheet, h2) > 0) return sheets::set_diagonals(sheet, positions, scratch);
+  sheets::set_masses(sheet, positions, scratch);
+  sheets::factorise(sheet, scratch);
 }
 
 /// Adds a row's correction to the sums of its piece.
@@ -88,9 +97,10 @@ void for_loose_rows(const SheetBending& sheet, const SheetScratch& scratch, cons
 /// Gravity passes P by where nothing is pinned: through P a piece would fall by P^-1 M g, with ripples.
 void leave_out_gravity(const SheetBending& sheet, const Vec3f& gravity, SheetScratch& scratch) {
   SheetLevelScratch& finest = scratch.levels.front();
+  const bool is_polynomial = sheets::terms_for(sheet, scratch.h2) > 0;
   for_loose_rows(sheet, scratch, [&](std::size_t i) {
-    Record& r = finest.right[i];
-    const Vec3f by = gravity * finest.mass[i];
+    Record& r = is_polynomial ? scratch.corrections[i] : finest.right[i];
+    const Vec3f by = gravity * (finest.mass[i] * (is_polynomial ? finest.inverse[i] : 1));
     r = {r.x - by.x, r.y - by.y, r.z - by.z, r.w};
   });
 }
@@ -121,7 +131,7 @@ void move_loose_pieces(const SheetBending& sheet, const Record* positions, const
 }
 
 /// d += corrections / n^2 - h^2 g, where bending is for n substeps: in each of them velocities change by the same.
-void apply(Substep& s, int object, const SheetForces& forces, BlockLoop loop, const SheetScratch& scratch) {
+void apply(Substep& s, int object, const sheets::SheetForces& forces, sheets::BlockLoop loop, const SheetScratch& scratch) {
   const SheetBending& sheet = s.model.objects[at(object)].sheet;
   const Vec3f g = forces.gravity;
   const float share = 1 / (forces.substeps * forces.substeps);
@@ -139,15 +149,20 @@ void apply(Substep& s, int object, const SheetForces& forces, BlockLoop loop, co
 }
 
 /// Finds the corrections for the substeps from this one on.
-void find_corrections(Substep& s, int object, const SheetForces& forces, BlockLoop loop, SheetScratch& scratch) {
+void find_corrections(Substep& s, int object, const sheets::SheetForces& forces, sheets::BlockLoop loop,
+                      SheetScratch& scratch) {
   const SheetBending& sheet = s.model.objects[at(object)].sheet;
   begin_sheet(s, object, forces.substeps * s.h, scratch);
-  find_right_hand_side(sheet, forces, loop, scratch);
+  sheets::find_right_hand_side(sheet, forces, loop, scratch);
   const Vec3f load = forces.gravity * (forces.substeps * forces.substeps);
-  const bool all_pinned = find_pinned(sheet, scratch);
-  if (!all_pinned) leave_out_gravity(sheet, load, scratch);
-  solve_sheet(sheet, cycles_for(scratch.h2 * sheet.stiffness), loop, scratch);
-  if (!all_pinned) move_loose_pieces(sheet, forces.positions, load, scratch);
+  const int terms = sheets::terms_for(sheet, scratch.h2);
+  const bool any_moves = !(terms > 0 && sheets::keeps_momentum(scratch)) && !find_pinned(sheet, scratch);
+  if (any_moves) leave_out_gravity(sheet, load, scratch);
+  if (terms > 1) sheets::add_term(sheet, loop, scratch);
+  const float edges4 = scratch.h2 * sheet.stiffness;
+  const bool has_levels = sheet.levels.size() > 1 || sheet.levels.front().rows <= coarsest_sheet_rows;
+  if (terms == 0) sheets::solve_sheet(sheet, has_levels ? cycles_for(edges4) : sweeps_for(edges4), loop, scratch);
+  if (any_moves) move_loose_pieces(sheet, forces.positions, load, scratch);
 }
 
 void bend(Substep& s, int object) {
@@ -155,8 +170,8 @@ void bend(Substep& s, int object) {
   const Together together = substeps_of_bending(s, s.model.objects[at(object)].sheet);
   const int first = s.model.first[at(object)];
   const Vec3f gravity = gravity_for(s, static_cast<double>(s.h)) * s.h;
-  const SheetForces forces{s.state.positions.data() + first, s.work.displacements.data() + first, gravity, s.h,
-                           static_cast<float>(together.substeps)};
+  const sheets::SheetForces forces{s.state.positions.data() + first, s.work.displacements.data() + first, gravity, s.h,
+                                   static_cast<float>(together.substeps)};
   const auto loop = [&](int blocks, FunctionRef<void(int)> body) { for_tasks(s, "bend sheets", blocks, body); };
   if (together.number == 0) find_corrections(s, object, forces, loop, scratch);
   apply(s, object, forces, loop, scratch);
