@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "pliant/body.h"
+#include "pliant/edit.h"
+#include "pliant/joint.h"
+#include "pliant/material.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
 #include "support/run.h"
+#include "world/run_time_support.h"
 #include "world/world_support.h"
 
 namespace pliant {
@@ -272,6 +276,111 @@ TEST(BodyPoints, HasTheSameBitsOnAnyNumberOfThreads) {
     hashes[i] = world.state_hash();
   }
   EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+/// A crate of 0.2 m on cotton on a table.
+Scene crate_on_cotton(bool is_mesh, float friction, float mass) {
+  Scene scene;
+  ClothOptions options;
+  options.material = fabric("cotton");
+  Object cloth = make_cloth(grid_mesh(9, 9, 0.5f, 0.5f), options);
+  for (Vec3f& p : cloth.positions) p.y = 0.005f;
+  cloth.thickness = 0.003f;
+  cloth.self_collision = cloth.collides = true;
+  Object crate = body(Box{{0.1f, 0.1f, 0.1f}}, {0, 0.11f, 0}, mass),
+         table = body(Box{{1, 0.1f, 1}}, {0, -0.1f, 0}, INFINITY);
+  for (Object* object : {&cloth, &crate, &table}) object->static_friction = object->kinetic_friction = friction;
+  scene.add(crate);
+  scene.add(cloth);
+  if (!is_mesh) scene.add(table);
+  if (!is_mesh) return scene;
+  MeshCollider mesh;
+  mesh.mesh = testing_support::box_mesh({2, 0.2f, 2});
+  for (Vec3f& p : mesh.mesh.positions) p.y -= 0.1f;
+  mesh.static_friction = mesh.kinetic_friction = friction;
+  scene.add(mesh);
+  return scene;
+}
+
+/// The fastest of a frame in the second second [m/s].
+float creep(const Scene& scene) {
+  World world(scene);
+  run(world, 60);
+  float fastest = 0;
+  Vec3f last = world.object(0).positions()[0];
+  for (int frame = 0; frame < 30; ++frame) {
+    EXPECT_TRUE(world.step(dt).ok());
+    const Vec3f now = world.object(0).positions()[0];
+    fastest = std::max(fastest, std::hypot(now.x - last.x, now.z - last.z) / dt);
+    last = now;
+  }
+  return fastest;
+}
+
+/// Friction holds, and on level ground nothing drives. The crate has 8 500 and 85 000 masses of an inner particle.
+TEST(BodyPoints, ACrateOnATableClothLiesStill) {
+  for (const bool is_mesh : {false, true})
+    for (const float friction : {0.4f, 0.8f})
+      for (const float mass : {4.f, 40.f})
+        EXPECT_LT(creep(crate_on_cotton(is_mesh, friction, mass)), 0.001f)
+            << (is_mesh ? "mesh" : "body") << ", friction " << friction << ", " << mass << " kg";
+}
+
+/// A strip of cotton that hangs by its upper end, and two fingers of 50 g on sliders that close with a force [N].
+Scene fingers_about_cotton(float grip, std::vector<int>& top) {
+  Scene scene;
+  ClothOptions options;
+  options.material = fabric("cotton");
+  Object cloth = make_cloth(grid_mesh(9, 17, 0.1f, 0.2f), options);
+  const Vec3f first = cloth.positions.front(), last = cloth.positions.back();
+  for (Vec3f& p : cloth.positions) p = {p.x - (first.x + last.x) / 2, p.z - (first.z + last.z) / 2, 0};
+  for (int i = 0; i < static_cast<int>(cloth.positions.size()); ++i)
+    if (cloth.positions[static_cast<std::size_t>(i)].y > 0.0999f) top.push_back(i);
+  for (const int i : top) cloth.pins.push_back({i, {}});
+  cloth.collides = true;
+  Object gripper;
+  BodyOptions hand;
+  hand.kinematic = true;
+  hand.position = {0.3f, 0.05f, 0};
+  add_body(gripper, {{Sphere{0.005f}}}, hand);
+  for (const float side : {-1.f, 1.f}) {
+    BodyOptions finger;
+    finger.mass = 0.05f;
+    finger.position = {0, 0.05f, 0.03f * side};
+    SliderJoint slider;
+    slider.a = 0;
+    slider.b = add_body(gripper, {{Box{{0.02f, 0.015f, 0.005f}}}}, finger);
+    slider.anchor = finger.position;
+    slider.axis = {0, 0, 1};
+    slider.motor = JointMotor{.target = -0.05f * side, .most = grip};
+    add_joint(gripper, slider);
+  }
+  for (Object* object : {&cloth, &gripper}) object->static_friction = object->kinetic_friction = 0.8f;
+  scene.add(cloth);
+  scene.add(gripper);
+  return scene;
+}
+
+/// The fingers bear their own weight and that of the strip, and nothing drives them aside.
+TEST(BodyPoints, FingersBearTheClothThatTheyGrip) {
+  std::vector<int> top;
+  const Scene scene = fingers_about_cotton(3, top);
+  World world(scene);
+  world.record_joint_loads(true);
+  run(world, 60);
+  Edit edit = unchanged(scene.objects[0]);
+  edit.object.pins.clear();
+  world.edit(0, edit);
+  run(world, 60);
+  Vec3f sum{};
+  for (int frame = 0; frame < 30; ++frame) {
+    ASSERT_TRUE(world.step(dt).ok());
+    for (const int joint : {0, 1}) sum += world.object(1).mean_joint_load(joint).force * (1.f / 30);
+  }
+  const float weight = 9.81f * (0.1f + 0.02f * fabric("cotton").area_density);
+  EXPECT_NEAR(sum.y, weight, 0.02f * weight);
+  EXPECT_NEAR(sum.x, 0, 0.03f);
+  EXPECT_NEAR(sum.z, 0, 0.03f);
 }
 
 }  // namespace

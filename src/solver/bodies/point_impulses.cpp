@@ -1,6 +1,7 @@
 #include "solver/bodies/point_impulses.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "constraints/contact.h"
 #include "solver/bodies/body_math.h"
@@ -44,7 +45,7 @@ void PointImpulses::note_progress(const Substep& s, const BodySolids& solids) {
 void PointImpulses::begin_pass(const Substep& s, const BodySolids& solids) {
   const std::vector<TouchedBody>& all = solids.bodies();
   for (std::size_t b = 0; b < all.size(); ++b) {
-    Progress& p = progress_[b];
+    BodyProgress& p = progress_[b];
     const std::size_t frame = at(all[b].frame);
     p.moved = p.moved_before = xyz(s.work.displacements[at(all[b].particle)]) - p.displacement;
     p.turned = p.turned_before = (xyz(s.work.frames.predicted[frame]) + xyz(s.work.frames.corrections[frame])) - p.rotation;
@@ -54,7 +55,7 @@ void PointImpulses::begin_pass(const Substep& s, const BodySolids& solids) {
 void PointImpulses::end_pass(Substep& s, const BodySolids& solids) {
   const std::vector<TouchedBody>& all = solids.bodies();
   for (std::size_t b = 0; b < all.size(); ++b) {
-    const Progress& p = progress_[b];
+    const BodyProgress& p = progress_[b];
     const Vec3f turned = p.turned - p.turned_before;
     Record& d = s.work.displacements[at(all[b].particle)];
     d = plus(d, p.moved - p.moved_before);
@@ -69,7 +70,7 @@ void PointImpulses::end_pass(Substep& s, const BodySolids& solids) {
 void PointImpulses::project(Substep& s, const BodySolids& solids, const BodyMotion& motion, Contact& c, bool yields) {
   const int number = solids.number_of(c);
   const Record *positions = s.state.positions.data(), *displacements = s.work.displacements.data();
-  Progress& p = progress_[at(number)];
+  BodyProgress& p = progress_[at(number)];
   const Vec3f centre = (xyz(positions[solids.bodies()[at(number)].particle]) + p.displacement) + p.moved;
   const Vec3f arm = place_of(c, positions, displacements) - centre;
   ContactSums<float> sums{c.friction, c.push};
@@ -94,6 +95,8 @@ void PointImpulses::project(Substep& s, const BodySolids& solids, const std::vec
   for (Contact& contact : contacts_)
     if (of == nullptr || (*of)[at(s.model.object_of(contact.point[0]))] != 0)
       project(s, solids, motions[at(solids.number_of(contact))], contact, true);
+  if (!std::exchange(pinched_are_found_, true)) pinched_.find(s, solids, contacts_);
+  pinched_.project(s, {solids, motions, contacts_, impulses_, progress_});
   end_pass(s, solids);
 }
 
@@ -107,6 +110,7 @@ void PointImpulses::project_from(Substep& s, const BodySolids& solids, std::size
 
 std::size_t PointImpulses::append(const std::vector<Contact>& more) {
   const std::size_t first = contacts_.size();
+  pinched_ = {};  // the motion of bodies is counted from another time than theirs
   contacts_.insert(contacts_.end(), more.begin(), more.end());
   impulses_.resize(contacts_.size());
   return first;
@@ -119,6 +123,7 @@ void PointImpulses::begin_frame() {
 
 void PointImpulses::begin_substep(const Substep& s, const BodySolids& solids) {
   impulses_.assign(contacts_.size(), 0.f);
+  pinched_are_found_ = false;
   note_progress(s, solids);
 }
 

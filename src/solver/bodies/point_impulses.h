@@ -11,6 +11,7 @@
 #include "collision/narrow/contact.h"
 #include "solver/bodies/body_solids.h"
 #include "solver/bodies/manifold_passes.h"
+#include "solver/bodies/pinched_points.h"
 #include "solver/bodies/velocity_shares.h"
 #include "solver/contact_log.h"
 
@@ -48,13 +49,6 @@ class PointImpulses {
   void log_contacts(const Substep& s, const BodySolids& solids, const VelocityShares& shares, ContactLog& log) const;
 
  private:
-  /// How a body has moved since contacts were found, and in this pass.
-  struct Progress {
-    Vec3f displacement{}, rotation{};       ///< at the prediction [m], [rad]
-    Vec3f moved{}, turned{};                ///< since then
-    Vec3f moved_before{}, turned_before{};  ///< those when the pass began
-  };
-
   void begin_pass(const Substep& s, const BodySolids& solids);
   void end_pass(Substep& s, const BodySolids& solids);
   void project(Substep& s, const BodySolids& solids, const BodyMotion& motion, Contact& contact, bool yields);
@@ -62,7 +56,9 @@ class PointImpulses {
   std::vector<Contact> contacts_;
   std::vector<float> impulses_;
   std::vector<float> bounced_;  ///< what respond gave beside them: the next substep's loads are not to take it for a weight
-  std::vector<Progress> progress_;  ///< of bodies
+  std::vector<BodyProgress> progress_;  ///< of bodies
+  PinchedPoints pinched_;
+  bool pinched_are_found_ = false;  ///< among contacts_
 };
 
 }  // namespace pliant

@@ -1,0 +1,185 @@
+#include "solver/bodies/pinched_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/bodies/body_math.h"
+#include "solver/substep.h"
+
+namespace pliant {
+
+namespace {
+
+/// Both normals are opposite if their product is below this.
+constexpr float opposite = -0.8f;
+/// The weight from which a contact is one of a single vertex.
+constexpr float whole_weight = 0.999f;
+constexpr int rounds_of_pinches = 4;
+
+bool has_single_vertex(const Contact& c) { return c.weight[0] > whole_weight; }
+
+/// One side of a pinched vertex.
+struct PinchSide {
+  Contact* contact = nullptr;
+  float sign = 1;         ///< of the contact's normal and motion
+  Vec3f normal{}, arm{};  ///< from the side to the vertex; from the body's centre to the vertex
+  Vec3f moved{}, slip{};  ///< of the vertex against the side in the substep; less what is no motion [m]
+  Vec3f predicted{};      ///< of a body, whose contacts have their gap after it; else of its surface along itself [m]
+  BodyMotion motion{};    ///< without mass and inertia if it is no body
+  BodyProgress* progress = nullptr;
+};
+
+PinchSide side_of(const Substep& s, Contact& c, float sign) {
+  PinchSide out;
+  out.contact = &c;
+  out.sign = sign;
+  out.normal = c.normal * sign;
+  out.moved = relative(c, s.work.displacements.data()) * sign;
+  out.predicted = c.surface_motion * sign;
+  out.slip = out.moved - (c.carried + c.surface_motion) * sign;
+  return out;
+}
+
+PinchSide side_of_body(const Substep& s, const PinchedPoints::Parts& parts, Contact& c) {
+  PinchSide out = side_of(s, c, 1);
+  const int number = parts.solids.number_of(c);
+  const Record *positions = s.state.positions.data(), *displacements = s.work.displacements.data();
+  BodyProgress& p = parts.progress[at(number)];
+  out.progress = &p;
+  out.motion = parts.motions[at(number)];
+  const Vec3f centre = (xyz(positions[parts.solids.bodies()[at(number)].particle]) + p.displacement) + p.moved;
+  out.arm = (relative(c, positions) + relative(c, displacements)) - centre;
+  const Vec3f of_body = p.moved + cross(p.turned, out.arm);
+  out.moved -= of_body;
+  out.slip -= of_body;
+  return out;
+}
+
+/// The displacement of a side's place by an impulse on it.
+Vec3f response(const PinchSide& side, const Vec3f& impulse) {
+  if (!(side.motion.inverse_mass > 0)) return {};
+  return impulse * side.motion.inverse_mass + cross(times(side.motion.inverse_inertia, cross(side.arm, impulse)), side.arm);
+}
+
+/// The distance of the vertex from a side less their thickness after motion against it [m].
+float room_at(const PinchSide& side, const Vec3f& motion) { return side.contact->gap + dot(side.normal, motion); }
+
+/// The impulse on `b`, and against `a`, that moves b's place against a's by `change`.
+Vec3f impulse_between(const PinchSide& a, const PinchSide& b, const Vec3f& change) {
+  Vec3f column[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3f unit{axis == 0 ? 1.f : 0.f, axis == 1 ? 1.f : 0.f, axis == 2 ? 1.f : 0.f};
+    column[axis] = response(a, unit) + response(b, unit);
+  }
+  const Vec3f x = cross(column[1], column[2]), y = cross(column[2], column[0]), z = cross(column[0], column[1]);
+  const float determinant = dot(column[0], x);
+  if (!(determinant > 0)) return {};
+  return Vec3f{dot(x, change), dot(y, change), dot(z, change)} * (1 / determinant);
+}
+
+/// The share of `added` that the cone of a contact leaves beside its present friction.
+float share_in_cone(const Contact& c, const Vec3f& added) {
+  const float square = dot(added, added);
+  if (!(square > 0)) return 0;
+  const float all = length(c.friction + added);
+  if (all <= c.static_friction * c.push) return 1;
+  const float most = c.kinetic_friction * c.push, along = dot(c.friction, added);
+  const float root = along * along + square * (most * most - dot(c.friction, c.friction));
+  return root > 0 ? min(max((sqrt(root) - along) / square, 0.f), 1.f) : 0.f;
+}
+
+/// Gives a side the impulse on the vertex, which is `along` its normal and `across` it. `scale` is the inverse mass of its contact.
+void answer(const PinchSide& side, float along, const Vec3f& across, float scale) {
+  side.contact->push += along * scale;
+  side.contact->friction += across * (scale * side.sign);
+  if (side.progress == nullptr) return;
+  const Vec3f impulse = side.normal * along + across;
+  side.progress->moved -= impulse * side.motion.inverse_mass;
+  side.progress->turned -= times(side.motion.inverse_inertia, cross(side.arm, impulse));
+}
+
+/// By how much the room between both sides has shrunk below what it was at the substep's start, or below 0 [m].
+float lost_room(const PinchSide& a, const PinchSide& b) {
+  const float at_start = room_at(a, a.predicted) + room_at(b, b.predicted);
+  return max(min(at_start, 0.f) - (room_at(a, a.moved) + room_at(b, b.moved)), 0.f);
+}
+
+/// Gives both sides of a vertex of inverse mass `w` their impulses. Returns that along the normal [N s^2].
+float join(const PinchSide& a, const PinchSide& b, float w) {
+  const float lost = lost_room(a, b);
+  if (!(lost > 0) && !(a.contact->push > 0 && b.contact->push > 0)) return 0;
+  const Vec3f n = unit_or(a.normal - b.normal, a.normal), slip = b.slip - a.slip;
+  const Vec3f impulse = impulse_between(a, b, (slip - n * dot(n, slip)) + n * lost);
+  const float along = lost > 0 ? max(dot(n, impulse), 0.f) : 0;
+  const float scale_a = w + dot(n, response(a, n)), scale_b = w + dot(n, response(b, n));
+  answer(a, along, {}, scale_a);
+  answer(b, along, {}, scale_b);
+  const Vec3f sticking = impulse - n * dot(n, impulse);
+  const Vec3f across = sticking * min(share_in_cone(*a.contact, sticking * (scale_a * a.sign)),
+                                      share_in_cone(*b.contact, sticking * (-scale_b * b.sign)));
+  answer(a, 0, across, scale_a);
+  answer(b, 0, -across, scale_b);
+  return along;
+}
+
+}  // namespace
+
+void PinchedPoints::find_between_bodies(const BodySolids& solids, const std::vector<Contact>& contacts) {
+  for (std::size_t i = 0; i < touches_.size(); ++i)
+    for (std::size_t j = i + 1; j < touches_.size() && touches_[j].vertex == touches_[i].vertex; ++j) {
+      const Contact &a = contacts[at(touches_[i].contact)], &b = contacts[at(touches_[j].contact)];
+      if (solids.number_of(a) != solids.number_of(b) && dot(a.normal, b.normal) < opposite)
+        pinches_.push_back({touches_[i].contact, touches_[j].contact});
+    }
+}
+
+/// Only vertices of matter at faces of meshes.
+void PinchedPoints::find_at_meshes(const Substep& s, const std::vector<Contact>& contacts) {
+  const std::vector<Contact>& all = s.pairs->contacts();
+  const Record* const positions = s.state.positions.data();
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    int vertex = -1, movable = 0;
+    float weight = 0;
+    for (std::size_t i = 0; i < all[n].point.size(); ++i) {
+      if (all[n].weight[i] == 0 || !(positions[all[n].point[i]].w > 0)) continue;
+      vertex = all[n].point[i];
+      weight = all[n].weight[i];
+      ++movable;
+    }
+    if (movable != 1 || !(std::abs(weight) > whole_weight)) continue;
+    const float side = weight > 0 ? 1.f : -1.f;
+    auto touch =
+        std::lower_bound(touches_.begin(), touches_.end(), vertex, [](const Touch& t, int v) { return t.vertex < v; });
+    for (; touch != touches_.end() && touch->vertex == vertex; ++touch)
+      if (side * dot(contacts[at(touch->contact)].normal, all[n].normal) < opposite)
+        pinches_.push_back({touch->contact, static_cast<int>(n), true, side});
+  }
+}
+
+void PinchedPoints::find(const Substep& s, const BodySolids& solids, const std::vector<Contact>& contacts) {
+  pinches_.clear();
+  touches_.clear();
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (has_single_vertex(contacts[i]) && s.state.positions[at(contacts[i].point[0])].w > 0)
+      touches_.push_back({contacts[i].point[0], static_cast<int>(i)});
+  std::stable_sort(touches_.begin(), touches_.end(), [](const Touch& a, const Touch& b) { return a.vertex < b.vertex; });
+  find_between_bodies(solids, contacts);
+  if (!touches_.empty() && s.has_pairs()) find_at_meshes(s, contacts);
+}
+
+void PinchedPoints::project(Substep& s, const Parts& parts, const Pinch& pinch) const {
+  Contact& first = parts.contacts[at(pinch.contact)];
+  const PinchSide a = side_of_body(s, parts, first);
+  const PinchSide b = pinch.is_mesh ? side_of(s, s.pairs->contacts()[at(pinch.other)], pinch.side)
+                                    : side_of_body(s, parts, parts.contacts[at(pinch.other)]);
+  const float along = join(a, b, s.state.positions[at(first.point[0])].w) / s.h;
+  parts.impulses[at(pinch.contact)] += along;
+  if (!pinch.is_mesh) parts.impulses[at(pinch.other)] += along;
+}
+
+void PinchedPoints::project(Substep& s, const Parts& parts) const {
+  for (int round = 0; round < rounds_of_pinches; ++round)
+    for (const Pinch& pinch : pinches_) project(s, parts, pinch);
+}
+
+}  // namespace pliant

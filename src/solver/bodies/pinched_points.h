@@ -1,0 +1,64 @@
+// Vertices that two bodies, or a body and a mesh collider, press on from opposite sides.
+//
+// A light vertex passes little of what one side does on to the other in a pass: a crate of 8 500 of its masses would have to be
+// projected a thousand times until its weight and its friction reach the table beneath the cloth. So both sides get one impulse
+// in addition, as if the vertex joined them: along the normal as much as keeps the room between them from shrinking, and across it
+// what keeps them from sliding on one another, within the cones of both contacts. Nothing is left for the vertex, so momentum is
+// kept.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "collision/narrow/contact.h"
+#include "solver/bodies/body_solids.h"
+#include "solver/bodies/manifold_passes.h"
+
+namespace pliant {
+
+struct Substep;
+
+/// How a body has moved since contacts were found, and in this pass.
+struct BodyProgress {
+  Vec3f displacement{}, rotation{};       ///< at the prediction [m], [rad]
+  Vec3f moved{}, turned{};                ///< since then
+  Vec3f moved_before{}, turned_before{};  ///< those when the pass began
+};
+
+class PinchedPoints {
+ public:
+  /// What PointImpulses has for it.
+  struct Parts {
+    const BodySolids& solids;
+    const std::vector<BodyMotion>& motions;
+    std::vector<Contact>& contacts;
+    std::vector<float>& impulses;  ///< of contacts along their normals [N s]
+    std::vector<BodyProgress>& progress;
+  };
+
+  /// Finds them among the contacts of a substep, with bodies and with mesh colliders.
+  void find(const Substep& s, const BodySolids& solids, const std::vector<Contact>& contacts);
+  /// Projects each, in the order of vertices. Contacts have been projected, and are those for which pinched vertices were found.
+  void project(Substep& s, const Parts& parts) const;
+
+ private:
+  struct Pinch {
+    int contact = 0;       ///< with the body
+    int other = 0;         ///< with the other body, or of SurfaceContact with a mesh collider
+    bool is_mesh = false;  ///< the latter
+    float side = 1;        ///< -1: the vertex is on the second side of that one
+  };
+  /// A contact of a vertex by its index.
+  struct Touch {
+    int vertex = 0, contact = 0;
+  };
+
+  void find_between_bodies(const BodySolids& solids, const std::vector<Contact>& contacts);
+  void find_at_meshes(const Substep& s, const std::vector<Contact>& contacts);
+  void project(Substep& s, const Parts& parts, const Pinch& pinch) const;
+
+  std::vector<Pinch> pinches_;
+  std::vector<Touch> touches_;  ///< of single vertices and bodies, by vertex
+};
+
+}  // namespace pliant
