@@ -221,7 +221,8 @@ const Record& object_record() {
              "the material's; 0 for a liquid or gas, that of grains, else 0.3; at most the static one",
              "Coefficient of kinetic friction, at most the static one."),
        field("restitution", share(), Object{}.restitution,
-             "Coefficient of restitution: the share of the normal speed kept in a bounce."),
+             "Coefficient of restitution: the share of the normal speed kept in a bounce. Soft bodies rebound by their "
+             "elasticity instead."),
        field("rolling_friction", number("m", 0, largest_place), Object{}.rolling_friction,
              "Of bodies: greatest torque against rolling, per normal force."),
        field("spinning_friction", number("m", 0, largest_place), Object{}.spinning_friction,

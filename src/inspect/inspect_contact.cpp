@@ -314,28 +314,39 @@ void check_mesh_collider(Problems& problems, const MeshCollider& collider) {
 
 namespace {
 
-/// The object of that name; null if there is none.
-const Object* object_called(const Scene& scene, const std::string& name) {
-  const auto found =
-      std::find_if(scene.objects.begin(), scene.objects.end(), [&](const Object& object) { return object.name == name; });
-  return found == scene.objects.end() ? nullptr : &*found;
+/// What a pair names: an object, or a mesh collider.
+struct Named {
+  const Object* object = nullptr;
+  const MeshCollider* mesh = nullptr;
+
+  bool is_of_bodies() const { return object != nullptr && !object->bodies.empty() && object->triangles.empty(); }
+  bool is_solid_mesh() const { return mesh != nullptr && mesh->as != MeshCollider::As::triangles; }
+};
+
+Named find_named(const Scene& scene, const std::string& name) {
+  const auto called = [&](const auto& one) { return one.name == name; };
+  const auto object = std::find_if(scene.objects.begin(), scene.objects.end(), called);
+  const auto mesh = std::find_if(scene.mesh_colliders.begin(), scene.mesh_colliders.end(), called);
+  return {object == scene.objects.end() ? nullptr : &*object, mesh == scene.mesh_colliders.end() ? nullptr : &*mesh};
 }
 
-bool has_solids(const Object& object) {
-  return std::any_of(object.bodies.begin(), object.bodies.end(),
-                     [](const ObjectBody& body) { return !body.solids.empty(); });
-}
-
-/// Doubts a pair of particles or surfaces with the solids of bodies, whose contacts have the properties of each.
-void doubt_pair_with_solids(Problems& problems, const Scene& scene, const PairProperties& pair, const std::string& name) {
-  const Object *first = object_called(scene, pair.first), *second = object_called(scene, pair.second);
-  if (first == nullptr || second == nullptr || has_solids(*first) == has_solids(*second)) return;
-  const std::string solid = has_solids(*first) ? pair.first : pair.second;
-  problems.doubtful(name,
-                    "has no effect: '" + solid +
-                        "' is rigid bodies, and what has no solids meets these with the "
-                        "friction and thickness of the two objects",
-                    "set those of the objects");
+/// Refuses what a pair sets, and contact of its kind does not read.
+void refuse_idle_pair(Problems& problems, const Scene& scene, const PairProperties& pair, const std::string& name) {
+  const Named first = find_named(scene, pair.first), second = find_named(scene, pair.second);
+  for (const auto& [one, called] : {std::pair{first, pair.first}, std::pair{second, pair.second}})
+    if (one.is_solid_mesh())
+      problems.grave(name, "names '" + called + "', a distance grid or heightfield, and has no effect on it",
+                     "set the properties of that mesh collider itself, or use it as triangles");
+  const auto is_of_grains = [](const Named& one) { return one.object != nullptr && one.object->grains; };
+  if (is_of_grains(first) && is_of_grains(second))
+    problems.grave(name, "names grains twice, and has no effect on contact of grains with one another",
+                   "set the properties of the grains themselves");
+  const bool is_rigid = (first.is_of_bodies() && (second.is_of_bodies() || second.mesh != nullptr)) ||
+                        (second.is_of_bodies() && first.mesh != nullptr);
+  if (is_rigid && pair.thickness)
+    problems.grave(name + ", thickness",
+                   "has no effect: rigid bodies touch one another and mesh colliders at their surfaces",
+                   "remove it, or make the solids larger");
 }
 
 }  // namespace
@@ -360,7 +371,7 @@ void check_pairs(Problems& problems, const Scene& scene) {
     if (pair.static_friction && pair.kinetic_friction && *pair.kinetic_friction > *pair.static_friction)
       problems.grave(name + ", kinetic_friction", "is larger than the static one",
                      "lower it to the static friction or less");
-    if (problems.wants_doubts()) doubt_pair_with_solids(problems, scene, pair, name);
+    refuse_idle_pair(problems, scene, pair, name);
   }
 }
 

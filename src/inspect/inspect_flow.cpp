@@ -13,8 +13,9 @@ namespace pliant {
 
 namespace {
 
-/// Particles nearer than this share of the smaller distance at which they rest push each other away in the first frame.
-constexpr float crowded_share = 0.5f;
+/// Particles of liquids nearer than this share of the smaller distance at which they rest push each other away in the first
+/// frame. Grains that are nearer than this share of their diameter have contact, which throws them apart.
+constexpr float crowded_share = 0.5f, overlapping_share = 0.95f;
 /// A jet that is faster than this from an opening has probably a flow in litres a second [m/s].
 constexpr float fast_jet = 30;
 
@@ -28,6 +29,10 @@ struct Place {
   Vec3f at{};
   float distance = 0;  ///< at rest [m]
   int object = 0, particle = 0;
+  bool is_grain = false;
+
+  /// The distance below which two are too near [m].
+  float least_distance() const { return (is_grain ? overlapping_share : crowded_share) * distance; }
 };
 
 std::vector<Place> places_of(const Scene& scene) {
@@ -37,13 +42,15 @@ std::vector<Place> places_of(const Scene& scene) {
     const float distance = distance_at_rest(object);
     const std::size_t spare = std::min(static_cast<std::size_t>(std::max(object.flow.spare, 0)), object.positions.size());
     for (std::size_t i = 0; distance > 0 && i < object.positions.size() - spare; ++i)
-      all.push_back({object.positions[i], distance, static_cast<int>(o), static_cast<int>(i)});
+      all.push_back({object.positions[i], distance, static_cast<int>(o), static_cast<int>(i), object.grains.has_value()});
   }
   return all;
 }
 
 bool are_crowded(const Place& a, const Place& b) {
-  const float most = crowded_share * std::min(a.distance, b.distance);
+  // Grains of two sizes touch at the mean of both diameters.
+  const float most = a.is_grain && b.is_grain ? 0.5f * (a.least_distance() + b.least_distance())
+                                              : crowded_share * std::min(a.distance, b.distance);
   return length_squared(a.at - b.at) < most * most;
 }
 
@@ -51,9 +58,9 @@ bool are_crowded(const Place& a, const Place& b) {
 std::vector<int> find_crowded(const std::vector<Place>& places) {
   std::vector<Record> points;
   float reach = 0;
-  for (const auto& [at, distance, object, particle] : places) {
-    points.push_back({at.x, at.y, at.z, 0});
-    reach = std::max(reach, crowded_share * distance);
+  for (const Place& place : places) {
+    points.push_back({place.at.x, place.at.y, place.at.z, 0});
+    reach = std::max(reach, place.least_distance());
   }
   std::vector<int> found(places.size(), -1);
   if (places.empty()) return found;
@@ -137,10 +144,12 @@ void doubt_flows(Problems& problems, const Scene& scene) {
     if (crowded[o].count == 0) continue;
     const Place& first = places[static_cast<std::size_t>(other[o])];
     const std::string& of = scene.objects[static_cast<std::size_t>(first.object)].name;
-    problems.doubtful(crowded[o], "particle",
-                      "starts within half the distance at rest of another one, particle " + std::to_string(first.particle) +
-                          " of '" + of + "'",
-                      "it is pushed away in the first frame; let fills not overlap");
+    problems.doubtful(
+        crowded[o], "particle",
+        std::string(object.grains && first.is_grain ? "starts nearer to another grain than they touch"
+                                                    : "starts within half the distance at rest of another one") +
+            ", particle " + std::to_string(first.particle) + " of '" + of + "'",
+        "it is pushed away in the first frame; let fills not overlap");
   }
   problems.at("");
 }

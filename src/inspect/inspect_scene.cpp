@@ -316,6 +316,7 @@ void look_through(Problems& problems, const Scene& scene) {
     doubt_jumps_of_volumes(problems, scene);
     doubt_flows(problems, scene);
     doubt_starts_in_solids(problems, scene);
+    doubt_starts_in_bodies(problems, scene);
   }
   doubt_tolerance(problems, scene);
   doubt_names(problems, scene);

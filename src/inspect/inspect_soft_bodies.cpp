@@ -68,6 +68,10 @@ void doubt_soft_bodies(Problems& problems, const Scene& scene) {
     if (!is_soft_body(object)) continue;
     const SoftBodyNumbers found = numbers_of_soft_body(object, scene.gravity);
     problems.at(object.name);
+    if (object.restitution > 0)
+      problems.doubtful("restitution",
+                        "hardly acts: a soft body rebounds by its elasticity, and stops its vertices one by one",
+                        "leave it out; the damping of the material makes a body rebound less");
     if (found.strain_by_weight > most_strain)
       problems.doubtful("material, youngs_modulus",
                         "is so low that the weight of the body presses its lowest layer to nothing: strain " +

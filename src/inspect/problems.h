@@ -105,6 +105,9 @@ void doubt_substeps_of_soft_bodies(Problems& problems, const Scene& scene);
 void doubt_bent_solids(Problems& problems, const Scene& scene);
 /// Doubts particles of liquids, gases and grains that start inside solids.
 void doubt_starts_in_solids(Problems& problems, const Scene& scene);
+/// Doubts surfaces, ropes and bodies that start inside of rigid bodies, and what starts wholly inside of a soft body.
+/// The scene must have no grave findings.
+void doubt_starts_in_bodies(Problems& problems, const Scene& scene);
 /// Doubts woven cloth whose triangles yield much more than their stiffness says.
 void doubt_substeps_of_woven(Problems& problems, const Scene& scene);
 /// Those whose hinges bend further than their stiffness says, because they have too few substeps for their mesh.

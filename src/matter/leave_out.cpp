@@ -25,13 +25,6 @@ namespace {
 /// A lattice that touches a wall overlaps it by rounding: by less than this share of the radius.
 constexpr float touching = 0.01f;
 
-/// Something solid, where it is at the start.
-struct PlacedSolid {
-  const std::string* name = nullptr;  ///< of the object or collider
-  std::optional<BoxBounds> box;       ///< around all that it holds; none: a half-space or terrain
-  std::function<bool(const Vec3f&)> overlaps;
-};
-
 float reach_of(const LeaveOutOptions& by) { return by.radius * (1 - touching); }
 
 /// A box, ball, capsule or half-space, `margin` thicker [m].
@@ -66,23 +59,28 @@ PlacedSolid placed_solid(const std::string& name, const SolidShape& shape, const
   return {&name, BoxBounds{convert<float>(low), convert<float>(high)}, overlaps};
 }
 
-void add_bodies(const Object& object, float reach, std::vector<PlacedSolid>& solids) {
-  for (const ObjectBody& body : object.bodies) {
-    const Posed centre{convert<double>(object.positions[static_cast<std::size_t>(body.particle)]),
-                       normalise(convert<double>(object.frames[static_cast<std::size_t>(body.frame)].orientation))};
-    for (const Solid& solid : body.solids) {
-      const Posed pose =
-          compose(centre, Posed{convert<double>(solid.position), normalise(convert<double>(solid.rotation))});
-      if (const auto* ball = std::get_if<Sphere>(&solid.shape))
-        solids.push_back(placed_solid(object.name, local_shape(*ball), pose, 0, reach));
-      else if (const auto* capsule = std::get_if<Capsule>(&solid.shape))
-        solids.push_back(placed_solid(object.name, local_shape(*capsule), pose, 0, reach));
-      else if (const auto* box = std::get_if<Box>(&solid.shape))
-        solids.push_back(placed_solid(object.name, local_shape(*box), pose, 0, reach));
-      else
-        solids.push_back(placed_solid(object.name, solid.shape, pose, reach));
-    }
+}  // namespace
+
+void add_solids_of_body(const Object& object, const ObjectBody& body, float reach, std::vector<PlacedSolid>& solids) {
+  const Posed centre{convert<double>(object.positions[static_cast<std::size_t>(body.particle)]),
+                     normalise(convert<double>(object.frames[static_cast<std::size_t>(body.frame)].orientation))};
+  for (const Solid& solid : body.solids) {
+    const Posed pose = compose(centre, Posed{convert<double>(solid.position), normalise(convert<double>(solid.rotation))});
+    if (const auto* ball = std::get_if<Sphere>(&solid.shape))
+      solids.push_back(placed_solid(object.name, local_shape(*ball), pose, 0, reach));
+    else if (const auto* capsule = std::get_if<Capsule>(&solid.shape))
+      solids.push_back(placed_solid(object.name, local_shape(*capsule), pose, 0, reach));
+    else if (const auto* box = std::get_if<Box>(&solid.shape))
+      solids.push_back(placed_solid(object.name, local_shape(*box), pose, 0, reach));
+    else
+      solids.push_back(placed_solid(object.name, solid.shape, pose, reach));
   }
+}
+
+namespace {
+
+void add_bodies(const Object& object, float reach, std::vector<PlacedSolid>& solids) {
+  for (const ObjectBody& body : object.bodies) add_solids_of_body(object, body, reach, solids);
 }
 
 /// What a closed mesh encloses; nothing if it is open or damaged.

@@ -372,5 +372,49 @@ TEST_F(Meshes, PiecesAreAscendingAndDiffer) {
   }
 }
 
+/// A block of 1 x 0.2 x 4 m whose upper side is at a height of 0, and whose left side is at x = 0. Its sides are two cells high.
+TriangleMesh low_block() {
+  TriangleMesh mesh;
+  for (const float x : {0.f, 1.f})
+    for (const float y : {-0.2f, -0.1f, 0.f})
+      for (const float z : {-2.f, 0.f, 2.f}) mesh.positions.push_back({x, y, z});
+  const auto add = [&](int a, int b, int c, int d) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  };
+  for (int y = 0; y < 2; ++y)
+    for (int z = 0; z < 2; ++z) {
+      const int left = 3 * y + z, right = 9 + left;
+      add(left, left + 1, left + 4, left + 3);
+      add(right, right + 3, right + 4, right + 1);
+    }
+  for (int z = 0; z < 2; ++z) {
+    add(6 + z, 7 + z, 16 + z, 15 + z);
+    add(z, 9 + z, 10 + z, 1 + z);
+  }
+  for (int y = 0; y < 2; ++y) {
+    add(3 * y, 3 * y + 3, 3 * y + 12, 3 * y + 9);
+    add(3 * y + 2, 3 * y + 11, 3 * y + 14, 3 * y + 5);
+  }
+  return mesh;
+}
+
+/// The side of the block is smooth as seen from within. A box on the block, pressed in by rounding, is beside it, wherever its centre is.
+TEST(MeshContacts, ABoxOnABlockDoesNotOverlapTheSideBelowIt) {
+  const TriangleMesh block = low_block();
+  const BodyMesh mesh = body_mesh(block);
+  const Polyhedron corners = polyhedron_of_box({0.1f, 0.1f, 0.1f});
+  const ConvexShape box{Kind::polyhedron, 0, 0, 0, &corners};
+  for (const double x : {-0.08, -0.01, 0., 1e-7, 0.01, 0.08})
+    for (const double tilt : {0., 1e-4, -1e-4}) {
+      std::vector<MeshTouch> found;
+      touch_mesh(box, {{x, 0.09997, 0.03}, turned({0, 0, 1}, tilt)}, mesh, 0.05, found, 0.1);
+      ASSERT_FALSE(found.empty()) << x << ' ' << tilt;
+      for (const MeshTouch& touch : found)
+        for (int i = 0; i < touch.touch.count; ++i)
+          EXPECT_GT(touch.touch.points[static_cast<std::size_t>(i)].separation, -1e-4) << x << ' ' << tilt;
+    }
+}
+
 }  // namespace
 }  // namespace pliant

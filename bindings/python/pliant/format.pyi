@@ -209,7 +209,8 @@ class Object(TypedDict, total=False):
     """Coefficient of kinetic friction, at most the static one. Default: the material's; 0 for a liquid or gas, that of
     grains, else 0.3; at most the static one."""
     restitution: float
-    """Coefficient of restitution: the share of the normal speed kept in a bounce. Default: 0."""
+    """Coefficient of restitution: the share of the normal speed kept in a bounce. Soft bodies rebound by their
+    elasticity instead. Default: 0."""
     rolling_friction: float
     """Of bodies: greatest torque against rolling, per normal force. [m] Default: 0."""
     spinning_friction: float

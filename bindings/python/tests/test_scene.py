@@ -106,17 +106,6 @@ def test_lookup_and_assign() -> None:
     assert scene["new/name"] == {"a~b": 1}
 
 
-def test_a_pair_of_cloth_and_bodies_is_doubted() -> None:
-    scene = cloth_scene()
-    solids = [{"box": {"half_extents": [1, 0.1, 1]}}]
-    scene.add(bodies=[{"name": "slab", "solids": solids, "position": [0, -9, 0]}], name="slope")
-    scene["pairs"] = [{"between": ["cloth", "slope"], "static_friction": 1.5}]
-    messages = [finding.message for finding in scene.check() if "pair 0" in finding.message]
-    assert len(messages) == 1 and "has no effect: 'slope' is rigid bodies" in messages[0]
-    scene["pairs"][0]["between"] = ["slope", "slope"]
-    assert not [finding for finding in scene.check() if "pair 0" in finding.message]
-
-
 def test_check_finds_what_pliant_check_finds() -> None:
     assert cloth_scene().check() == []
     scene = cloth_scene()

@@ -17,6 +17,8 @@ namespace {
 constexpr double preference = 1e-3;
 /// Overlap along the triangle's normal up to this share of the solid's size needs no search if the deepest point is over it.
 constexpr double shallow = 0.05;
+/// What overlaps a triangle by less than this share of its depth below the plane is beside it.
+constexpr double beside = 0.05;
 /// Edges more parallel than this have no axis [sine].
 constexpr double parallel = 1e-4;
 
@@ -157,10 +159,11 @@ TriangleNearest nearest_on(const MeshFace& face, const SolidInMesh& solid, doubl
     const bool is_at_edge = is_above && out.separation < 0 && !is_over_triangle(face, out.on_solid, -out.separation);
     const bool is_shallow = out.separation > -shallow * solid.size();
     if (is_smooth && !is_shallow && !is_one_sided) {
-      // What is deep below the plane may be beside the triangle, and outside of what is smooth as seen from within.
+      // What is deep below the plane may be beside the triangle, and outside of what is smooth as seen from within. It may
+      // touch it there: a box on top of a wall, whose centre has passed the plane of the wall's side.
       TriangleNearest exact = nearest_by_supports(face, solid, reach);
       exact.is_near = exact.separation <= reach;
-      if (exact.separation > 0) return exact;
+      if (exact.separation > beside * out.separation) return exact;
     }
     const bool is_face_contact = !is_at_edge && (is_smooth || (is_shallow && is_above));
     if (!is_face_contact && solid.is_polyhedron()) out = best_axis(face, solid, out, reach);

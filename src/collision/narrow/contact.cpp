@@ -105,6 +105,20 @@ void set_slide(const Vec3f& velocity, double seconds, MovingCollider& to) {
 
 }  // namespace
 
+PairMaterial material_of(const CompiledObject& object, const MovingCollider& collider) {
+  PairMaterial material{object.thickness + collider.thickness, sqrt(object.static_friction * collider.static_friction),
+                        sqrt(object.kinetic_friction * collider.kinetic_friction),
+                        max(object.restitution, collider.restitution)};
+  if (collider.named != nullptr)
+    for (const NamedPair& pair : *collider.named)
+      if (pair.object == object.name) apply(pair.said, material);
+  return material;
+}
+
+float thickness_of(const CompiledObject& object, const MovingCollider& collider) {
+  return collider.named == nullptr ? object.thickness : material_of(object, collider).thickness - collider.thickness;
+}
+
 void add_slide(const MovingCollider& collider, Contact& contact) {
   if (collider.slides()) contact.surface_motion += collider.slide - contact.normal * dot(contact.normal, collider.slide);
 }
@@ -148,15 +162,16 @@ struct ColliderQuery {
   Vec3f gravity;    ///< added to a velocity, gives the velocity before this substep's gravity [m/s]
   float static_friction, kinetic_friction, restitution;
 
-  ColliderQuery(const ContactSearch& in, int of, float both)
+  /// With a material whose thickness is that of the contacts.
+  ColliderQuery(const ContactSearch& in, int of, const PairMaterial& both)
       : search(in),
         collider(in.colliders[static_cast<std::size_t>(of)]),
         number(of),
-        thickness(both),
+        thickness(both.thickness),
         gravity(in.particles.gravity_begun - in.particles.gravity_step),
-        static_friction(sqrt(in.object.static_friction * collider.static_friction)),
-        kinetic_friction(sqrt(in.object.kinetic_friction * collider.kinetic_friction)),
-        restitution(max(in.object.restitution, collider.restitution)) {}
+        static_friction(both.static_friction),
+        kinetic_friction(both.kinetic_friction),
+        restitution(both.restitution) {}
 };
 
 /// Appends a contact of particle i with a collider, if there is one.
@@ -352,9 +367,11 @@ namespace {
 void find_contacts_with(const ContactSearch& search, int c, std::vector<std::int32_t>& near,
                         std::vector<Contact>& contacts) {
   const MovingCollider& collider = search.colliders[c];
-  if (!overlap(search.bounds, collider.swept, search.object.thickness) || !meet(search.object, collider)) return;
-  const float thickness = search.object.thickness + collider.thickness;
-  const ColliderQuery query(search, c, thickness);
+  const PairMaterial material = material_of(search.object, collider);
+  const float thickness = material.thickness;
+  if (!overlap(search.bounds, collider.swept, max(search.object.thickness, thickness)) || !meet(search.object, collider))
+    return;
+  const ColliderQuery query(search, c, material);
   if (search.near_points != nullptr && collider.field != nullptr && !collider.field->is_ground())
     return find_contacts_in_grid(query, contacts);
   const int count = without_centres(search.object, find_near(search, c, thickness, near), near);
@@ -391,7 +408,9 @@ bool is_near(const MovingCollider& collider, const Record& x, const Record& d, f
 /// their contacts were predicted, so these count for nothing here.
 void find_breaches_of_liquid(const ContactSearch& search, int c, std::vector<Contact>& contacts) {
   const MovingCollider& collider = search.colliders[static_cast<std::size_t>(c)];
-  const ColliderQuery query(search, c, share_of_held_height * (search.object.thickness + collider.thickness));
+  PairMaterial material = material_of(search.object, collider);
+  material.thickness *= share_of_held_height;
+  const ColliderQuery query(search, c, material);
   const AdvanceArguments& a = search.particles;
   for (int i = a.first; i < a.last; ++i) {
     const Record& d = a.displacements[i];
@@ -430,7 +449,9 @@ void find_breaches(const ContactSearch& search, const std::vector<Contact>& know
     const int found =
         search.find_near({a.positions, a.displacements, a.first, a.last, collider.shape, collider.after, 0}, near.data());
     const int count = without_centres(search.object, found, near);
-    const ColliderQuery query(search, c, 0);
+    PairMaterial material = material_of(search.object, collider);
+    material.thickness = 0;
+    const ColliderQuery query(search, c, material);
     for (int k = 0; k < count; ++k) {
       if (is_known(c, near[k])) continue;
       const Record &x = a.positions[near[k]], &d = a.displacements[near[k]];

@@ -10,6 +10,7 @@
 #include "collision/fields/collider_pose.h"
 #include "collision/fields/solid_field.h"
 #include "collision/narrow/point_contact.h"
+#include "collision/proxies/contact_tables.h"
 #include "constraints/contact.h"
 #include "geometry/shapes.h"
 #include "model/control.h"
@@ -19,6 +20,12 @@
 namespace pliant {
 
 class NearPoints;
+
+/// What the scene's `pairs` say of a collider and one object.
+struct NamedPair {
+  std::string object;
+  PairProperties said;  ///< its thickness includes that of the collider
+};
 
 /// A collider during one substep.
 struct MovingCollider {
@@ -30,10 +37,17 @@ struct MovingCollider {
   BoundingBox<float> swept{};  ///< encloses the shape and its thickness in both poses
   float thickness = 0;         ///< thickness of the collider alone [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
+  const std::vector<NamedPair>* named = nullptr;  ///< null: the scene's `pairs` do not name it
   Vec3f slide{};  ///< how far the surface moves along itself in the substep by its surface velocity, in world axes [m]
 
   bool slides() const { return slide != Vec3f{}; }
 };
+
+/// The contact properties of an object and a collider. The thickness includes that of the collider.
+PairMaterial material_of(const CompiledObject& object, const MovingCollider& collider);
+
+/// That thickness without the collider's own [m].
+float thickness_of(const CompiledObject& object, const MovingCollider& collider);
 
 /// Adds what a collider's surface moves along itself to the motion of a contact with it.
 void add_slide(const MovingCollider& collider, Contact& contact);

@@ -209,6 +209,7 @@ void ShapeContacts::prepare(const Model& model, int object, std::span<const Loca
   elements = {};
   if (shapes.empty()) return;
   elements = make_shape_elements(of);
+  if (!model.pairs.empty()) return;  // whose thickness detect_tile takes
   const auto dips = [&](const LocalShape& shape) { return may_dip(elements.radius, shape, of.thickness); };
   if (std::none_of(shapes.begin(), shapes.end(), dips)) elements = {};
 }
@@ -229,8 +230,9 @@ void ShapeContacts::detect_tile(const ShapeContactSearch& search, int task, cons
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t c = near == nullptr ? i : static_cast<std::size_t>((*near)[i]);
     const MovingCollider& collider = search.colliders[c];
-    const float thickness = object.thickness + collider.thickness;
-    if (collider.field != nullptr || !overlap(bounds, collider.swept, object.thickness) ||
+    const PairMaterial material = material_of(object, collider);
+    const float thickness = material.thickness;
+    if (collider.field != nullptr || !overlap(bounds, collider.swept, max(object.thickness, thickness)) ||
         !may_dip(elements.radius, collider.shape, thickness))
       continue;
     if (!is_measured) measure_clusters(tile, particles, scratch);
@@ -240,7 +242,7 @@ void ShapeContacts::detect_tile(const ShapeContactSearch& search, int task, cons
     for (std::size_t k = 0; k < tile.clusters.size(); ++k)
       if (frames.may_meet(scratch.boxes[k], thickness + scratch.paths[k]))
         find_cluster_contacts({object, particles, search.model.first[static_cast<std::size_t>(of.object)], tile.clusters[k],
-                               scratch.ways, collider, static_cast<int>(c), thickness, shortest},
+                               scratch.ways, collider, static_cast<int>(c), material, thickness, shortest},
                               frames, scratch);
   }
 }

@@ -84,9 +84,9 @@ void add_contact(const Meeting& m, const std::array<int, n>& vertex, const std::
   c.normal = rotate(m.collider.after.rotation, at.normal);
   c.gap = dot(c.normal, position - to_world(m.collider.after, surface)) - kept;
   if (m.collider.moves) c.surface_motion = to_world(m.collider.after, surface) - to_world(m.collider.before, surface);
-  c.static_friction = sqrt(m.object.static_friction * m.collider.static_friction);
-  c.kinetic_friction = sqrt(m.object.kinetic_friction * m.collider.kinetic_friction);
-  c.restitution = max(m.object.restitution, m.collider.restitution);
+  c.static_friction = m.material.static_friction;
+  c.kinetic_friction = m.material.kinetic_friction;
+  c.restitution = m.material.restitution;
   c.approach = dot(c.normal, velocity - c.surface_motion * a.inverse_h);
   add_slide(m.collider, c);
   contacts.push_back(c);

@@ -27,7 +27,8 @@ struct Meeting {
   const std::vector<VertexWay>& ways;  ///< paths of the cluster's vertices
   const MovingCollider& collider;
   int number = 0;  ///< index of the collider
-  float thickness = 0;
+  const PairMaterial& material;
+  float thickness = 0;  ///< of the material [m]
   float shortest_squared =
       0;  ///< squared length; the interior of shorter edges is nearer than their ends by at most least_dip [m^2]
 };

@@ -35,15 +35,6 @@ ContactBody body_of(const CompiledObject& object) {
   return body;
 }
 
-/// Applies the scene's override of a pair's material. If only the static friction is given, the kinetic one is at most
-/// that.
-void apply(const PairProperties& said, PairMaterial& material) {
-  material.thickness = said.thickness.value_or(material.thickness);
-  material.static_friction = said.static_friction.value_or(material.static_friction);
-  material.kinetic_friction = std::min(said.kinetic_friction.value_or(material.kinetic_friction), material.static_friction);
-  material.restitution = said.restitution.value_or(material.restitution);
-}
-
 /// Applies the overrides of pairs that the scene names.
 void set_exceptions(const Model& model, ContactRules& rules) {
   std::map<std::string, std::vector<int>> named;
@@ -67,6 +58,13 @@ void update_rules(const Model& model, const std::vector<int>& changed, ContactRu
 }
 
 }  // namespace
+
+void apply(const PairProperties& said, PairMaterial& material) {
+  material.thickness = said.thickness.value_or(material.thickness);
+  material.static_friction = said.static_friction.value_or(material.static_friction);
+  material.kinetic_friction = std::min(said.kinetic_friction.value_or(material.kinetic_friction), material.static_friction);
+  material.restitution = said.restitution.value_or(material.restitution);
+}
 
 ContactRules contact_rules(const Model& model) {
   ContactRules rules;

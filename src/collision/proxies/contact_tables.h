@@ -25,6 +25,10 @@ struct ContactTables {
   std::shared_ptr<VertexRanges> triangle_ranges = std::make_shared<VertexRanges>();
 };
 
+/// Applies the scene's override of a pair's material. If only the static friction is given, the kinetic one is at most
+/// that.
+void apply(const PairProperties& said, PairMaterial& material);
+
 /// The rules of all objects and mesh colliders of a model.
 ContactRules contact_rules(const Model& model);
 

@@ -208,8 +208,8 @@ void BodyPassing::hold_bodies(Substep& s, const Parts& parts) {
   filter_.end_substep(!goes_on);
 }
 
-void BodyPassing::warn_of_overlaps(const Substep& s, const BodySolids& solids, const std::vector<Contact>& contacts,
-                                   std::vector<std::string>& warnings) const {
+void BodyPassing::warn_of_overlaps(const Substep& s, const Found& found, std::vector<std::string>& warnings) const {
+  const BodySolids& solids = found.solids;
   struct Between {
     int count = 0, vertex = 0;
     std::string other;
@@ -217,9 +217,13 @@ void BodyPassing::warn_of_overlaps(const Substep& s, const BodySolids& solids, c
   std::map<std::pair<int, int>, Between> all;  // object of the surface and body
   for (const PassingFilter::Overlap& overlap : filter_.overlaps()) {
     const int body = solids.body_of_solid()[at(overlap.solid)];
+    const auto is_told = [&](const PointDepenetration::Inside& inside) {
+      return inside.object == overlap.object && solids.body_of_solid()[at(inside.solid)] == body;
+    };
+    if (std::any_of(found.inside.begin(), found.inside.end(), is_told)) continue;
     Between& between = all[{overlap.object, body}];
     if (between.count++ == 0) between.vertex = overlap.vertex;
-    if (between.other.empty()) between.other = other_at(s, solids, contacts, overlap.vertex, body);
+    if (between.other.empty()) between.other = other_at(s, solids, found.contacts, overlap.vertex, body);
   }
   for (const auto& [which, between] : all) {
     const CompiledObject& object = s.model.objects[at(which.first)];

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/bodies/passing_filter.h"
+#include "solver/bodies/point_depenetration.h"
 #include "solver/bodies/point_impulses.h"
 #include "solver/bodies/surface_tiles.h"
 #include "solver/bodies/swept_contacts.h"
@@ -37,9 +38,14 @@ class BodyPassing {
   void hold_bodies(Substep& s, const Parts& parts);
   /// After that: bodies and surfaces have been moved on by at most so far [m].
   void note_shift(float farthest) { filter_.note_shift(farthest); }
+  /// What warnings of overlaps need to know.
+  struct Found {
+    const BodySolids& solids;
+    const std::vector<Contact>& contacts;
+    const std::vector<PointDepenetration::Inside>& inside;  ///< has warnings of its own
+  };
   /// Adds a warning for each body that surfaces overlap at a substep's end, after hold_bodies.
-  void warn_of_overlaps(const Substep& s, const BodySolids& solids, const std::vector<Contact>& contacts,
-                        std::vector<std::string>& warnings) const;
+  void warn_of_overlaps(const Substep& s, const Found& found, std::vector<std::string>& warnings) const;
 
  private:
   /// How a round stops what would pass: by impulses on both sides or on bodies alone, or by taking back their motion in the substep.

@@ -23,6 +23,7 @@ BodyPoints::BodyPoints(const Model& model, const std::vector<int>& objects, cons
   surfaces_ = SurfaceTiles(model, tasks_);
   loads_ = PointLoads(model, bodies);
   passing_ = BodyPassing(solids_);
+  depenetration_ = PointDepenetration(solids_.convex_shapes());
   const std::vector<LocalShape> primitives = solids_.primitives();
   for (const int o : objects_) shapes_.prepare(model, o, primitives);
 }
@@ -72,6 +73,7 @@ void BodyPoints::detect(Substep& s) {
   const auto meets = [&](const Contact& c) { return solids_.meets(s.model, c); };
   swept_.detect(s, surfaces_, solids_.moving(), meets, contacts);
   std::erase_if(contacts, [&](const Contact& c) { return !meets(c); });
+  depenetration_.replace(s, solids_, contacts);
   impulses_.begin_substep(s, solids_);
 }
 

@@ -2,8 +2,8 @@
 // a surface and the body by one impulse at the point of contact, with the generalised inverse masses of both sides. The impulse
 // m dx / dt of the encyclopedia entry on position based dynamics is the limit of a body much heavier than the points.
 //
-// BodySolids are what points touch, PointImpulses project the contacts that are found here, PointLoads are what particles carry of
-// bodies, and BodyPassing keeps both sides from passing one another.
+// BodySolids are what points touch, PointImpulses project the contacts that are found here, PointDepenetration moves out what starts
+// inside, PointLoads are what particles carry of bodies, and BodyPassing keeps both sides from passing one another.
 #pragma once
 
 #include <string>
@@ -14,6 +14,7 @@
 #include "model/model.h"
 #include "solver/bodies/body_passing.h"
 #include "solver/bodies/body_solids.h"
+#include "solver/bodies/point_depenetration.h"
 #include "solver/bodies/point_impulses.h"
 #include "solver/bodies/point_loads.h"
 #include "solver/bodies/surface_tiles.h"
@@ -53,7 +54,8 @@ class BodyPoints {
   void hold_bodies(Substep& s, const std::vector<BodyMotion>& motions);
   void note_shift(float farthest) { passing_.note_shift(farthest); }
   void warn_of_overlaps(const Substep& s, std::vector<std::string>& warnings) const {
-    passing_.warn_of_overlaps(s, solids_, impulses_.contacts(), warnings);
+    passing_.warn_of_overlaps(s, {solids_, impulses_.contacts(), depenetration_.inside()}, warnings);
+    depenetration_.warn(s, solids_, warnings);
   }
   /// Finds the particles that carry bodies. `begins`: at a substep's start, after detect.
   void find_loads(const Substep& s, const std::vector<BodyMotion>& motions, bool begins) {
@@ -73,6 +75,7 @@ class BodyPoints {
   PointImpulses impulses_;
   PointLoads loads_;
   BodyPassing passing_;
+  PointDepenetration depenetration_;
   std::vector<int> objects_, tasks_;           ///< objects with surfaces or particles, and their tiles, ascending
   SurfaceTiles surfaces_;                      ///< of tasks_
   std::vector<const std::vector<int>*> near_;  ///< [task of tasks_] solids that may be near

@@ -80,6 +80,17 @@ BoundingBox<float> box_around(const BoxBounds& box, const Posef& pose) {
   return {centre - grown, centre + grown};
 }
 
+/// What the scene says of the pairs of an object of bodies with others; distances are measured from a field inside a margin.
+std::vector<NamedPair> named_with(const Model& model, const std::string& object, float margin) {
+  std::vector<NamedPair> named;
+  for (const PairProperties& pair : model.pairs) {
+    if (pair.first != object && pair.second != object) continue;
+    NamedPair& one = named.emplace_back(NamedPair{pair.first == object ? pair.second : pair.first, pair});
+    if (pair.thickness) one.said.thickness = *pair.thickness + margin;
+  }
+  return named;
+}
+
 Posef pose_of(const Record& position, const Record& orientation) { return {xyz(position), quaternion(orientation)}; }
 
 }  // namespace
@@ -120,6 +131,7 @@ void BodySolids::add_solids(const Model& model) {
         if (solid.field == nullptr) solid.shape = primitive_around(from.shape);
         solid.margin = from.shape.radius;
       }
+      solid.named = named_with(model, model.objects[at(bodies_[at(b)].object)].name, solid.margin);
       solids_.push_back(solid);
       body_of_solid_.push_back(b);
     }
@@ -161,6 +173,7 @@ void BodySolids::place(const Substep& s) {
     moving.static_friction = object.static_friction;
     moving.kinetic_friction = object.kinetic_friction;
     moving.restitution = object.restitution;
+    moving.named = solid.named.empty() ? nullptr : &solid.named;
     const Vec3f sliding = surface_velocity_of_body(s.model, s.work.control, body.object, body.body);
     if (sliding != Vec3f{}) moving.slide = rotate(quaternion(s.state.frames.orientations[at(body.frame)]), sliding) * s.h;
     const auto box = [&](const Posef& pose) {

@@ -55,6 +55,7 @@ class BodySolids {
     std::shared_ptr<const SolidField> field;  ///< instead of the shape where that is no primitive; null: a primitive
     float margin = 0;                         ///< around the field [m]
     ConvexShape convex{};                     ///< the solid itself, for the filter
+    std::vector<NamedPair> named{};           ///< objects that the scene's `pairs` name with its body
   };
 
   const ContactRules* rules_ = nullptr;

@@ -59,8 +59,6 @@ float outer_radius(const ConvexShape& shape) {
   return std::sqrt(most) + shape.radius;
 }
 
-float gap_of(const Substep& s, int object) { return gap_over_thickness * s.model.objects[at(object)].thickness; }
-
 /// A triangle, or a line whose last vertex is repeated.
 struct Element {
   Vec3d corner[3];
@@ -154,7 +152,8 @@ void PassingFilter::find_pairs(const Substep& s, const SurfaceTiles& surfaces, c
   const float extent = solid.outer + solid.reach;
   for (const int t : surfaces.tiles_near(number)) {
     const SurfaceTile& tile = surfaces.tiles()[at(t)];
-    const float within = extent + gap_of(s, tile.object);
+    const float thickness = thickness_of(s.model.objects[at(tile.object)], at_solid),
+                within = extent + gap_over_thickness * thickness;
     const Vec3f by{within, within, within};
     const BoxBounds box{at_solid.before.position - by, at_solid.before.position + by};
     Contact contact;
@@ -173,7 +172,7 @@ void PassingFilter::find_pairs(const Substep& s, const SurfaceTiles& surfaces, c
     for (const std::int32_t point : solid.points)
       for (int k = tile.first_element[at(point - tile.first)]; k < tile.first_element[at(point - tile.first) + 1]; ++k)
         if (is_near(tile.elements[at(k)]) && may_touch(tile.elements[at(k)]))
-          solid.pairs.push_back({tile.elements[at(k)], tile.object});
+          solid.pairs.push_back({tile.elements[at(k)], tile.object, thickness});
   }
   // A direction that separates most pairs.
   for (Pair& pair : solid.pairs) {
@@ -197,13 +196,13 @@ void PassingFilter::find_pairs(const Substep& s, const SurfaceTiles& surfaces, c
 }
 
 /// Finds which pairs are far, so that a bound of all motion tells that none of them passes.
-void PassingFilter::group_pairs(const Substep& s, Solid& solid) {
+void PassingFilter::group_pairs(Solid& solid) {
   const float least = substeps_of_groups * solid.fastest + share_of_groups * solid.outer;
   solid.close.clear();
   solid.slack = 1e30f;
   solid.used = 0;
   for (int i = 0; i < static_cast<int>(solid.pairs.size()); ++i) {
-    const float room = solid.pairs[at(i)].bound - gap_of(s, solid.pairs[at(i)].object);
+    const float room = solid.pairs[at(i)].bound - gap_over_thickness * solid.pairs[at(i)].thickness;
     if (room > least)
       solid.slack = min(solid.slack, room);
     else
@@ -247,7 +246,7 @@ void PassingFilter::check(const Substep& s, int number, Solid& solid, Pair& pair
   for (const int vertex : pair.element)
     squared = max(squared, length_squared(xyz(s.work.displacements[at(vertex)]) - motion.displacement));
   const float moved = std::sqrt(squared) * motion_rounding + motion.turned + position_rounding,
-              kept = gap_of(s, pair.object);
+              kept = gap_over_thickness * pair.thickness;
   solid.fastest = max(solid.fastest, moved);
   pair.next = pair.bound - moved;
   pair.overlaps = false;
@@ -266,7 +265,7 @@ void PassingFilter::check(const Substep& s, int number, Solid& solid, Pair& pair
   const ConvexDistance before = distance_of(solid.shape, motion.before, at_start(s, pair.element), is_line, solid.corners);
   keep(before, motion.before);
   pair.next = 0;
-  const auto thickness = static_cast<double>(s.model.objects[at(pair.object)].thickness);
+  const auto thickness = static_cast<double>(pair.thickness);
   pair.overlaps = true;  // if not found otherwise
   if (before.separation < -shallow * thickness) return;
   const double rounded = rounding_share * (1 + largest(motion.after.position));
@@ -316,7 +315,7 @@ void PassingFilter::find_of(const Substep& s, const SurfaceTiles& surfaces, cons
     return std::any_of(pair.element.begin(), pair.element.end(), [&](int v) { return (*moved.vertices)[at(v)] != 0; });
   };
   const bool begins = moved.solids == nullptr;
-  if (begins && !solid.is_new && !solid.is_grouped) group_pairs(s, solid);
+  if (begins && !solid.is_new && !solid.is_grouped) group_pairs(solid);
   if (solid.is_grouped && far_pairs_stay_clear(s, solid)) {
     for (const int i : solid.close)
       if (solid.is_all || has_moved(solid.pairs[at(i)])) check(s, number, solid, solid.pairs[at(i)]);

@@ -57,6 +57,7 @@ class PassingFilter {
   struct Pair {
     std::array<int, 3> element{};
     int object = 0;
+    float thickness = 0;        ///< that contact keeps [m]
     float bound = 0, next = 0;  ///< lower bounds of the distance at the substep's start and end [m]
     Vec3f normal{};             ///< from the solid to the triangle, in the solid's frame; 0: not known
     bool overlaps = false;      ///< at the substep's end, by more than the contact yields
@@ -92,7 +93,7 @@ class PassingFilter {
   static void take_motion(Solid& solid);
   static void find_pairs(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at, int number,
                          const FunctionRef<bool(const Contact&)>& meets, Solid& solid);
-  static void group_pairs(const Substep& s, Solid& solid);
+  static void group_pairs(Solid& solid);
   static bool far_pairs_stay_clear(const Substep& s, Solid& solid);
   static void check(const Substep& s, int number, Solid& solid, Pair& pair);
   static void add_contacts(const Substep& s, int number, const Pair& pair, const Vec3d& normal, double least,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
 
 #include "math/wide.h"
 #include "solver/bodies/body_math.h"
@@ -28,6 +29,14 @@ std::vector<std::array<int, 3>> elements_of(const CompiledObject& object) {
   if (!out.empty()) return out;
   for (const auto& [a, b] : object.lines) out.push_back({std::min(a, b), std::max(a, b), std::max(a, b)});
   return out;
+}
+
+/// The largest thickness that the scene's `pairs` give an object [m]; 0 without any.
+float largest_named(const Model& model, const std::string& object) {
+  float most = 0;
+  for (const PairProperties& pair : model.pairs)
+    if (pair.first == object || pair.second == object) most = max(most, pair.thickness.value_or(0));
+  return most;
 }
 
 int lowest(const std::array<int, 3>& element) { return std::min(element[0], std::min(element[1], element[2])); }
@@ -82,7 +91,7 @@ void measure(const Substep& s, SurfaceTile& tile) {
     squared = max(squared, squared_of(d));
   });
   tile.fastest = std::sqrt(squared);
-  const float thickness = s.model.objects[at(tile.object)].thickness;
+  const float thickness = max(s.model.objects[at(tile.object)].thickness, tile.named_thickness);
   const BoxBounds box{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
   tile.box = box.grown(2 * (thickness + 2 * tile.fastest));  // twice the reach of contacts
 }
@@ -124,6 +133,7 @@ SurfaceTiles::SurfaceTiles(const Model& model, const std::vector<int>& tasks) {
     const int first = model.first[at(of.object)];
     tile.task = task;
     tile.object = of.object;
+    tile.named_thickness = largest_named(model, model.objects[at(of.object)].name);
     tile.first = first + range.first_particle;
     tile.last = first + range.last_particle;
   }

@@ -22,6 +22,7 @@ struct SurfaceTile {
   std::vector<int> first_element;            ///< [particle of the tile] the last entry is the number of elements
   std::vector<int> border;                   ///< vertices of elements in other tiles, ascending
   bool has_triangles = false;
+  float named_thickness = 0;   ///< the largest that the scene's `pairs` name with its object [m]
   BoxBounds box{};             ///< of its elements in the substep, as predicted
   float fastest = 0;           ///< largest predicted displacement of their vertices [m]
   float longest = 0;           ///< upper bound of the edges' lengths at the substep's start [m]

@@ -158,14 +158,16 @@ Contact SweptContacts::contact_of(const Substep& s, const Hit& hit, const Moving
   c.point = {corners[0], corners[1], corners[2], corners[0]};
   c.weight = {hit.weights.x, hit.weights.y, hit.weights.z, 0};
   c.normal = hit.normal;
-  c.thickness = object.thickness + solid.thickness;
+  const PairMaterial material = material_of(object, solid);
+  c.thickness = material.thickness;
   c.collider = number;
-  c.static_friction = std::sqrt(object.static_friction * solid.static_friction);
-  c.kinetic_friction = std::sqrt(object.kinetic_friction * solid.kinetic_friction);
-  c.restitution = max(object.restitution, solid.restitution);
+  c.static_friction = material.static_friction;
+  c.kinetic_friction = material.kinetic_friction;
+  c.restitution = material.restitution;
   const Vec3f centre = centre_of(solid, solid.after), moved = centre - centre_of(solid, solid.before);
   c.surface_motion = moved;
-  c.gap = dot(c.normal, relative(c, s.state.positions.data()) - centre) - reach_along(solid, c.normal) - object.thickness;
+  c.gap = dot(c.normal, relative(c, s.state.positions.data()) - centre) - reach_along(solid, c.normal) -
+          thickness_of(object, solid);
   complete_contact(c, s.state.positions.data(), s.state.remainders.data());
   c.approach = dot(c.normal, relative(c, s.work.displacements.data()) - moved) / s.h;
   add_slide(solid, c);
