@@ -141,7 +141,7 @@ TEST_P(SlidesOnMeshes, UpToARidge) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SlidesOnMeshes, ::testing::Values("particles", "grains", "rope", "cloth"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& kind_of_test) { return std::string(kind_of_test.param); });
 
 }  // namespace
 }  // namespace pliant

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/at.h"
+#include "math/vector.h"
 #include "pliant/mesh.h"
 #include "pliant/world.h"
 
