@@ -1,6 +1,8 @@
 // Drags: particles that follow a target, as a mouse wants it.
 
 const most = 12; // the greatest speed that a drag gives [m/s]
+const gain = 0.15; // share of the distance to the target that is added up in each step
+const mostLag = 0.5; // [m]
 
 /** Pulls a particle and what is near it towards a target: velocities at the start of each step, so that constraints and
  * contacts still have the last word. A pinned particle gets targets instead, which it reaches exactly. */
@@ -12,6 +14,7 @@ export class Drag {
     if (!(particle >= 0 && 3 * particle < positions.length))
       throw new RangeError(`particle ${particle} is none of ${positions.length / 3}`);
     this.target = Array.from(positions.subarray(3 * particle, 3 * particle + 3));
+    this.lag = [0, 0, 0];
     this.isPinned = object.inverseMasses()[particle] === 0;
     this.near = this.isPinned ? [] : this.around(positions, radius);
     object.world.drags.add(this);
@@ -35,7 +38,9 @@ export class Drag {
   apply(dt) {
     if (this.isPinned) return this.object.setTargets([this.particle], this.target);
     const at = this.object.positionsView().slice(3 * this.particle, 3 * this.particle + 3);
-    const way = this.target.map((t, k) => (t - at[k]) / dt);
+    // What gravity and the rest of the object keep from the target is added up, so that a load is lifted all the way.
+    this.lag = this.lag.map((lag, k) => Math.min(Math.max(lag + gain * (this.target[k] - at[k]), -mostLag), mostLag));
+    const way = this.target.map((t, k) => (t - at[k] + this.lag[k]) / dt);
     const speed = Math.hypot(...way);
     const cut = speed > most ? most / speed : 1;
     const velocities = this.object.velocities();
