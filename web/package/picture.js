@@ -10,6 +10,12 @@ function presentPositions(object, flows) {
   return left;
 }
 
+/** Positions of tracers that have been emitted. */
+function smokePositions(object) {
+  const ages = object.channel("age");
+  return object.positions().filter((_, i) => ages[Math.floor(i / 3)] >= 0);
+}
+
 function frameOf(world, part, { liquidSurfaces = false }) {
   const object = world.object(part.id);
   const frame = {};
@@ -19,7 +25,7 @@ function frameOf(world, part, { liquidSurfaces = false }) {
     Object.assign(frame, { positions, normals });
     if (part.changes) frame.triangles = triangles;
   } else if (part.kind !== "none") {
-    frame.positions = presentPositions(object, part.flows || part.kind === "smoke");
+    frame.positions = part.kind === "smoke" ? smokePositions(object) : presentPositions(object, part.flows);
     if (part.kind === "lines" && part.changes) frame.lines = object.lines();
     if (part.kind === "liquid" && liquidSurfaces) {
       const { positions, normals, triangles } = object.liquidSurface();

@@ -12,6 +12,9 @@ export interface Grip {
 }
 
 const fewLines = 6000;
+const manyBalls = 2000;
+const manyBodies = 2000;
+const manyPuffs = 1500; // what is transparent is slow
 const creaseAngle = 0.65; // [rad]
 
 export function colourOf([r, g, b]: readonly number[]): THREE.Color {
@@ -83,9 +86,9 @@ function drawBalls(part: ObjectPart, more: THREE.MeshStandardMaterialParameters 
       balls.dispose();
     }
     room = Math.max(count, 2 * room);
-    const ball = new THREE.IcosahedronGeometry(part.radius, room > 8000 ? 1 : 2);
+    const ball = room > manyBalls ? new THREE.SphereGeometry(part.radius, 6, 4) : new THREE.IcosahedronGeometry(part.radius, 2);
     balls = new THREE.InstancedMesh(ball, material(part.colour, more), room);
-    balls.castShadow = balls.receiveShadow = true;
+    balls.castShadow = balls.receiveShadow = room <= manyBalls; // software rendering takes seconds otherwise
     balls.frustumCulled = false;
     const one = new THREE.Matrix4();
     for (let i = 0; i < room; ++i) balls.setMatrixAt(i, one);
@@ -196,7 +199,15 @@ function drawSmoke(part: ObjectPart): Drawn {
     }),
   );
   points.frustumCulled = false;
-  return { thing: points, update: (frame) => put(geometry, "position", frame.positions!) };
+  return {
+    thing: points,
+    update: ({ positions }) => {
+      const stride = Math.ceil(positions!.length / 3 / manyPuffs);
+      if (stride <= 1) return put(geometry, "position", positions!);
+      put(geometry, "position", new Float32Array(positions!.filter((_, i) => Math.floor(i / 3) % stride === 0)));
+      points.material.opacity = Math.min(0.5, 0.16 * Math.sqrt(stride));
+    },
+  };
 }
 
 function softDot(): THREE.Texture {
@@ -214,8 +225,43 @@ function softDot(): THREE.Texture {
 /** Neighbouring bodies differ in brightness, so that a pile can be read. */
 const shades = [1, 0.82, 1.12, 0.9, 1.06, 0.76, 0.96];
 
+/** The ends of a long solid, in its own axes: where it reaches farthest along its longest side. */
+function endsOf({ positions }: Mesh): [THREE.Vector3, THREE.Vector3] {
+  const box = new THREE.Box3().setFromArray(positions as unknown as number[]);
+  const [size, middle] = [box.getSize(new THREE.Vector3()), box.getCenter(new THREE.Vector3())];
+  const axis = size.toArray().indexOf(Math.max(...size.toArray()));
+  const half = new THREE.Vector3().setComponent(axis, size.getComponent(axis) / 2);
+  return [middle.clone().sub(half), middle.clone().add(half)];
+}
+
+/** Very many bodies, such as the segments of hair: a line for each. */
+function drawThinBodies(part: ObjectPart): Drawn[] {
+  const ends = part.solids.map(endsOf);
+  const positions = new Float32Array(6 * part.bodies.length);
+  const geometry = new THREE.BufferGeometry();
+  const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colourOf(part.colour) }));
+  lines.frustumCulled = false;
+  const [centre, turn, end] = [new THREE.Vector3(), new THREE.Quaternion(), new THREE.Vector3()];
+  return [
+    {
+      thing: lines,
+      grip: () => ({ id: part.id }),
+      update: ({ poses }) => {
+        part.bodies.forEach((body, i) => {
+          centre.fromArray(poses!, 7 * i);
+          turn.fromArray(poses!, 7 * i + 3);
+          ends[body.solid].forEach((from, k) => end.copy(from).applyQuaternion(turn).add(centre).toArray(positions, 6 * i + 3 * k));
+        });
+        put(geometry, "position", positions);
+        geometry.boundingSphere = null;
+      },
+    },
+  ];
+}
+
 /** The rigid bodies of an object: instances of each of its solids. */
 function drawBodies(part: ObjectPart): Drawn[] {
+  if (part.bodies.length > manyBodies) return drawThinBodies(part);
   return part.solids.map((solid, s) => {
     const bodies = part.bodies.map((body, index) => ({ ...body, index })).filter((body) => body.solid === s);
     const geometry = toCreasedNormals(geometryOf(solid), creaseAngle);
