@@ -187,6 +187,8 @@ PLIANT_HD Part sqrt_part(const Part& a) {
   return (Part)_mm256_sqrt_ps((__m256)a);
 #elif PLIANT_X86_BITS == 128
   return (Part)_mm_sqrt_ps((__m128)a);
+#elif defined(__wasm_simd128__)
+  return (Part)__builtin_wasm_sqrt_f32x4(a);
 #else
   Part r = a;
   for (int lane = 0; lane < part_width; ++lane) r[lane] = pliant::sqrt(a[lane]);

@@ -40,7 +40,7 @@ struct SheetMesh {
     const auto first = std::lower_bound(across.begin(), across.end(), std::array<int, 3>{edge[0], edge[1], -1});
     auto last = first;
     while (last != across.end() && (*last)[0] == edge[0] && (*last)[1] == edge[1]) ++last;
-    return {first, last};
+    return {across.data() + (first - across.begin()), static_cast<std::size_t>(last - first)};
   }
 
   std::vector<int> neighbours(int vertex) const {

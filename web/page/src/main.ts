@@ -1,0 +1,346 @@
+// The page: it wires the controls, the picture and the World in its worker together.
+import { PliantError, type Parts } from "pliant";
+import { WorkerWorld, type WorkerFrame } from "pliant/client";
+import * as THREE from "three";
+import { gallery, readScene, withFiles, type SceneSource } from "./gallery";
+import { makeLink, readLink } from "./link";
+import { applied, untouched, type Knobs } from "./settings";
+import { View } from "./view";
+
+const first = "tablecloth";
+
+function byId<T extends HTMLElement>(id: string): T {
+  return document.getElementById(id) as T;
+}
+
+const choice = byId<HTMLSelectElement>("scene");
+const playButton = byId<HTMLButtonElement>("play");
+const text = byId<HTMLTextAreaElement>("text");
+const canvas = byId<HTMLCanvasElement>("view");
+const view = new View(canvas);
+const world = new WorkerWorld();
+
+let name = first;
+let source: SceneSource = { text: "", files: {} };
+let knobs: Knobs = { ...untouched };
+let isPlaying = false;
+let parts: Parts | undefined;
+let last: WorkerFrame | undefined;
+let waitsFor: { keepCamera: boolean; done: () => void } | undefined;
+
+// ---- Words
+
+function say(id: string, words: string): void {
+  const place = byId(id);
+  if (place.textContent !== words) place.textContent = words;
+}
+
+function showError(error: unknown): void {
+  const place = byId("error");
+  place.hidden = error === undefined;
+  if (error === undefined) return void (place.textContent = "");
+  const { message } = error as Error;
+  place.textContent = message;
+  if (error instanceof PliantError && error.line > 0 && text.value === applied(text.value, knobs)) {
+    byId<HTMLDetailsElement>("editor").open = true;
+    selectPlace(error.line, error.column);
+  }
+}
+
+/** Selects the rest of a line of the text, from a column on. */
+function selectPlace(line: number, column: number): void {
+  const lines = text.value.split("\n");
+  const start = lines.slice(0, line - 1).reduce((sum, one) => sum + one.length + 1, 0);
+  const end = start + (lines[line - 1]?.length ?? 0);
+  text.setSelectionRange(start + Math.max(0, column - 1), end);
+  text.scrollTop = ((line - 4) * text.scrollHeight) / lines.length;
+}
+
+const percent = (share: number) => `${(100 * share).toPrecision(2)} %`;
+
+let saidAdvice = 0;
+function measure(frame: WorkerFrame): void {
+  const { report } = frame;
+  say("time", `${frame.time.toFixed(2)} s, frame ${frame.frame}`);
+  if (frame.frame === 0) return;
+  say("milliseconds", `${report.milliseconds.toFixed(1)} ms of ${(1000 * frame.frameTime).toFixed(1)}`);
+  say("substeps-used", `${report.substeps}`);
+  say("contacts", `${(report.contacts ?? 0) + (report.pairs?.contacts ?? 0)}`);
+  say("overstretch", report.overstretch ? percent(report.overstretch.p99) : "-");
+  if (performance.now() - saidAdvice > 2000) {
+    saidAdvice = performance.now();
+    say("advice", frame.advice);
+  }
+}
+
+let counted = { pictures: 0, at: performance.now() };
+setInterval(() => {
+  const now = performance.now();
+  say("rate", `${((1000 * (view.pictures - counted.pictures)) / (now - counted.at)).toFixed(0)} a second`);
+  counted = { pictures: view.pictures, at: now };
+}, 1000);
+
+// ---- The World
+
+world.onframe = (frame) => {
+  last = frame;
+  if (waitsFor && parts) {
+    const { keepCamera, done } = waitsFor;
+    waitsFor = undefined;
+    view.show(parts, frame, keepCamera);
+    view.showEdges(byId<HTMLInputElement>("show-edges").checked);
+    done();
+  } else {
+    view.update(frame);
+  }
+  measure(frame);
+};
+world.onfail = (error) => {
+  setPlaying(false);
+  showError(error);
+};
+
+function setPlaying(on: boolean): void {
+  isPlaying = on;
+  playButton.textContent = on ? "Pause" : "Play";
+  playButton.setAttribute("aria-pressed", `${on}`);
+  void world.play(on);
+}
+
+/** Makes a World of the text and the sliders. */
+async function load({ keepState = false, keepCamera = false } = {}): Promise<void> {
+  const wasPlaying = isPlaying;
+  showError(undefined);
+  say("loading", "Making the scene ...");
+  try {
+    await world.play(false);
+    const options = { files: source.files, name: "scene" };
+    const loaded = await world.load(applied(source.text, knobs), options, { keepState });
+    parts = loaded.parts;
+    const shown = new Promise<void>((done) => (waitsFor = { keepCamera, done }));
+    await world.show();
+    await shown;
+    say("advice", loaded.findings.map(({ message, advice }) => `${message}${advice ? `; ${advice}` : ""}`).join("\n"));
+    saidAdvice = performance.now();
+    document.documentElement.dataset.scene = name;
+  } catch (error) {
+    showError(error);
+  }
+  say("loading", "");
+  if (wasPlaying) setPlaying(true);
+}
+
+function describe(): void {
+  let words = "";
+  try {
+    words = JSON.parse(source.text).description ?? "";
+  } catch {
+    // The engine says what is wrong with the text.
+  }
+  say("description", words);
+}
+
+function resetKnobs(): void {
+  knobs = { ...untouched };
+  for (const [id, value] of [["substeps", "0"], ["wind", "0"], ["stiffness", "0"], ["fabric", ""]]) byId<HTMLInputElement>(id).value = value;
+  showKnobs();
+}
+
+async function choose(chosen: string, changed?: string): Promise<void> {
+  name = chosen;
+  choice.value = chosen;
+  source = changed === undefined ? await readScene(chosen) : await withFiles(chosen, changed);
+  text.value = source.text;
+  resetKnobs();
+  describe();
+  await load();
+}
+
+// ---- Controls
+
+for (const group of [...new Set(gallery.map((scene) => scene.group))].sort()) {
+  const list = document.createElement("optgroup");
+  list.label = group.replaceAll("_", " ");
+  for (const scene of gallery.filter((one) => one.group === group)) {
+    const words = scene.name.split("/").pop()!.replaceAll("_", " ");
+    list.append(new Option(words, scene.name));
+  }
+  choice.append(list);
+}
+choice.addEventListener("change", async () => {
+  history.replaceState(null, "", await makeLink(choice.value));
+  await choose(choice.value).catch(showError);
+});
+playButton.addEventListener("click", () => setPlaying(!isPlaying));
+byId("step").addEventListener("click", () => {
+  setPlaying(false);
+  world.step().catch(showError);
+});
+byId("restart").addEventListener("click", () => void load({ keepCamera: true }));
+byId<HTMLInputElement>("show-contacts").addEventListener("change", (event) => {
+  void world.recordContacts((event.target as HTMLInputElement).checked);
+});
+byId<HTMLInputElement>("show-liquids").addEventListener("change", (event) => {
+  void world.showLiquidSurfaces((event.target as HTMLInputElement).checked);
+  if (!isPlaying) void world.show();
+});
+byId<HTMLInputElement>("show-edges").addEventListener("change", (event) => {
+  view.showEdges((event.target as HTMLInputElement).checked);
+});
+
+function showKnobs(): void {
+  const asIs = "as the scene says";
+  say("substeps-value", knobs.substeps > 0 ? `${knobs.substeps}` : asIs);
+  say("wind-value", knobs.wind > 0 ? `${knobs.wind} m/s` : asIs);
+  say("stiffness-value", `${Number(knobs.stiffness.toPrecision(2))} ×`);
+}
+
+function readKnobs(): void {
+  const value = (id: string) => Number(byId<HTMLInputElement>(id).value);
+  knobs = {
+    substeps: value("substeps"),
+    wind: value("wind"),
+    stiffness: 2 ** value("stiffness"),
+    fabric: byId<HTMLSelectElement>("fabric").value,
+  };
+  showKnobs();
+}
+
+let turning: ReturnType<typeof setTimeout> | undefined;
+for (const id of ["substeps", "wind", "stiffness", "fabric"]) {
+  byId(id).addEventListener("input", () => {
+    readKnobs();
+    clearTimeout(turning);
+    turning = setTimeout(() => void load({ keepState: true, keepCamera: true }), 250);
+  });
+}
+
+async function apply(): Promise<void> {
+  source = await withFiles(name, text.value);
+  describe();
+  history.replaceState(null, "", await makeLink(name, text.value));
+  await load({ keepCamera: true });
+}
+byId("apply").addEventListener("click", () => void apply());
+text.addEventListener("keydown", (event) => {
+  if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) void apply();
+});
+
+byId("share").addEventListener("click", async () => {
+  const now = applied(text.value, knobs);
+  const link = await makeLink(name, now === (await readScene(name)).text ? undefined : now);
+  history.replaceState(null, "", link);
+  try {
+    await navigator.clipboard.writeText(location.href);
+    say("note", "The link is copied. It holds the whole scene.");
+  } catch {
+    say("note", "The address of this page holds the whole scene: copy it.");
+  }
+});
+byId("download").addEventListener("click", async () => {
+  setPlaying(false);
+  say("note", "Making 120 frames ...");
+  try {
+    const bytes = await world.record(120);
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(new Blob([bytes as BlobPart], { type: "model/gltf-binary" }));
+    link.download = `${name.split("/").pop()}.glb`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    await world.show();
+    say("note", `${link.download} is saved: ${(bytes.length / 1e6).toFixed(1)} MB.`);
+  } catch (error) {
+    say("note", "");
+    showError(error);
+  }
+});
+
+const turn = 0.12; // [rad]
+const keys: Record<string, () => void> = {
+  ArrowLeft: () => view.orbit(-turn, 0),
+  ArrowRight: () => view.orbit(turn, 0),
+  ArrowUp: () => view.orbit(0, -turn),
+  ArrowDown: () => view.orbit(0, turn),
+  "+": () => view.orbit(0, 0, 0.9),
+  "=": () => view.orbit(0, 0, 0.9),
+  "-": () => view.orbit(0, 0, 1.1),
+  " ": () => setPlaying(!isPlaying),
+  s: () => byId("step").click(),
+  r: () => byId("restart").click(),
+};
+canvas.addEventListener("keydown", (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
+  event.preventDefault();
+  keys[event.key]();
+});
+
+// ---- Dragging
+
+interface Hold {
+  pointer: number;
+  /** Where the pointer took hold. */
+  from: THREE.Vector3;
+  /** Where what it holds was then: a particle's position, or a collider's pose. */
+  held: number[];
+  /** Where the pointer is in the window. */
+  at: { x: number; y: number };
+}
+let hold: Hold | undefined;
+
+canvas.addEventListener(
+  "pointerdown",
+  async (event) => {
+    if (event.button !== 0 || hold || event.shiftKey) return;
+    const pick = view.pick(event.clientX, event.clientY);
+    if (!pick) return;
+    view.controls.enabled = false;
+    canvas.setPointerCapture(event.pointerId);
+    const { grip, point } = pick;
+    hold = { pointer: event.pointerId, from: point, held: [], at: { x: event.clientX, y: event.clientY } };
+    const radius = grip.particle === undefined ? 0.22 * view.extent : 0;
+    const held = grip.isCollider
+      ? await world.grabCollider(grip.id)
+      : await world.grab(grip.id, { particle: grip.particle, point: point.toArray(), radius });
+    if (!hold) return void world.release();
+    hold.held = held;
+    pull(hold); // the pointer may have moved while the worker answered
+    if (!isPlaying) setPlaying(true);
+  },
+  { capture: true },
+);
+function pull({ at, from, held }: Hold): void {
+  const to = view.pointAt(at.x, at.y, from);
+  if (!to || held.length === 0) return;
+  const moved = to.sub(from).toArray();
+  void world.moveTo(held.map((x, k) => x + (moved[k] ?? 0)));
+}
+
+canvas.addEventListener("pointermove", (event) => {
+  if (!hold || event.pointerId !== hold.pointer) {
+    if (event.buttons === 0) canvas.style.cursor = view.pick(event.clientX, event.clientY) ? "pointer" : "grab";
+    return;
+  }
+  hold.at = { x: event.clientX, y: event.clientY };
+  pull(hold);
+});
+for (const end of ["pointerup", "pointercancel"] as const) {
+  canvas.addEventListener(end, (event) => {
+    if (!hold || event.pointerId !== hold.pointer) return;
+    hold = undefined;
+    view.controls.enabled = true;
+    void world.release();
+  });
+}
+
+// ---- Start
+
+// For tests: what is shown, and where it is in the window.
+Object.assign(window, { pliantPage: { world, view, frame: () => last, parts: () => parts } });
+
+const linked = await readLink(location.hash).catch(() => ({}) as Awaited<ReturnType<typeof readLink>>);
+const isKnown = gallery.some((scene) => scene.name === linked.name);
+await choose(isKnown ? linked.name! : first, linked.text).catch(showError);
+window.addEventListener("hashchange", async () => {
+  const now = await readLink(location.hash).catch(showError);
+  if (now?.name) await choose(now.name, now.text).catch(showError);
+});
