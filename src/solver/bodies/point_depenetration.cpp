@@ -111,7 +111,8 @@ void PointDepenetration::find(const Substep& s, const BodySolids& solids, const 
   std::map<std::pair<int, int>, Inside> all;
   for (const Contact& c : contacts) {
     const int object = s.model.object_of(c.point[0]);
-    if (!is_of_a_point(c) || !has_elements(s.model.objects[at(object)])) continue;
+    // What is around the bones of its own object is to stay there.
+    if (!is_of_a_point(c) || object == solids.body_of(c).object || !has_elements(s.model.objects[at(object)])) continue;
     const MovingCollider& solid = solids.moving()[at(c.collider)];
     const Vec3f place = to_local(solid.before, xyz(s.state.positions[at(c.point[0])]));
     if (!(distance_from(solid, place) < 0)) continue;
