@@ -20,7 +20,7 @@ constexpr float preference = 1e-3f;
 /// Edges more parallel than this have no axis [sine].
 constexpr float parallel = 1e-3f;
 /// Faces beside edges that touch are clipped if one of them faces along the normal by this at least [cosine].
-constexpr float least_facing = 0.9f;
+constexpr float least_facing_of_edges = 0.9f;
 /// The same if edges overlap by no more than this share of the smaller polyhedron's size.
 constexpr float shallow = 0.1f;
 
@@ -188,7 +188,7 @@ Touch edge_touch(const Polyhedron& a, const Polyhedron& b, const SeparatingAxis&
   const auto [of_b, facing_b] = facing_of(b, axis.b, -axis.normal);
   std::vector<TouchPoint> points;
   const bool is_shallow = axis.separation > -shallow * std::min(size_of(a), size_of(b));
-  if (is_shallow && std::max(facing_a, facing_b) >= least_facing) {
+  if (is_shallow && std::max(facing_a, facing_b) >= least_facing_of_edges) {
     const Feature one = face_of(a, of_a), other = face_of(b, of_b);
     const double within = static_cast<double>(margin);
     points = facing_a >= facing_b ? points_along(one, other, normal, false, within)

@@ -32,16 +32,16 @@ struct SolidPiece {
   bool is_free = false;            ///< false: all of its particles are pinned or fixed
 };
 
-using Corners = std::array<Vec3d, 4>;
+using TetrahedronCorners = std::array<Vec3d, 4>;
 
-double mean_squared_edge(const Corners& x) {
+double mean_squared_edge(const TetrahedronCorners& x) {
   double sum = 0;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j) sum += length_squared(x[i] - x[j]);
   return sum / 6;
 }
 
-void add_tetrahedron(const Corners& x, SolidPiece& piece) {
+void add_tetrahedron(const TetrahedronCorners& x, SolidPiece& piece) {
   const double volume = std::fabs(dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0])) / 6;
   Vec3d sum{};
   for (const Vec3d& one : x) sum += one;
@@ -112,7 +112,7 @@ std::vector<SolidPiece> pieces_of(const Object& object) {
   std::vector<SolidPiece> pieces(object.positions.size());
   for_elastic_tetrahedra(object, [&](const int* corners) {
     SolidPiece& piece = pieces[sets.root(static_cast<std::size_t>(corners[0]))];
-    Corners x;
+    TetrahedronCorners x;
     for (std::size_t k = 0; k < 4; ++k) {
       x[k] = place_of(object, corners[k]);
       if (held[static_cast<std::size_t>(corners[k])] == 0) piece.is_free = true;

@@ -319,7 +319,10 @@ struct Named {
   const Object* object = nullptr;
   const MeshCollider* mesh = nullptr;
 
-  bool is_of_bodies() const { return object != nullptr && !object->bodies.empty() && object->triangles.empty(); }
+  /// Of bodies alone: ropes between them keep a thickness.
+  bool is_of_bodies() const {
+    return object != nullptr && !object->bodies.empty() && object->bodies.size() == object->positions.size();
+  }
   bool is_solid_mesh() const { return mesh != nullptr && mesh->as != MeshCollider::As::triangles; }
 };
 

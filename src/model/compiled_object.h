@@ -126,7 +126,7 @@ struct CompiledObject {
   CompiledClusters clusters;
   Tethers tethers;
   Multigrid multigrid;
-  SheetBending sheet;                 ///< bending of a fine flat sheet, in place of its hinges
+  SheetBending sheet;                 ///< bending of a flat sheet, in place of its hinges
   std::vector<Kinematic> kinematics;  ///< particles with keyframes
   Carrier carrier;                    ///< motion of all particles of a mesh collider
   Surface surface;

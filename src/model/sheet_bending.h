@@ -1,8 +1,8 @@
-// Bending of flat sheets whose edges are short: one quadratic energy of the whole sheet instead of one constraint a
-// hinge.
+// Bending of flat sheets: one quadratic energy of the whole sheet instead of one constraint a hinge, unless edges are so
+// long that they fold one by one (sheet_choice.h).
 //
 // A sweep over hinges does not converge where edges are shorter than the bending length of a substep,
-// l = (h^2 B / rho)^(1/4): it sags too much by a factor 1 + 2.3 (l / edge)^4. There a substep solves
+// l = (h^2 B / rho)^(1/4): it sags too much by a factor 1 + 2.3 (l / edge)^4. A substep solves
 // M + h^2 K for the whole sheet instead (solver/sheets/sheet_solver.h), so the sag depends on neither the mesh nor the
 // substeps. K is constant, the same for x, y and z:
 //
@@ -13,7 +13,7 @@
 // so each component of k has three coordinates, and K applies to each coordinate alike. docs/internals/bending.md
 // compares this energy with others.
 //
-// The solve is a multigrid cycle. Each level keeps a quarter to a third of the vertices of the finer one and
+// The solve is a multigrid cycle or, where a substep bends over less than an edge, a polynomial of one or two terms. Each level keeps a quarter to a third of the vertices of the finer one and
 // interpolates linearly between them. Coarse stiffness and mass are Galerkin products, so a cycle is never softer than
 // M + h^2 K, and moves and turns what no force bends as it should: with lumped coarse masses a sheet fell at 0.8 g.
 #pragma once

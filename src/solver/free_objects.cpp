@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "collision/narrow/contact.h"
 #include "core/islands.h"
 #include "math/functions.h"
 #include "solver/bodies/body_math.h"
@@ -113,7 +114,8 @@ void for_solids_of_others(const Substep& s, int task, const FreeBodies& free, co
     const FreeBody& other = free[at(solids.bodies()[at(solids.body_of_solid()[i])].object)];
     const MovingCollider& solid = solids.moving()[i];
     if (other.group != group)
-      near(solid, other.group, distance_from_solid(object, s.work.tiles[at(task)].bounds, solid) - object.thickness);
+      near(solid, other.group,
+           distance_from_solid(object, s.work.tiles[at(task)].bounds, solid) - thickness_of(object, solid));
   }
 }
 

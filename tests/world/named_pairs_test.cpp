@@ -28,13 +28,13 @@ Object slab(const SolidShape& shape, float top) {
   return object;
 }
 
-enum class Thing { cloth, rope, particle };
+enum class Kind { cloth, rope, particle };
 
-Object thing(Thing kind, float height) {
+Object thing(Kind kind, float height) {
   Object object;
-  if (kind == Thing::cloth) object = testing_support::cloth(testing_support::sheet(4, 0.2f, height));
-  if (kind == Thing::rope) object = make_rope({{-0.1f, height, 0}, {0, height, 0}, {0.1f, height, 0}});
-  if (kind == Thing::particle) object = testing_support::loose_particles({{0, height, 0}});
+  if (kind == Kind::cloth) object = testing_support::cloth(testing_support::sheet(4, 0.2f, height));
+  if (kind == Kind::rope) object = make_rope({{-0.1f, height, 0}, {0, height, 0}, {0.1f, height, 0}});
+  if (kind == Kind::particle) object = testing_support::loose_particles({{0, height, 0}});
   object.name = "thing";
   object.thickness = 0.002f;
   object.collides = true;
@@ -43,7 +43,7 @@ Object thing(Thing kind, float height) {
 }
 
 /// Where something is after a second on a slab, in a field that is level but for 1 m/s^2 along x [m].
-Vec3f place_after_a_second(Thing kind, const Object& on, const PairProperties& pair) {
+Vec3f place_after_a_second(Kind kind, const Object& on, const PairProperties& pair) {
   Scene scene = scene_of(10);
   scene.gravity = {1, -9.81f, 0};
   scene.add(on);
@@ -59,7 +59,7 @@ Vec3f place_after_a_second(Thing kind, const Object& on, const PairProperties& p
 
 TEST(NamedPairs, OfBodiesWithParticlesHaveTheirFriction) {
   const Object box = slab(Box{{2, 0.1f, 1}}, 0.1f);
-  for (const Thing kind : {Thing::cloth, Thing::rope, Thing::particle}) {
+  for (const Kind kind : {Kind::cloth, Kind::rope, Kind::particle}) {
     EXPECT_LT(place_after_a_second(kind, box, {}).x, 0.01f) << int(kind);
     EXPECT_NEAR(place_after_a_second(kind, box, {"thing", "slab", {}, 0.f, {}, {}}).x, 0.5f, 0.02f) << int(kind);
     // 1 - 0.05 g, and the other order of names
@@ -70,9 +70,9 @@ TEST(NamedPairs, OfBodiesWithParticlesHaveTheirFriction) {
 TEST(NamedPairs, OfBodiesWithParticlesKeepTheirThickness) {
   const Object box = slab(Box{{2, 0.1f, 1}}, 0.1f), drum = slab(Cylinder{1, 0.1f}, 0.1f);
   for (const float kept : {0.0005f, 0.02f})
-    for (const Thing kind : {Thing::cloth, Thing::rope, Thing::particle})
+    for (const Kind kind : {Kind::cloth, Kind::rope, Kind::particle})
       EXPECT_NEAR(place_after_a_second(kind, box, {"thing", "slab", kept, {}, {}, {}}).y, kept, 1e-4f) << int(kind);
-  EXPECT_NEAR(place_after_a_second(Thing::cloth, drum, {"thing", "slab", 0.02f, {}, {}, {}}).y, 0.02f, 1e-3f);
+  EXPECT_NEAR(place_after_a_second(Kind::cloth, drum, {"thing", "slab", 0.02f, {}, {}, {}}).y, 0.02f, 1e-3f);
 }
 
 TEST(NamedPairs, OfOtherBodiesDoNotAct) {
@@ -81,7 +81,7 @@ TEST(NamedPairs, OfOtherBodiesDoNotAct) {
   Object other = slab(Box{{0.1f, 0.1f, 0.1f}}, 5);
   other.name = "other";
   scene.add(slab(Box{{2, 0.1f, 1}}, 0.1f));
-  scene.add(thing(Thing::cloth, 0.002f));
+  scene.add(thing(Kind::cloth, 0.002f));
   scene.add(other);
   World plain(scene);
   scene.pairs = {{"thing", "other", 0.02f, 0.f, {}, {}}};
@@ -94,7 +94,7 @@ TEST(NamedPairs, OfOtherBodiesDoNotAct) {
 TEST(NamedPairs, HaveTheirRestitution) {
   Scene scene = scene_of(10);
   scene.add(slab(Box{{2, 0.1f, 1}}, 0.1f));
-  scene.add(thing(Thing::particle, 0.5f));
+  scene.add(thing(Kind::particle, 0.5f));
   scene.pairs = {{"thing", "slab", {}, {}, {}, 1.f}};
   World world(scene);
   run(world, 38);  // falls for 0.32 s

@@ -32,7 +32,7 @@ struct ComingOut {
   std::string warnings, first_warnings;
 };
 
-float fastest_of(const World& world) {
+float fastest_particle(const World& world) {
   float fastest = 0;
   for (int o = 0; o < world.object_count(); ++o)
     for (const Vec3f& v : world.object(o).velocities()) fastest = std::max(fastest, length(v));
@@ -45,7 +45,7 @@ ComingOut come_out(World& world, int frames) {
     const Report report = world.step(dt);
     EXPECT_TRUE(report.ok()) << report.explain();
     for (const std::string& warning : report.warnings) (frame == 0 ? out.first_warnings : out.warnings) += warning + "\n";
-    out.last = fastest_of(world);
+    out.last = fastest_particle(world);
     out.fastest = std::max(out.fastest, out.last);
   }
   return out;

@@ -91,8 +91,9 @@ pliant_status pliant_writer_finish(pliant_writer* writer) {
   return guarded([&] {
     const auto of = at(writer);
     const Use use(*of);
-    unfinished(*of).finish();
-    of->writer.reset();
+    unfinished(*of);
+    const auto last = std::move(of->writer);  // also if it fails: what the sink refused is not given again
+    last->finish();
   });
 }
 

@@ -19,7 +19,7 @@ struct Writer {
   SharedWorld world;
   nb::object target;  ///< a dict of files in memory or a file object, which the sink only borrows; null: files go to disk
   std::unique_ptr<FrameWriter> writer;
-  bool is_finished = false;
+  bool is_finished = false, has_failed = false;
 
   FrameWriter& open() {
     if (is_finished) throw Error({}, "this Writer has finished", "make another by World.writer()");
@@ -67,7 +67,21 @@ FileSink sink_into_file(nb::handle file, const std::string& name) {
                 "give format='glb' or 'usda', or leave the path out and read Writer.files");
   if (nb::isinstance(file, nb::module_::import_("io").attr("TextIOBase")))
     throw Error({}, "the file object takes text, and frames are bytes", "open it with mode 'wb', or use io.BytesIO");
-  return [file](const std::string&, const std::vector<std::byte>& bytes) { file.attr("write")(bytes_from(bytes)); };
+  return [file](const std::string&, const std::vector<std::byte>& bytes) {
+    nb::object rest = nb::module_::import_("builtins").attr("memoryview")(bytes_from(bytes));
+    for (std::size_t left = bytes.size(); left > 0;) {
+      const nb::object taken = file.attr("write")(rest);
+      if (!nb::isinstance<nb::int_>(taken)) {
+        if (taken.is_none() && !nb::hasattr(file, "fileno")) return;  // a writer of one's own that returns nothing
+        throw Error({}, "the file object does not say how much it has written", "open it with mode 'wb', and blocking");
+      }
+      const auto count = nb::cast<std::size_t>(taken);
+      if (count == 0 || count > left)
+        throw Error({}, "the file object takes no more bytes", "look whether its disk is full");
+      left -= count;
+      rest = rest[nb::slice(nb::int_(count), nb::none(), nb::none())];
+    }
+  };
 }
 
 Writer make_writer(const WorldRef& self, const std::string& path, FrameWriterOptions options, nb::object target = {}) {
@@ -79,7 +93,11 @@ Writer make_writer(const WorldRef& self, const std::string& path, FrameWriterOpt
 
 void finish(Writer& self) {
   if (self.is_finished) return;
+  if (self.has_failed)
+    throw Error({}, "an earlier finish() of this Writer failed, so files are missing", "write the run again");
+  self.has_failed = true;
   self.writer->finish();
+  self.has_failed = false;
   self.is_finished = true;
 }
 

@@ -70,7 +70,7 @@ bool BodyContacts::Task::is_found_again(const Found& found, const Mark& mark) co
 void BodyContacts::Task::find_again(const Found& found, const Mark& mark, ContactsBefore& contacts, Found& next) const {
   const std::size_t touches = next.first.size();
   next.is_opened = mark.is_open();
-  next.start = mark.start >= 0 ? &found.starts[at(mark.start)] : nullptr;
+  next.start = mark.start >= 0 && !mark.is_open() ? &found.starts[at(mark.start)] : nullptr;
   find(mark.pair, contacts, next);
   if (!mark.is_open()) next.first.resize(touches);
 }
@@ -145,6 +145,9 @@ float BodyContacts::Task::speed_of(int pair, bool is_opened) const {
   const int a = of.parts_[at(parts.first)].body, b = of.parts_[at(parts.second)].body;
   float most = length(bodies[at(a)].velocity - bodies[at(b)].velocity);
   if (!is_opened) return most;
+  const ContactPath path = paths->between(a, b, pair, {});
+  for (std::size_t leg = 0; leg < path.count(); ++leg)
+    most = std::max(most, static_cast<float>(length(path.leg(leg).speed)) / dt);
   if (paths->turns(a, pair)) most = std::max(most, length(bodies[at(b)].velocity));
   if (paths->turns(b, pair)) most = std::max(most, length(bodies[at(a)].velocity));
   return most;

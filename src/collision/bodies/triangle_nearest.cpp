@@ -18,7 +18,7 @@ constexpr double preference = 1e-3;
 /// Overlap along the triangle's normal up to this share of the solid's size needs no search if the deepest point is over it.
 constexpr double shallow = 0.05;
 /// What overlaps a triangle by less than this share of its depth below the plane is beside it.
-constexpr double beside = 0.05;
+constexpr double beside_share = 0.05;
 /// Edges more parallel than this have no axis [sine].
 constexpr double parallel = 1e-4;
 
@@ -163,7 +163,7 @@ TriangleNearest nearest_on(const MeshFace& face, const SolidInMesh& solid, doubl
       // touch it there: a box on top of a wall, whose centre has passed the plane of the wall's side.
       TriangleNearest exact = nearest_by_supports(face, solid, reach);
       exact.is_near = exact.separation <= reach;
-      if (exact.separation > beside * out.separation) return exact;
+      if (exact.separation > beside_share * out.separation) return exact;
     }
     const bool is_face_contact = !is_at_edge && (is_smooth || (is_shallow && is_above));
     if (!is_face_contact && solid.is_polyhedron()) out = best_axis(face, solid, out, reach);

@@ -24,6 +24,9 @@ struct Detection {
 
 /// The side of a pair that is of a mesh collider, 0 or 1; -1: none.
 int mesh_side(const ContactTables& tables, const PairStencil& pair) {
+  if (tables.vertex_body[static_cast<std::size_t>(pair.vertex[0])] ==
+      tables.vertex_body[static_cast<std::size_t>(pair.vertex[3])])
+    return -1;  // what is pinned everywhere and collides with itself
   const auto is_of_mesh = [&](std::size_t i) {
     return tables.rules.is_immovable(tables.vertex_body[static_cast<std::size_t>(pair.vertex[i])]);
   };
@@ -201,8 +204,7 @@ std::size_t ContactDetector::detect(Executor& executor, Neighbourhood& near, con
     contacts.insert(contacts.end(), scratch.of_groups.begin(), scratch.of_groups.end());
   const std::size_t of_static_pairs = contacts.size();
   for (const Scratch& scratch : scratch_) contacts.insert(contacts.end(), scratch.of_lists.begin(), scratch.of_lists.end());
-  flush_.remove(particles.positions, contacts);
-  return of_static_pairs;
+  return flush_.remove(particles.positions, of_static_pairs, contacts);
 }
 
 }  // namespace pliant

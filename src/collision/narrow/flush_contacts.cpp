@@ -45,7 +45,9 @@ bool keeps_above(const Contact& face, const Vec3f& point, const Contact& contact
 
 FlushContacts::OnMesh FlushContacts::on_mesh(const Contact& contact) const {
   OnMesh side;
+  const auto body_of = [&](std::int32_t vertex) { return model_.shared->vertex_body[static_cast<std::size_t>(vertex)]; };
   const bool is_second = is_collider(contact.point[3]);
+  if (body_of(contact.point[0]) == body_of(contact.point[3])) return side;
   if (!is_second && !is_collider(contact.point[0])) return side;
   side.is_first = !is_second;
   for (std::size_t i = 0; i < 4; ++i) side.held += holds_on(side.is_first, contact, i) ? 1 : 0;
@@ -83,7 +85,7 @@ bool FlushContacts::is_flush(const Contact& contact, const OnMesh& side, const R
   return under != nullptr;
 }
 
-void FlushContacts::remove(const Record* positions, std::vector<Contact>& contacts) {
+std::size_t FlushContacts::remove(const Record* positions, std::size_t leading, std::vector<Contact>& contacts) {
   features_.clear();
   touched_.clear();
   first_.resize(model_.shared->vertex_body.size(), -1);
@@ -98,20 +100,22 @@ void FlushContacts::remove(const Record* positions, std::vector<Contact>& contac
     const Contact& contact = contacts[static_cast<std::size_t>(k)];
     return !is_flush(contact, on_mesh(contact), positions, contacts);
   };
-  if (touched_.empty()) return;
+  if (touched_.empty()) return leading;
   std::erase_if(features_, is_kept);
   for (const std::int32_t vertex : touched_) first_[static_cast<std::size_t>(vertex)] = -1;
-  if (features_.empty()) return;
-  std::size_t kept = 0;
+  if (features_.empty()) return leading;
+  std::size_t kept = 0, left = leading;
   auto gone = features_.begin();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     if (gone != features_.end() && static_cast<std::size_t>(*gone) == k) {
       ++gone;
+      left -= k < leading ? 1 : 0;
       continue;
     }
     contacts[kept++] = contacts[k];
   }
   contacts.resize(kept);
+  return left;
 }
 
 }  // namespace pliant

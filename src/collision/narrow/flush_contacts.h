@@ -4,6 +4,7 @@
 // direction of a contact with the border, of what is still beside it, would be a ramp.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,7 +19,8 @@ class FlushContacts {
 
   /// Removes contacts whose direction is oblique to those that the same particles have with faces of mesh colliders, and
   /// whose closest point on the mesh is not above these faces. The contacts with the faces keep the particles above it.
-  void remove(const Record* positions, std::vector<Contact>& contacts);
+  /// Of the first `leading` ones as many are left as it returns.
+  std::size_t remove(const Record* positions, std::size_t leading, std::vector<Contact>& contacts);
 
  private:
   /// The side of a contact that a mesh collider has.

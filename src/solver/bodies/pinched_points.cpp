@@ -88,12 +88,13 @@ float share_in_cone(const Contact& c, const Vec3f& added) {
   return root > 0 ? min(max((sqrt(root) - along) / square, 0.f), 1.f) : 0.f;
 }
 
-/// Gives a side the impulse on the vertex, which is `along` its normal and `across` it. `scale` is the inverse mass of its contact.
-void answer(const PinchSide& side, float along, const Vec3f& across, float scale) {
+/// Gives a side the impulse on the vertex, which is `along` a direction near its normal and `across` it. `scale` is the inverse mass of
+/// its contact.
+void answer(const PinchSide& side, float along, const Vec3f& direction, const Vec3f& across, float scale) {
   side.contact->push += along * scale;
   side.contact->friction += across * (scale * side.sign);
   if (side.progress == nullptr) return;
-  const Vec3f impulse = side.normal * along + across;
+  const Vec3f impulse = direction * along + across;
   side.progress->moved -= impulse * side.motion.inverse_mass;
   side.progress->turned -= times(side.motion.inverse_inertia, cross(side.arm, impulse));
 }
@@ -112,13 +113,13 @@ float join(const PinchSide& a, const PinchSide& b, float w) {
   const Vec3f impulse = impulse_between(a, b, (slip - n * dot(n, slip)) + n * lost);
   const float along = lost > 0 ? max(dot(n, impulse), 0.f) : 0;
   const float scale_a = w + dot(n, response(a, n)), scale_b = w + dot(n, response(b, n));
-  answer(a, along, {}, scale_a);
-  answer(b, along, {}, scale_b);
+  answer(a, along, n, {}, scale_a);  // opposite ones, also where normals are not: momentum is kept
+  answer(b, along, -n, {}, scale_b);
   const Vec3f sticking = impulse - n * dot(n, impulse);
   const Vec3f across = sticking * min(share_in_cone(*a.contact, sticking * (scale_a * a.sign)),
                                       share_in_cone(*b.contact, sticking * (-scale_b * b.sign)));
-  answer(a, 0, across, scale_a);
-  answer(b, 0, -across, scale_b);
+  answer(a, 0, n, across, scale_a);
+  answer(b, 0, -n, -across, scale_b);
   return along;
 }
 
@@ -177,9 +178,13 @@ void PinchedPoints::project(Substep& s, const Parts& parts, const Pinch& pinch) 
   if (!pinch.is_mesh) parts.impulses[at(pinch.other)] += along;
 }
 
-void PinchedPoints::project(Substep& s, const Parts& parts) const {
+void PinchedPoints::project(Substep& s, const Parts& parts, const std::vector<char>* of) const {
+  const auto is_of = [&](const Pinch& pinch) {
+    return of == nullptr || (*of)[at(s.model.object_of(parts.contacts[at(pinch.contact)].point[0]))] != 0;
+  };
   for (int round = 0; round < rounds_of_pinches; ++round)
-    for (const Pinch& pinch : pinches_) project(s, parts, pinch);
+    for (const Pinch& pinch : pinches_)
+      if (is_of(pinch)) project(s, parts, pinch);
 }
 
 }  // namespace pliant

@@ -39,7 +39,8 @@ class PinchedPoints {
   /// Finds them among the contacts of a substep, with bodies and with mesh colliders.
   void find(const Substep& s, const BodySolids& solids, const std::vector<Contact>& contacts);
   /// Projects each, in the order of vertices. Contacts have been projected, and are those for which pinched vertices were found.
-  void project(Substep& s, const Parts& parts) const;
+  /// Unless `of` is null only vertices of the objects for which it is not zero.
+  void project(Substep& s, const Parts& parts, const std::vector<char>* of) const;
 
  private:
   struct Pinch {

@@ -18,6 +18,8 @@ constexpr float share_of_half_thickness = 0.3f;
 /// Nearer to a surface it is so as well if the way out is at most so many times the depth: where the ways of all points differ, as those
 /// of a belt around a body do, the nearest side of each is right.
 constexpr float most_ways_over_depth = 1.5f;
+/// An impact presses less than so many thicknesses into a body.
+constexpr float thicknesses_of_impacts = 3;
 /// A way down, into the ground, counts as so many times as long.
 constexpr float length_of_way_down = 2;
 
@@ -129,11 +131,12 @@ void PointDepenetration::find(const Substep& s, const BodySolids& solids, const 
       within.places.push_back(to_local(solid.before, xyz(s.state.positions[at(point)])));
       within.deepest = max(within.deepest, -distance_from(solid, within.places.back()));
     }
-    if (!(within.deepest > thickness_of(s.model.objects[at(inside.object)], solid))) continue;
+    const float thickness = thickness_of(s.model.objects[at(inside.object)], solid);
+    if (!(within.deepest > thickness)) continue;
     const Vec3f down = rotate(conjugate(solid.before.rotation), unit_or(s.model.gravity, Vec3f{}));
     const WayOut out = shortest_way(shapes_[at(inside.solid)], within, down);
     if (!(within.deepest > share_of_half_thickness * out.half_thickness) &&
-        !(out.way < most_ways_over_depth * within.deepest))
+        !(within.deepest > thicknesses_of_impacts * thickness && out.way < most_ways_over_depth * within.deepest))
       continue;
     std::sort(inside.points.begin(), inside.points.end());
     inside.points.erase(std::unique(inside.points.begin(), inside.points.end()), inside.points.end());

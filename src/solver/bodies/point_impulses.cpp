@@ -35,6 +35,8 @@ Vec3f place_of(const Contact& c, const Record* positions, const Record* displace
 void PointImpulses::note_progress(const Substep& s, const BodySolids& solids) {
   const std::vector<TouchedBody>& all = solids.bodies();
   progress_.assign(all.size(), {});
+  pinched_ = {};  // those that were found count the motion of bodies from another time
+  pinched_are_found_ = true;
   for (std::size_t b = 0; b < all.size(); ++b) {
     progress_[b].displacement = xyz(s.work.displacements[at(all[b].particle)]);
     const std::size_t frame = at(all[b].frame);
@@ -96,7 +98,7 @@ void PointImpulses::project(Substep& s, const BodySolids& solids, const std::vec
     if (of == nullptr || (*of)[at(s.model.object_of(contact.point[0]))] != 0)
       project(s, solids, motions[at(solids.number_of(contact))], contact, true);
   if (!std::exchange(pinched_are_found_, true)) pinched_.find(s, solids, contacts_);
-  pinched_.project(s, {solids, motions, contacts_, impulses_, progress_});
+  pinched_.project(s, {solids, motions, contacts_, impulses_, progress_}, of);
   end_pass(s, solids);
 }
 
@@ -110,7 +112,6 @@ void PointImpulses::project_from(Substep& s, const BodySolids& solids, std::size
 
 std::size_t PointImpulses::append(const std::vector<Contact>& more) {
   const std::size_t first = contacts_.size();
-  pinched_ = {};  // the motion of bodies is counted from another time than theirs
   contacts_.insert(contacts_.end(), more.begin(), more.end());
   impulses_.resize(contacts_.size());
   return first;
@@ -123,8 +124,8 @@ void PointImpulses::begin_frame() {
 
 void PointImpulses::begin_substep(const Substep& s, const BodySolids& solids) {
   impulses_.assign(contacts_.size(), 0.f);
-  pinched_are_found_ = false;
   note_progress(s, solids);
+  pinched_are_found_ = false;
 }
 
 void PointImpulses::respond(Substep& s, const BodySolids& solids, const std::vector<BodyMotion>& motions,

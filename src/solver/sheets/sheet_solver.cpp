@@ -22,7 +22,10 @@ int cycles_for(float edges4) {
   return cycles;
 }
 /// The same without coarse levels, of Gauss-Seidel: a sweep reaches about an edge.
-int sweeps_for(float edges4) { return 4 + static_cast<int>(std::sqrt(sheets::largest_of_grid * edges4) / 2); }
+int sweeps_for(float edges4) {
+  constexpr float most = 60;
+  return 4 + static_cast<int>(std::min(most, std::sqrt(sheets::largest_of_grid * edges4) / 2));
+}
 
 /// One bending is for as many substeps as keep (l / e)^4 below this, so that it bends over few edges, and for so many at
 /// most: sheets that hang have many substeps for their stretch. For 9 to 40 substeps sheets of two to four edges crumpled.
@@ -156,7 +159,9 @@ void find_corrections(Substep& s, int object, const sheets::SheetForces& forces,
   sheets::find_right_hand_side(sheet, forces, loop, scratch);
   const Vec3f load = forces.gravity * (forces.substeps * forces.substeps);
   const int terms = sheets::terms_for(sheet, scratch.h2);
-  const bool any_moves = !(terms > 0 && sheets::keeps_momentum(scratch)) && !find_pinned(sheet, scratch);
+  // K resists no motion of a piece as a whole, but it acts on positions ahead of these with damping and several substeps.
+  const bool is_rigid_free = sheet.damping_time == 0 && forces.substeps == 1;
+  const bool any_moves = !(terms > 0 && is_rigid_free && sheets::keeps_momentum(scratch)) && !find_pinned(sheet, scratch);
   if (any_moves) leave_out_gravity(sheet, load, scratch);
   if (terms > 1) sheets::add_term(sheet, loop, scratch);
   const float edges4 = scratch.h2 * sheet.stiffness;

@@ -200,9 +200,9 @@ static void test_far_places(void) {
   SAYS(PLIANT_REFUSED, "vertex 0: its target is more", pliant_collider_set_positions(world, wall, there, 9));
   SAYS(PLIANT_REFUSED, "are 8 for 9 vertices; give one per vertex",
        pliant_collider_set_positions(world, wall, there, 8));
-  OK(pliant_world_step(world, 0));
   hash_of(world, after);
-  CHECK(strcmp(before, after) != 0);
+  CHECK(strcmp(before, after) == 0);
+  OK(pliant_world_step(world, 0));
   OK(pliant_world_free(world));
 }
 
