@@ -278,7 +278,8 @@ TEST(CoveredBodies, ClothThatABodyOverlapsIsNamed) {
   EXPECT_NE(report.warnings[0].find(": the vertex is pinned"), std::string::npos) << report.warnings[0];
 }
 
-/// Where nothing presses from the other side and nothing is pinned, it is no pinch. A body with a name is called by it.
+/// Where nothing presses from the other side and nothing is pinned, it is no pinch: the cloth started inside. A body with a
+/// name is called by it.
 TEST(CoveredBodies, ABodyInLooseClothIsNotCalledPinched) {
   Scene scene = thrown(Box{{0.06f, 0.06f, 0.06f}}, 0, false);
   scene.settings.substeps = 1;
@@ -288,9 +289,8 @@ TEST(CoveredBodies, ABodyInLooseClothIsNotCalledPinched) {
   const Report report = world.step(1.f / 60);
   ASSERT_EQ(report.warnings.size(), 1u);
   const std::string& text = report.warnings[0];
-  EXPECT_EQ(text.find("object 'cloth' passes through body 0 ('bullet') of 'bullet' in "), 0u) << text;
-  EXPECT_NE(text.find(": they hit one another too hard for 1 substep a frame, or overlapped when they"), std::string::npos)
-      << text;
+  EXPECT_NE(text.find(" is inside of body 0 ('bullet') of 'bullet'"), std::string::npos) << text;
+  EXPECT_NE(text.find(": it started there or was teleported there"), std::string::npos) << text;
 }
 
 TEST(CoveredBodies, TheCountSeesClothWithoutContact) {

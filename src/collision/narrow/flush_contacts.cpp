@@ -54,19 +54,14 @@ FlushContacts::OnMesh FlushContacts::on_mesh(const Contact& contact) const {
   return side;
 }
 
-void FlushContacts::note_face(std::int32_t vertex, std::int32_t contact) {
-  std::int32_t& first = first_[static_cast<std::size_t>(vertex)];
-  if (first < 0) touched_.push_back(vertex);
-  next_[static_cast<std::size_t>(contact)] = first;
-  first = contact;
-}
-
 /// The contact with a face that keeps a particle above the closest point of an oblique one, and is alike `other`; null: none.
 const Contact* FlushContacts::face_under(std::int32_t particle, const Contact& contact, bool mesh_is_first,
                                          const Contact* other, const Record* positions,
                                          const std::vector<Contact>& contacts) const {
-  for (std::int32_t f = first_[static_cast<std::size_t>(particle)]; f >= 0; f = next_[static_cast<std::size_t>(f)]) {
-    const Contact& face = contacts[static_cast<std::size_t>(f)];
+  auto at = std::lower_bound(faces_.begin(), faces_.end(), particle,
+                             [](const FaceContact& face, std::int32_t p) { return face.particle < p; });
+  for (; at != faces_.end() && at->particle == particle; ++at) {
+    const Contact& face = contacts[static_cast<std::size_t>(at->contact)];
     if (!differ(face.normal, contact.normal) || (other != nullptr && differ(face.normal, other->normal))) continue;
     if (keeps_above(face, point_on_mesh(contact, mesh_is_first, xyz(positions[particle]), positions), contact))
       return &face;
@@ -87,22 +82,22 @@ bool FlushContacts::is_flush(const Contact& contact, const OnMesh& side, const R
 
 std::size_t FlushContacts::remove(const Record* positions, std::size_t leading, std::vector<Contact>& contacts) {
   features_.clear();
-  touched_.clear();
-  first_.resize(model_.shared->vertex_body.size(), -1);
-  next_.resize(contacts.size());
+  faces_.clear();
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const OnMesh side = on_mesh(contacts[k]);
     if (side.held == 0) continue;
     if (side.held < 3) features_.push_back(static_cast<std::int32_t>(k));
-    if (side.held == 3) note_face(contacts[k].point[0], static_cast<std::int32_t>(k));
+    if (side.held == 3) faces_.push_back({contacts[k].point[0], static_cast<std::int32_t>(k)});
   }
   const auto is_kept = [&](std::int32_t k) {
     const Contact& contact = contacts[static_cast<std::size_t>(k)];
     return !is_flush(contact, on_mesh(contact), positions, contacts);
   };
-  if (touched_.empty()) return leading;
+  if (faces_.empty() || features_.empty()) return leading;
+  std::sort(faces_.begin(), faces_.end(), [](const FaceContact& a, const FaceContact& b) {
+    return a.particle != b.particle ? a.particle < b.particle : a.contact > b.contact;
+  });
   std::erase_if(features_, is_kept);
-  for (const std::int32_t vertex : touched_) first_[static_cast<std::size_t>(vertex)] = -1;
   if (features_.empty()) return leading;
   std::size_t kept = 0, left = leading;
   auto gone = features_.begin();

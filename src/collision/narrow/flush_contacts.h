@@ -36,11 +36,13 @@ class FlushContacts {
                 const std::vector<Contact>& contacts) const;
   const Contact* face_under(std::int32_t particle, const Contact& contact, bool mesh_is_first, const Contact* other,
                             const Record* positions, const std::vector<Contact>& contacts) const;
-  void note_face(std::int32_t vertex, std::int32_t contact);
 
   const PairModel& model_;
-  std::vector<std::int32_t> first_, next_;  ///< first face contact of each particle, next one of each contact; -1: none
-  std::vector<std::int32_t> touched_, features_;
+  struct FaceContact {
+    std::int32_t particle = 0, contact = 0;
+  };
+  std::vector<FaceContact> faces_;  ///< by particle, later contacts first
+  std::vector<std::int32_t> features_;
 };
 
 }  // namespace pliant

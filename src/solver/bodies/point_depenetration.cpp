@@ -18,8 +18,6 @@ constexpr float share_of_half_thickness = 0.3f;
 /// Nearer to a surface it is so as well if the way out is at most so many times the depth: where the ways of all points differ, as those
 /// of a belt around a body do, the nearest side of each is right.
 constexpr float most_ways_over_depth = 1.5f;
-/// An impact presses less than so many thicknesses into a body.
-constexpr float thicknesses_of_impacts = 3;
 /// A way down, into the ground, counts as so many times as long.
 constexpr float length_of_way_down = 2;
 
@@ -136,7 +134,7 @@ void PointDepenetration::find(const Substep& s, const BodySolids& solids, const 
     const Vec3f down = rotate(conjugate(solid.before.rotation), unit_or(s.model.gravity, Vec3f{}));
     const WayOut out = shortest_way(shapes_[at(inside.solid)], within, down);
     if (!(within.deepest > share_of_half_thickness * out.half_thickness) &&
-        !(within.deepest > thicknesses_of_impacts * thickness && out.way < most_ways_over_depth * within.deepest))
+        !(out.way < most_ways_over_depth * within.deepest))
       continue;
     std::sort(inside.points.begin(), inside.points.end());
     inside.points.erase(std::unique(inside.points.begin(), inside.points.end()), inside.points.end());
