@@ -68,7 +68,7 @@ FileSink sink_into_file(nb::handle file, const std::string& name) {
   if (nb::isinstance(file, nb::module_::import_("io").attr("TextIOBase")))
     throw Error({}, "the file object takes text, and frames are bytes", "open it with mode 'wb', or use io.BytesIO");
   return [file](const std::string&, const std::vector<std::byte>& bytes) {
-    nb::object rest = nb::module_::import_("builtins").attr("memoryview")(bytes_from(bytes));
+    nb::object rest = bytes_from(bytes);
     for (std::size_t left = bytes.size(); left > 0;) {
       const nb::object taken = file.attr("write")(rest);
       if (!nb::isinstance<nb::int_>(taken)) {
