@@ -1,5 +1,5 @@
-// Measures the passes over contacts of rigid bodies: a pyramid of unit boxes, 100 at its base, which is 5 050 bodies and
-// 14 950 manifolds of four points. Times are for all of them; items_per_second counts manifolds.
+// Measures the passes over contacts of rigid bodies: a pyramid of unit boxes, 100 at its base, which is 5 050 bodies
+// and 14 950 manifolds of four points. Times are for all of them; items_per_second counts manifolds.
 #include <benchmark/benchmark.h>
 
 #include <ctime>

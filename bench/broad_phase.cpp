@@ -49,7 +49,8 @@ Vec3d roll(const Vec3d& p, double phase, double gap) {
   const double along = p.x + 0.5, pitch = gap / (2 * pi), inner = 4 * gap;
   const double angle = (std::sqrt(inner * inner + 2 * pitch * along) - inner) / pitch;
   const double radius = inner + pitch * angle;
-  return {radius * std::cos(angle + phase), radius * std::sin(angle + phase), p.z + 0.002 * std::sin(20 * along + phase)};
+  return {radius * std::cos(angle + phase), radius * std::sin(angle + phase),
+          p.z + 0.002 * std::sin(20 * along + phase)};
 }
 
 std::vector<Input> make_inputs(int size) {

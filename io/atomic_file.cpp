@@ -78,7 +78,8 @@ int write_all(int descriptor, const char* bytes, std::size_t count) {
 
 std::string name_of_descriptor(int descriptor) { return "/proc/self/fd/" + std::to_string(descriptor); }
 
-/// Opens a file without a name, which vanishes when the program ends for any reason; -1 if the system has no such files.
+/// Opens a file without a name, which vanishes when the program ends for any reason; -1 if the system has no such
+/// files.
 int open_nameless(const std::string& folder) {
   const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor < 0 || ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0) return descriptor;
@@ -204,7 +205,8 @@ void AtomicFile::close_checked() {
 }
 
 void AtomicFile::commit() {
-  if (descriptor_ < 0) throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "has already been committed");
+  if (descriptor_ < 0)
+    throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, "has already been committed");
   flush();
   if (direct_) return close_checked();
   if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot write", errno);

@@ -1,8 +1,8 @@
 // Atomic files: a file appears under its name only after all of its content is on disk.
 //
-// A simulation's output takes hours to compute and must not be lost. So every writer of this folder writes a temporary file
-// in the target folder and checks every call. commit() replaces the target by one rename, which is atomic. Until then, or
-// after any failure, the old file stays unchanged.
+// A simulation's output takes hours to compute and must not be lost. So every writer of this folder writes a temporary
+// file in the target folder and checks every call. commit() replaces the target by one rename, which is atomic. Until
+// then, or after any failure, the old file stays unchanged.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ namespace pliant {
 /// A file being written. Nothing is visible under `path` before commit() returns.
 class AtomicFile final : public OutputFile {
  public:
-  /// Creates the temporary file. Follows symbolic links; writes directly to a device or pipe. Throws an Error that names
-  /// the path if its folder is missing, or the path is a folder or not writable.
+  /// Creates the temporary file. Follows symbolic links; writes directly to a device or pipe. Throws an Error that
+  /// names the path if its folder is missing, or the path is a folder or not writable.
   explicit AtomicFile(std::string path);
 
   /// Discards the file unless commit() has succeeded.

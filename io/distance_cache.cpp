@@ -47,7 +47,8 @@ std::string name_of(const TriangleMesh& mesh, float spacing) {
 
 /// Reads a grid from the bytes of a cache file; null if they are incomplete or damaged.
 std::shared_ptr<const DistanceField> parse(std::string_view bytes) {
-  if (bytes.substr(0, magic.size()) != magic || bytes.size() < magic.size() + hash_digits + sizeof(Head)) return nullptr;
+  if (bytes.substr(0, magic.size()) != magic || bytes.size() < magic.size() + hash_digits + sizeof(Head))
+    return nullptr;
   const std::string_view body = bytes.substr(magic.size() + hash_digits);
   if (hash_of(body) != bytes.substr(magic.size(), hash_digits)) return nullptr;
   Head head;
@@ -68,7 +69,8 @@ std::shared_ptr<const DistanceField> parse(std::string_view bytes) {
 }
 
 void write(const std::string& path, const DistanceField& field) {
-  const Head head{{field.low.x, field.low.y, field.low.z}, field.spacing, {field.nodes[0], field.nodes[1], field.nodes[2]}};
+  const Head head{
+      {field.low.x, field.low.y, field.low.z}, field.spacing, {field.nodes[0], field.nodes[1], field.nodes[2]}};
   const std::size_t size = field.distances.size() * sizeof(float);
   Sha256 hash;
   hash.add(&head, sizeof head);
@@ -90,7 +92,8 @@ std::shared_ptr<const DistanceField> read(const std::string& path) {
 
 }  // namespace
 
-std::shared_ptr<const DistanceField> cached_distances(const TriangleMesh& mesh, float spacing, const std::string& folder) {
+std::shared_ptr<const DistanceField> cached_distances(const TriangleMesh& mesh, float spacing,
+                                                      const std::string& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed)

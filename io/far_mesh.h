@@ -35,11 +35,13 @@ Rounding rounding_of(const std::vector<Vec3f>& positions, const std::vector<Cell
   };
   Rounding result;
   for (const Vec3f& p : positions)
-    for (const float x : {p.x, p.y, p.z}) result.distance = std::max(result.distance, std::fabs(static_cast<double>(x)));
+    for (const float x : {p.x, p.y, p.z})
+      result.distance = std::max(result.distance, std::fabs(static_cast<double>(x)));
   std::size_t edges = 0;
   for (const Cell& cell : cells)
     for (std::size_t i = 0; i < cell.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j, ++edges) result.mean_edge += std::sqrt(length_squared(at(cell[i]) - at(cell[j])));
+      for (std::size_t j = 0; j < i; ++j, ++edges)
+        result.mean_edge += std::sqrt(length_squared(at(cell[i]) - at(cell[j])));
   result.mean_edge /= static_cast<double>(std::max<std::size_t>(edges, 1));
   return result;
 }

@@ -18,7 +18,8 @@ enum class AtMost { refuse, first_bytes };
 
 /// Returns the bytes of a regular file; follows symbolic links. Throws an Error that names the path if it is missing, a
 /// folder, pipe or device, unreadable, or larger than `most` bytes; `first_bytes` cuts a larger file off instead.
-std::string read_file_bytes(const std::string& path, std::uint64_t most = largest_file, AtMost at_most = AtMost::refuse);
+std::string read_file_bytes(const std::string& path, std::uint64_t most = largest_file,
+                            AtMost at_most = AtMost::refuse);
 
 /// Throws an Error about a file as a whole.
 [[noreturn]] void refuse_file(const std::string& path, const std::string& problem, const std::string& advice);

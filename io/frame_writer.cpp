@@ -30,7 +30,8 @@ void require_fitting(const std::string& path, const Object& object, int particle
         refuse(path, object.name, "triangle " + std::to_string(t), "uses a particle that does not exist");
   for (const ConstraintGroup& group : object.constraints)
     for (const int particle : group.particles)
-      if (!exists(particle)) refuse(path, object.name, group.type + " constraints", "use a particle that does not exist");
+      if (!exists(particle))
+        refuse(path, object.name, group.type + " constraints", "use a particle that does not exist");
   for (const ObjectBody& body : object.bodies)
     if (!exists(body.particle) || body.frame < 0 || body.frame >= frames)
       refuse(path, object.name, "body '" + body.name + "'", "uses a particle or frame that does not exist");
@@ -64,7 +65,8 @@ int group_that_breaks(const Object& object) {
   return can_break || object.tearing || !object.cuts.empty() ? group : -1;
 }
 
-/// True if the World tears or cuts an object in a way that changes its mesh. Of rods joints break, and their segments stay.
+/// True if the World tears or cuts an object in a way that changes its mesh. Of rods joints break, and their segments
+/// stay.
 bool changes_mesh(const Object& object) {
   const auto is_of_rod = [](const ObjectJoint& joint) { return joint.kind == "rod"; };
   const auto is_link = [](const ConstraintGroup& group) { return group.type == "distance"; };

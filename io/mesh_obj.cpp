@@ -4,11 +4,11 @@
 // it skips faces that it cannot parse, reads "nan" as a number, and has had memory errors on hostile files. A damaged
 // mesh should be rejected with a line number, not silently lose faces.
 //
-// Read: v (extra values, a weight or colours, must be numbers and are ignored), f in all forms (v, v/vt, v//vn, v/vt/vn,
-// negative indices), "\" at a line's end, comments, any line ending. Ignored with a note: points, lines, curves, free-form
-// surfaces, and longer keywords that other programs add ("seam", "stitch"). Ignored silently: materials, groups, normals,
-// texture coordinates. An unknown keyword of one letter, or with other characters than letters, is an error: as a damaged
-// "v" it would shift the index of every later vertex.
+// Read: v (extra values, a weight or colours, must be numbers and are ignored), f in all forms (v, v/vt, v//vn,
+// v/vt/vn, negative indices), "\" at a line's end, comments, any line ending. Ignored with a note: points, lines,
+// curves, free-form surfaces, and longer keywords that other programs add ("seam", "stitch"). Ignored silently:
+// materials, groups, normals, texture coordinates. An unknown keyword of one letter, or with other characters than
+// letters, is an error: as a damaged "v" it would shift the index of every later vertex.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -126,7 +126,8 @@ class ObjParser {
       mesh_.corners.push_back(corner(word));
     const std::size_t count = mesh_.corners.size() - begin;
     if (count < 3)
-      fail(line_, "a face has " + std::to_string(count) + (count == 1 ? " corner" : " corners") + " instead of 3 or more",
+      fail(line_,
+           "a face has " + std::to_string(count) + (count == 1 ? " corner" : " corners") + " instead of 3 or more",
            "delete the line or complete it");
     mesh_.close_polygon();
   }

@@ -87,11 +87,14 @@ class TextSource {
 class BinarySource {
  public:
   BinarySource(std::string_view bytes, const PlyHeader& header, const std::string& name)
-      : bytes_(bytes), position_(header.data_offset), big_(header.format == PlyHeader::Format::big_endian), name_(name) {}
+      : bytes_(bytes),
+        position_(header.data_offset),
+        big_(header.format == PlyHeader::Format::big_endian),
+        name_(name) {}
 
   [[noreturn]] void fail(std::string problem, std::string advice = {}) const {
-    throw Error({.file = name_, .line = 0, .object = {}, .element = "byte " + std::to_string(start_)}, std::move(problem),
-                std::move(advice));
+    throw Error({.file = name_, .line = 0, .object = {}, .element = "byte " + std::to_string(start_)},
+                std::move(problem), std::move(advice));
   }
 
   void begin_row() {}

@@ -18,10 +18,12 @@ struct TypeName {
 
 /// Names of types: those of the original format, and later ones.
 constexpr TypeName type_names[] = {
-    {"char", PlyType::int8},     {"int8", PlyType::int8},       {"uchar", PlyType::uint8},    {"uint8", PlyType::uint8},
-    {"short", PlyType::int16},   {"int16", PlyType::int16},     {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},
-    {"int", PlyType::int32},     {"int32", PlyType::int32},     {"uint", PlyType::uint32},    {"uint32", PlyType::uint32},
-    {"float", PlyType::float32}, {"float32", PlyType::float32}, {"double", PlyType::float64}, {"float64", PlyType::float64},
+    {"char", PlyType::int8},       {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
+    {"uint8", PlyType::uint8},     {"short", PlyType::int16},     {"int16", PlyType::int16},
+    {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},   {"int", PlyType::int32},
+    {"int32", PlyType::int32},     {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
+    {"float", PlyType::float32},   {"float32", PlyType::float32}, {"double", PlyType::float64},
+    {"float64", PlyType::float64},
 };
 
 /// Largest number of elements in a file, and of properties in an element: names are searched linearly.
@@ -55,8 +57,8 @@ class HeaderParser {
 
  private:
   [[noreturn]] void fail(std::string problem, std::string advice = {}, int line = 0) const {
-    throw Error({.file = name_, .line = line > 0 ? line : lines_.number(), .object = {}, .element = {}}, std::move(problem),
-                std::move(advice));
+    throw Error({.file = name_, .line = line > 0 ? line : lines_.number(), .object = {}, .element = {}},
+                std::move(problem), std::move(advice));
   }
 
   void header_line() {
@@ -197,6 +199,8 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
   return nullptr;
 }
 
-PlyHeader parse_ply_header(std::string_view bytes, const std::string& name) { return HeaderParser(bytes, name).parse(); }
+PlyHeader parse_ply_header(std::string_view bytes, const std::string& name) {
+  return HeaderParser(bytes, name).parse();
+}
 
 }  // namespace pliant

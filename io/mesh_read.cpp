@@ -21,7 +21,8 @@ enum class Format { unknown, obj, ply, stl };
 bool starts_with(std::string_view bytes, std::string_view start) { return bytes.substr(0, start.size()) == start; }
 
 constexpr const char* of_tetrahedra =
-    "give an OBJ, PLY or STL file; in a scene a soft_body reads tetrahedra as {\"tetrahedra\": {\"file\": ...}}, in code "
+    "give an OBJ, PLY or STL file; in a scene a soft_body reads tetrahedra as {\"tetrahedra\": {\"file\": ...}}, in "
+    "code "
     "read_tetrahedral_mesh";
 
 /// Throws an Error for known types of files that are often mistaken for meshes.
@@ -119,7 +120,8 @@ MeshFile parse_mesh(std::string_view bytes, const std::string& name, const MeshR
   const Rounding rounding = rounding_of(file.mesh.positions, file.mesh.triangles);
   if (rounding.is_noticeable()) file.repairs.push_back(rounding.in_words() + ": " + move_nearer);
   if (!file.mesh.triangles.empty()) return file;
-  refuse_file(name, "has only degenerate triangles", "the corners of each lie on one line or coincide; check the scale");
+  refuse_file(name, "has only degenerate triangles",
+              "the corners of each lie on one line or coincide; check the scale");
 }
 
 MeshFile read_mesh_file(const std::string& path, const MeshReadOptions& options) {

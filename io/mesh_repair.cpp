@@ -61,7 +61,8 @@ Tally drop_triangles(Work& work, const Drop& drop) {
 }
 
 void drop_degenerate(Work& work) {
-  const Tally dropped = drop_triangles(work, [&](std::size_t i) { return !has_area(work.mesh, work.mesh.triangles[i]); });
+  const Tally dropped =
+      drop_triangles(work, [&](std::size_t i) { return !has_area(work.mesh, work.mesh.triangles[i]); });
   if (dropped.count > 0)
     work.repairs.push_back("dropped " + counted(dropped.count, "triangle", "triangles") + " without area, the first " +
                            std::to_string(dropped.first));
@@ -129,8 +130,8 @@ std::vector<Side> find_sides(const std::vector<Triangle>& triangles, const std::
   sides.reserve(3 * triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (std::size_t k = 0; k < 3 && !repeated[i]; ++k)
-      sides.push_back(
-          {std::minmax({welded[i][k], welded[i][(k + 1) % 3]}), std::minmax({triangles[i][k], triangles[i][(k + 1) % 3]})});
+      sides.push_back({std::minmax({welded[i][k], welded[i][(k + 1) % 3]}),
+                       std::minmax({triangles[i][k], triangles[i][(k + 1) % 3]})});
   std::sort(sides.begin(), sides.end(),
             [](const Side& a, const Side& b) { return std::tie(a.after, a.before) < std::tie(b.after, b.before); });
   return sides;
@@ -147,8 +148,8 @@ void for_each_edge(const std::vector<Side>& sides, const Visit& visit) {
   }
 }
 
-/// Finds merged vertices that must stay separate: those on edges that merging would make non-manifold, and adjacent ones
-/// that would touch in a point alone, like the corners of a sheet folded in two.
+/// Finds merged vertices that must stay separate: those on edges that merging would make non-manifold, and adjacent
+/// ones that would touch in a point alone, like the corners of a sheet folded in two.
 std::vector<bool> find_branching(const std::vector<Triangle>& triangles, const std::vector<int>& merged) {
   const std::vector<Side> sides = find_sides(triangles, merged);
   std::vector<bool> branching(merged.size(), false), beside(merged.size(), false), on_seam(merged.size(), false);

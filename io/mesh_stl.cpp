@@ -53,7 +53,8 @@ bool is_text(std::string_view bytes) {
   while (lines.next()) {
     std::string_view rest = lines.line();
     const std::string_view word = take_word(rest);
-    if (!word.empty()) return same_word(word, "solid") && bytes.substr(0, head_size).find('\0') == std::string_view::npos;
+    if (!word.empty())
+      return same_word(word, "solid") && bytes.substr(0, head_size).find('\0') == std::string_view::npos;
   }
   return false;
 }
@@ -129,9 +130,11 @@ class TextStl {
       const std::string_view word = take_word(rest_);
       if (word.empty()) fail("a vertex has fewer than 3 coordinates");
       const NumberProblem problem = parse_float(word, value);
-      if (problem != NumberProblem::none) fail(in_quotes(word) + " " + describe(problem), "give three finite coordinates");
+      if (problem != NumberProblem::none)
+        fail(in_quotes(word) + " " + describe(problem), "give three finite coordinates");
     }
-    if (const std::string_view word = take_word(rest_); !word.empty()) fail("a vertex continues with " + in_quotes(word));
+    if (const std::string_view word = take_word(rest_); !word.empty())
+      fail("a vertex continues with " + in_quotes(word));
     add_corner(mesh_, {values[0], values[1], values[2]});
   }
 
@@ -156,7 +159,8 @@ float coordinate(std::string_view bytes, std::size_t at, const std::string& name
 
 PolygonMesh parse_binary(std::string_view bytes, const std::string& name) {
   if (bytes.size() < head_size)
-    fail_at(name, bytes.size(), "is neither a text STL (it does not begin with 'solid') nor long enough for a binary one",
+    fail_at(name, bytes.size(),
+            "is neither a text STL (it does not begin with 'solid') nor long enough for a binary one",
             "the file is truncated or not STL");
   const std::uint64_t claimed = claimed_size(bytes);
   if (claimed > bytes.size())

@@ -27,7 +27,9 @@ double turn(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-double distance_squared(const Point& a, const Point& b) { return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y); }
+double distance_squared(const Point& a, const Point& b) {
+  return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
+}
 
 bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
 
@@ -62,7 +64,8 @@ std::vector<Point> flatten(const PolygonMesh& mesh, const int* corners, std::siz
   return points;
 }
 
-/// True if every corner turns left and the polygon goes round once, unlike a star: along it, x begins to fall only once.
+/// True if every corner turns left and the polygon goes round once, unlike a star: along it, x begins to fall only
+/// once.
 bool is_strictly_convex(const std::vector<Point>& points) {
   const std::size_t count = points.size();
   int reversals = 0;

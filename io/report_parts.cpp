@@ -13,7 +13,8 @@ namespace {
 Json name_in(const World& world, ObjectId id) { return world.has(id) ? Json(world.object(id).name()) : Json(); }
 
 Json estimate_json(const World& world, const ConvergenceEstimate& of) {
-  return {{"excess", of.excess}, {"strain", of.strain}, {"object", name_in(world, of.object)}, {"substeps", of.substeps}};
+  return {
+      {"excess", of.excess}, {"strain", of.strain}, {"object", name_in(world, of.object)}, {"substeps", of.substeps}};
 }
 
 Json stretch_json(const Stretch& of) { return {{"mean", of.mean}, {"p99", of.p99}, {"largest", of.largest}}; }
@@ -81,8 +82,9 @@ void add_accuracy(const Report& report, const World& world, Json& json) {
   json["residuals"] = residuals_json(report.residuals);
   json["stretch"] = report.stretch ? stretch_json(*report.stretch) : Json();
   json["convergence"] = iterations_json(report.convergence);
-  json["compression"] = {
-      {"mean", report.compression.mean}, {"largest", report.compression.largest}, {"crowded", report.compression.crowded}};
+  json["compression"] = {{"mean", report.compression.mean},
+                         {"largest", report.compression.largest},
+                         {"crowded", report.compression.crowded}};
   json["viscosity"] = {{"iterations", report.viscosity.iterations},
                        {"unfinished", report.viscosity.unfinished},
                        {"residual", report.viscosity.residual}};
@@ -158,8 +160,9 @@ std::string report_json(const Report& report, const World& world) {
   json["milliseconds"] = report.milliseconds;
   json["phases"] = phases_json(report.phases);
   json["substeps"] = report.substeps;
-  json["iterations"] = {
-      {"smallest", report.iterations.smallest}, {"largest", report.iterations.largest}, {"mean", report.iterations.mean}};
+  json["iterations"] = {{"smallest", report.iterations.smallest},
+                        {"largest", report.iterations.largest},
+                        {"mean", report.iterations.mean}};
   json["contacts"] = report.contacts;
   json["pairs"] = pairs_json(report.pairs);
   add_accuracy(report, world, json);

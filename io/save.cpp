@@ -46,7 +46,8 @@ static_assert(sizeof(Record) == 16);
 template <class T>
 std::string bytes_of(const T& of) {
   std::string bytes;
-  Output out([&](const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); }, Take::all);
+  Output out([&](const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); },
+             Take::all);
   out("", of);
   return bytes;
 }
@@ -56,7 +57,8 @@ T read_bytes(const Contents& from, std::string_view name) {
   T of;
   Input in(from.text(name));
   in("", of);
-  if (!in.complete()) from.fail(fmt::format("is malformed: its block '{}' cannot be read", name), "use an earlier file");
+  if (!in.complete())
+    from.fail(fmt::format("is malformed: its block '{}' cannot be read", name), "use an earlier file");
   return of;
 }
 
@@ -92,17 +94,20 @@ std::vector<Block> blocks_of(const State& state, Columns& columns) {
   }
   if (!channels.empty()) blocks.push_back(bytes(channels_block, columns.channels));
   if (!held_poses.empty()) blocks.push_back(bytes(poses_block, columns.held_poses));
-  if (!substeps.empty()) blocks.push_back({substeps_block, Type::float32, sizeof(float), substeps.size(), substeps.data()});
+  if (!substeps.empty())
+    blocks.push_back({substeps_block, Type::float32, sizeof(float), substeps.size(), substeps.data()});
   if (!broken_joints.empty())
     blocks.push_back({breaks_block, Type::bytes, 1, broken_joints.size() * sizeof(BrokenJoint), broken_joints.data()});
   if (!motors.empty())
     blocks.push_back({motors_block, Type::bytes, 1, motors.size() * sizeof(MotorSetting), motors.data()});
   if (!body_contacts.empty())
-    blocks.push_back({contacts_block, Type::bytes, 1, body_contacts.size() * sizeof(BodyContact), body_contacts.data()});
+    blocks.push_back(
+        {contacts_block, Type::bytes, 1, body_contacts.size() * sizeof(BodyContact), body_contacts.data()});
   if (!rest_times.empty())
     blocks.push_back({rest_block, Type::float32, sizeof(float), rest_times.size(), rest_times.data()});
   if (!grain_contacts.empty())
-    blocks.push_back({grains_block, Type::bytes, 1, grain_contacts.size() * sizeof(GrainContact), grain_contacts.data()});
+    blocks.push_back(
+        {grains_block, Type::bytes, 1, grain_contacts.size() * sizeof(GrainContact), grain_contacts.data()});
   if (!births.empty()) blocks.push_back({births_block, Type::float64, sizeof(double), births.size(), births.data()});
   if (!emitted.empty())
     blocks.push_back({emitted_block, Type::bytes, 1, emitted.size() * sizeof(EmittedLayers), emitted.data()});
@@ -110,8 +115,8 @@ std::vector<Block> blocks_of(const State& state, Columns& columns) {
     blocks.push_back({factors_block, Type::bytes, 1, rest_factors.size() * sizeof(RestFactor), rest_factors.data()});
   if (!flowed.empty()) blocks.push_back({flowed_block, Type::float32, sizeof(float), flowed.size(), flowed.data()});
   if (!surface_velocities.empty())
-    blocks.push_back(
-        {surfaces_block, Type::bytes, 1, surface_velocities.size() * sizeof(SurfaceVelocity), surface_velocities.data()});
+    blocks.push_back({surfaces_block, Type::bytes, 1, surface_velocities.size() * sizeof(SurfaceVelocity),
+                      surface_velocities.data()});
   return blocks;
 }
 
@@ -254,10 +259,12 @@ void require_fingerprint(const Contents& contents, const Fingerprint& of) {
   if (!contents.has(fingerprint_blocks[0]) || !contents.has(fingerprint_blocks[1]))
     contents.fail("does not say which scene it was saved with", "save it with its scene, or load it without one");
   if (contents.text(fingerprint_blocks[0]) != of.scene)
-    contents.fail("was saved with another scene, or this scene has changed since", "use the scene that it was saved with");
+    contents.fail("was saved with another scene, or this scene has changed since",
+                  "use the scene that it was saved with");
   if (contents.text(fingerprint_blocks[1]) != of.settings) {
-    contents.fail("was saved with other settings of this scene: substeps, iterations, the sweep or contact settings differ",
-                  "use the settings that it was saved with");
+    contents.fail(
+        "was saved with other settings of this scene: substeps, iterations, the sweep or contact settings differ",
+        "use the settings that it was saved with");
   }
 }
 

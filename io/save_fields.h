@@ -1,8 +1,8 @@
 // Lists all members of a Scene in one order, for writing, reading and hashing. Each function uses a structured binding,
 // which does not compile when the struct gets a member. Then add the member here and increase save_file::version.
 //
-// An archive is called with members that determine a run's bits; its `aside` is called with the others (colours, threads).
-// Both also get the names of the members, as "kind, value, damping".
+// An archive is called with members that determine a run's bits; its `aside` is called with the others (colours,
+// threads). Both also get the names of the members, as "kind, value, damping".
 #pragma once
 
 #include <array>
@@ -122,10 +122,10 @@ void fields(A& a, Is<ObjectJointMotor> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<ObjectJoint> auto& of) {
-  auto& [name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque, motors, anchor_a, axes_a, axes_b] =
-      of;
-  PLIANT_FIELDS(a, name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque, motors, anchor_a, axes_a,
-                axes_b);
+  auto& [name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque, motors, anchor_a, axes_a,
+         axes_b] = of;
+  PLIANT_FIELDS(a, name, kind, joint_a, joint_b, anchor, constraints, break_force, break_torque, motors, anchor_a,
+                axes_a, axes_b);
 }
 template <class A>
 void fields(A& a, Is<Channel> auto& of) {
@@ -164,8 +164,8 @@ void fields(A& a, Is<KeptSchedule> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<WorldLayout> auto& of) {
-  auto& [objects, colliders, mesh_colliders, blocks, first_frames, sweeps, schedules, sweep_is_open, substeps_are_open] =
-      of;
+  auto& [objects, colliders, mesh_colliders, blocks, first_frames, sweeps, schedules, sweep_is_open,
+         substeps_are_open] = of;
   PLIANT_FIELDS(a, objects, colliders, mesh_colliders, blocks, first_frames, sweeps, schedules, sweep_is_open,
                 substeps_are_open);
 }
@@ -198,7 +198,8 @@ void fields(A& a, Is<GasHeater> auto& of) {
 template <class A>
 void fields(A& a, Is<Gas> auto& of) {
   auto& [temperature, ambient_temperature, ambient_density, cooling_time, diffusivity, drag, vorticity, heaters] = of;
-  PLIANT_FIELDS(a, temperature, ambient_temperature, ambient_density, cooling_time, diffusivity, drag, vorticity, heaters);
+  PLIANT_FIELDS(a, temperature, ambient_temperature, ambient_density, cooling_time, diffusivity, drag, vorticity,
+                heaters);
 }
 template <class A>
 void fields(A& a, Is<Tracers> auto& of) {
@@ -226,12 +227,12 @@ template <class A>
 void fields(A& a, Is<Object> auto& of) {
   auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains,
          clusters, gas, tracers, absorbency, flow, pins, attachments, tearing, cuts, skin, thickness, self_collision,
-         collides, groups, mask, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, drag,
-         lift, sweep, damping, colour] = of;
+         collides, groups, mask, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction,
+         drag, lift, sweep, damping, colour] = of;
   PLIANT_FIELDS(a, name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid,
                 grains, clusters, gas, tracers, absorbency, flow, pins, attachments, tearing, cuts, thickness,
-                self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution, rolling_friction,
-                spinning_friction, drag, lift, sweep, damping);
+                self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
+                rolling_friction, spinning_friction, drag, lift, sweep, damping);
   PLIANT_FIELDS(a.aside, skin, colour);
 }
 template <class A>
@@ -291,12 +292,13 @@ void fields(A& a, Is<DistanceField> auto& of) {
 }
 template <class A>
 void fields(A& a, Is<MeshCollider> auto& of) {
-  auto& [name, mesh, motion, frames, repeat_frames, as, grid_spacing, field, thickness, static_friction, kinetic_friction,
-         restitution, rolling_friction, spinning_friction, groups, mask, surface_velocity, colour] = of;
+  auto& [name, mesh, motion, frames, repeat_frames, as, grid_spacing, field, thickness, static_friction,
+         kinetic_friction, restitution, rolling_friction, spinning_friction, groups, mask, surface_velocity, colour] =
+      of;
   PLIANT_FIELDS(a, name, mesh, motion, frames, repeat_frames, as, grid_spacing);
   PLIANT_FIELDS(a.aside, field);
-  PLIANT_FIELDS(a, thickness, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction, groups,
-                mask, surface_velocity);
+  PLIANT_FIELDS(a, thickness, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction,
+                groups, mask, surface_velocity);
   PLIANT_FIELDS(a.aside, colour);
 }
 template <class A>
@@ -328,16 +330,16 @@ void fields(A& a, Is<Settings> auto& of) {
          record_multipliers, isa] = of;
   PLIANT_FIELDS(a, substeps, iterations, tolerance);
   PLIANT_FIELDS(a.aside, threads);
-  PLIANT_FIELDS(a, sweep, sweep_options, contact_filter, most_substeps, least_substeps, initial_intersections, integrator,
-                untangling_speed, sleep);
+  PLIANT_FIELDS(a, sweep, sweep_options, contact_filter, most_substeps, least_substeps, initial_intersections,
+                integrator, untangling_speed, sleep);
   PLIANT_FIELDS(a.aside, separate_phases, measure, record_residuals, record_multipliers, isa);
 }
 /// Force fields are functions, so only their number is stored, by the caller of `fields`. Settings have a block of
 /// their own.
 template <class A>
 void fields(A& a, Is<Scene> auto& of) {
-  [[maybe_unused]] auto& [gravity, wind, forces, settings, frame_time, frames, objects, colliders, mesh_colliders, pairs] =
-      of;
+  [[maybe_unused]] auto& [gravity, wind, forces, settings, frame_time, frames, objects, colliders, mesh_colliders,
+                          pairs] = of;
   PLIANT_FIELDS(a, gravity, wind, frame_time);
   PLIANT_FIELDS(a.aside, frames);
   PLIANT_FIELDS(a, objects, colliders, mesh_colliders, pairs);
@@ -352,7 +354,8 @@ constexpr std::array<const char*, 2> words(SweepOptions::Acceleration) { return 
 constexpr std::array<const char*, 2> words(Settings::Integrator) { return {"pbd", "energy"}; }
 constexpr std::array<const char*, 3> words(Settings::Intersections) { return {"leave", "untangle", "refuse"}; }
 constexpr std::array<const char*, 9> words(Sweep) {
-  return {"automatic", "tiled", "sequential", "symmetric", "jacobi", "natural", "chains", "multigrid", "tethered_chains"};
+  return {"automatic", "tiled",  "sequential", "symmetric",      "jacobi",
+          "natural",   "chains", "multigrid",  "tethered_chains"};
 }
 
 /// The words of the alternatives of a variant.

@@ -125,7 +125,8 @@ Contents::Contents(std::string path, Content expected) : path_(std::move(path)) 
   bytes_ = read_file_bytes(path_, header_size, AtMost::first_bytes);
   check_header(expected);
   std::error_code unknown;
-  check_size(std::filesystem::file_size(path_, unknown));  // check the size before memory is allocated for the whole file
+  check_size(
+      std::filesystem::file_size(path_, unknown));  // check the size before memory is allocated for the whole file
   bytes_ = read_file_bytes(path_, largest_save);
   check_all(expected);  // the header again, because the file may have been replaced meanwhile
 }
@@ -152,7 +153,8 @@ void Contents::check_header(Content expected) const {
   if (bytes_.empty()) fail("is empty", advice_damaged);
   const std::string_view bytes = bytes_;
   if (bytes.substr(0, magic.size()) != magic.substr(0, bytes.size()))
-    fail("is not a file saved by Pliant", "give what Pliant saved: a State, a World, or a file of pliant run --checkpoint");
+    fail("is not a file saved by Pliant",
+         "give what Pliant saved: a State, a World, or a file of pliant run --checkpoint");
   if (bytes.size() < header_size)
     fail(fmt::format("is incomplete: it has {} bytes of a header of {}", bytes.size(), header_size), advice_damaged);
   if (const auto found = value_at<std::uint32_t>(bytes, 8); found != version) {
@@ -162,7 +164,8 @@ void Contents::check_header(Content expected) const {
   const auto content = value_at<std::uint32_t>(bytes, 12);
   if (content == static_cast<std::uint32_t>(expected)) return;
   const bool known = content == 1 || content == 2;
-  fail(fmt::format("holds {}, not {}", known ? words(static_cast<Content>(content)) : "something unknown", words(expected)),
+  fail(fmt::format("holds {}, not {}", known ? words(static_cast<Content>(content)) : "something unknown",
+                   words(expected)),
        expected == Content::state ? "load it as a World" : "load it as a State");
 }
 
@@ -175,13 +178,16 @@ void Contents::check_sum() const {
     fail("is damaged: its checksum is not that of its contents", advice_damaged);
 }
 
-/// Finds the blocks. Sizes are not trusted: each is compared with the bytes that remain before it is multiplied or added.
+/// Finds the blocks. Sizes are not trusted: each is compared with the bytes that remain before it is multiplied or
+/// added.
 void Contents::find_blocks() {
   const std::string_view bytes = std::string_view(bytes_).substr(0, bytes_.size() - checksum_size);
   const auto count = value_at<std::uint64_t>(bytes, 24);
   std::uint64_t at = header_size;
   for (std::uint64_t number = 0; number < count; ++number) {
-    const auto broken = [&] { fail(fmt::format("is malformed: block {} does not fit into it", number), advice_damaged); };
+    const auto broken = [&] {
+      fail(fmt::format("is malformed: block {} does not fit into it", number), advice_damaged);
+    };
     if (bytes.size() - at < block_header_size) broken();
     Block block;
     block.name = bytes.substr(at, name_size);

@@ -35,7 +35,8 @@ Hull hull_of(const Reader& reader, const JsonValue& at) {
   for (const JsonValue& point : elements(at, "points")) hull.points.push_back(vector_of(point));
   if (const JsonValue* mesh = at.find("mesh")) {
     SceneMesh surface = make_mesh(reader.document, *mesh, reader.folder, reader.object);
-    for (const std::string& repair : surface.repairs) reader.repairs.push_back("object '" + reader.object + "', " + repair);
+    for (const std::string& repair : surface.repairs)
+      reader.repairs.push_back("object '" + reader.object + "', " + repair);
     hull.points = mesh_of({{Hull{std::move(surface.mesh.positions), 0}}}).positions;
   }
   set(at, "margin", hull.margin);
@@ -85,7 +86,8 @@ Decomposition pieces_of(const Reader& reader, const JsonValue& at, float density
   set(at, "most_pieces", options.most_pieces);
   set(at, "most_corners", options.most_corners);
   SceneMesh surface = make_mesh(reader.document, *at.find("mesh"), reader.folder, reader.object);
-  for (const std::string& repair : surface.repairs) reader.repairs.push_back("object '" + reader.object + "', " + repair);
+  for (const std::string& repair : surface.repairs)
+    reader.repairs.push_back("object '" + reader.object + "', " + repair);
   Decomposition pieces = decomposed(reader, at, surface.mesh, options);
   if (static_cast<int>(pieces.solids.size()) >= options.most_pieces && pieces.filled > options.tolerance)
     reader.repairs.push_back("object '" + reader.object + "', concave solid: " + std::to_string(pieces.solids.size()) +
@@ -250,7 +252,8 @@ BodyOptions options_of(const JsonDocument& document, const JsonValue& at) {
   set_kinematic(document, at, options);
   const JsonValue* mass = at.find("mass");
   const bool is_fixed = mass != nullptr && mass->kind == JsonValue::Kind::string;
-  if (mass != nullptr) options.mass = is_fixed ? std::numeric_limits<float>::infinity() : static_cast<float>(mass->number);
+  if (mass != nullptr)
+    options.mass = is_fixed ? std::numeric_limits<float>::infinity() : static_cast<float>(mass->number);
   for (const char* motion : {"velocity", "angular_velocity"}) {
     const JsonValue* given = at.find(motion);
     if (given != nullptr && options.kinematic)
@@ -269,7 +272,8 @@ class Bodies {
   void add(const JsonValue& at) {
     const std::string name = name_of(at);
     BodyOptions options = options_of(reader_.document, at);
-    const auto [solids, inertia] = solids_of({reader_.document, reader_.folder, reader_.object, reader_.repairs, name}, at);
+    const auto [solids, inertia] =
+        solids_of({reader_.document, reader_.folder, reader_.object, reader_.repairs, name}, at);
     const bool has_mass = options.mass > 0 && !std::isinf(options.mass);
     if (inertia) options.inertia = has_mass ? scaled(*inertia, options.mass) : *inertia;
     const std::vector<RigidPose> copies = copies_of(reader_.document, at);
@@ -286,7 +290,8 @@ class Bodies {
   std::string name_of(const JsonValue& at) {
     std::string name = "body";
     if (set(at, "name", name)) {
-      if (name == "world") reader_.document.fail(*at.find("name"), "no body can be called 'world'", "joints use that name");
+      if (name == "world")
+        reader_.document.fail(*at.find("name"), "no body can be called 'world'", "joints use that name");
       return name;
     }
     for (int number = 2; !unnamed_.insert(name).second; ++number) name = "body_" + std::to_string(number);

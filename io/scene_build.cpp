@@ -137,7 +137,8 @@ void set_velocity(const JsonDocument& document, const JsonValue& at, BuiltObject
   if (has_one_per_particle(at) || std::any_of(parts.begin(), parts.end(), has_one_per_particle))
     document.fail_key(*at.find("velocity"), "this object already has a velocity per particle", "give one of the two");
   Object& object = built.object;
-  const std::vector<Vec3f> given = std::exchange(object.velocities, std::vector<Vec3f>(object.positions.size(), velocity));
+  const std::vector<Vec3f> given =
+      std::exchange(object.velocities, std::vector<Vec3f>(object.positions.size(), velocity));
   for (const int particle : built.own_velocities)
     object.velocities[static_cast<std::size_t>(particle)] =
         given.empty() ? Vec3f{} : given[static_cast<std::size_t>(particle)];
@@ -182,8 +183,8 @@ void set_absorbency(const JsonValue& at, Object& object) {
 }
 
 const JsonValue& matter_of(const JsonValue& at) {
-  return one_of(at,
-                {"cloth", "soft_body", "rope", "rod", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"});
+  return one_of(
+      at, {"cloth", "soft_body", "rope", "rod", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"});
 }
 
 /// True if an object fills a box or mesh with particles, and leaves out those inside solids.
@@ -205,7 +206,8 @@ Object object_of(const JsonDocument& document, const ObjectToBuild& by, const Me
   const JsonValue& at = by.at;
   std::vector<std::string>& repairs = file.repairs;
   BuiltObject built = build_matter(document, matter_of(at), by.name, folder, repairs);
-  if (leaves_out_solids(at)) leave_out(document, at, *matter_of(at).find("fill"), by.around, built.object, file.left_out);
+  if (leaves_out_solids(at))
+    leave_out(document, at, *matter_of(at).find("fill"), by.around, built.object, file.left_out);
   add_parts(document, at, folder, built.object, repairs);
   set_joints(document, at, built.object);
   set_properties(document, at, built.object);
@@ -310,9 +312,9 @@ PairProperties pair_of(const JsonDocument& document, const JsonValue& at, const 
   };
   for (const JsonValue& name : between.items)
     if (!exists(name.text))
-      document.fail(
-          name, "there is no object or mesh collider '" + printable(name.text) + "'",
-          "use the name of one; for a primitive collider set friction, restitution and thickness in the collider itself");
+      document.fail(name, "there is no object or mesh collider '" + printable(name.text) + "'",
+                    "use the name of one; for a primitive collider set friction, restitution and thickness in the "
+                    "collider itself");
   pair.first = between.items[0].text;
   pair.second = between.items[1].text;
   set(at, "thickness", pair.thickness);
@@ -343,7 +345,8 @@ std::string advice_on(const std::string& name, const std::vector<std::string>& n
   if (names.empty()) return "nothing in this scene has a mesh";
   const std::string near = nearest_name(name, names);
   std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) list += (i == 0 ? "'" : ", '") + printable(names[i]) + "'";
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    list += (i == 0 ? "'" : ", '") + printable(names[i]) + "'";
   if (names.size() > most) list += " and " + std::to_string(names.size() - most) + " more";
   return (near.empty() ? "" : "did you mean '" + printable(near) + "'? ") + "the scene has meshes for " + list;
 }

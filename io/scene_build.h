@@ -15,8 +15,8 @@ namespace pliant::scene_file {
 /// other, a mesh cannot be read or used as cloth, a particle does not exist, or a selection is empty.
 SceneFile build(const JsonDocument& document, const MeshFolder& folder);
 
-/// Build one object or collider of a document whose root passed check() with object_record() or collider_record(). Nothing
-/// is around an object, so that its `fill` leaves nothing out.
+/// Build one object or collider of a document whose root passed check() with object_record() or collider_record().
+/// Nothing is around an object, so that its `fill` leaves nothing out.
 Object build_object(const JsonDocument& document, const MeshFolder& folder, std::vector<std::string>& repairs);
 std::variant<Collider, MeshCollider> build_collider(const JsonDocument& document, const MeshFolder& folder,
                                                     std::vector<std::string>& repairs);

@@ -28,7 +28,8 @@ FlowGauge flow_of(const JsonDocument& document, const JsonValue& at) {
   set(at, "side_a", flow.side_a);
   set(at, "side_b", flow.side_b);
   if (!(length_squared(cross(flow.side_a, flow.side_b)) > 0))
-    document.fail(*at.find("side_b"), "spans no area with 'side_a'", "give two sides that are neither zero nor parallel");
+    document.fail(*at.find("side_b"), "spans no area with 'side_a'",
+                  "give two sides that are neither zero nor parallel");
   return flow;
 }
 
@@ -86,7 +87,8 @@ std::vector<Gauge> build_gauges(const JsonDocument& document, const JsonValue& r
   for (const JsonValue& item : elements(root, "gauges")) {
     Gauge gauge;
     set(item, "name", gauge.name);
-    if (!names.insert(gauge.name).second) document.fail(*item.find("name"), "is taken by another gauge", "names differ");
+    if (!names.insert(gauge.name).second)
+      document.fail(*item.find("name"), "is taken by another gauge", "names differ");
     if (const JsonValue* height = item.find("height")) gauge.measures = height_of(document, *height);
     if (const JsonValue* flow = item.find("flow")) gauge.measures = flow_of(document, *flow);
     if (const JsonValue* front = item.find("front")) gauge.measures = front_of(document, *front);

@@ -54,16 +54,18 @@ const Record& cluster_record() {
       "cluster",
       "Particles that keep the shape in which they are at the start: shape matching.",
       {field("particles", selection(), "\"all\"", selection_meaning),
-       field("size", positive("m", largest_place), "none",
-             "Divides all particles into overlapping clusters of cells of this size, so that the whole bends; instead of "
-             "`particles`."),
+       field(
+           "size", positive("m", largest_place), "none",
+           "Divides all particles into overlapping clusters of cells of this size, so that the whole bends; instead of "
+           "`particles`."),
        field("mode", choice({"rigid", "linear", "quadratic"}), "rigid",
              "What the shape may do to fit: move and turn; also stretch and shear; also bend and twist."),
        field("share", share(), Cluster{}.share, "Share of the deformation that `linear` and `quadratic` keep."),
        field("stiffness", stiffness(), "\"rigid\"",
              "Stiffness; the compliance is per mass, in s^2: particles swing at 1 / (2 pi sqrt(compliance)) Hz."),
        field("plasticity", record(plasticity_record()), "none",
-             "How strain becomes permanent: the shape takes on what it is stretched and sheared by. Needs a stiffness that "
+             "How strain becomes permanent: the shape takes on what it is stretched and sheared by. Needs a stiffness "
+             "that "
              "yields.")},
       {}};
   return result;
@@ -84,7 +86,8 @@ const Record& stitch_record() {
   static const Record result{
       "stitch",
       "Threads between particles, each to the nearest of others: they become shorter until both meet, and never push.",
-      {needed("particles", selection(), selection_meaning), needed("to", selection(), "The particles of the other side."),
+      {needed("particles", selection(), selection_meaning),
+       needed("to", selection(), "The particles of the other side."),
        field("closing_time", number("s", 0, 1e6), StitchOptions{}.closing_time,
              "Until when threads shorten from the distance at the start to nothing; 0: at once."),
        field("stiffness", stiffness(), "\"rigid\"", "Stiffness of the threads."),
@@ -151,12 +154,14 @@ const Record& part_record() {
       "`thickness` "
       "and friction are those of the object.",
       {either("cloth", record(cloth_record()), "A cloth; not a balloon."),
-       either("soft_body", record(soft_body_record()), "A soft body."), either("rope", record(rope_record()), "A rope."),
+       either("soft_body", record(soft_body_record()), "A soft body."),
+       either("rope", record(rope_record()), "A rope."),
        either("rod", record(rod_record()), "An elastic rod, which is tied by its `start` and `end` alone."),
        either("particles", record(particles_record()), "Particles with constraints."),
        field("ties", list(record(tie_record())), "none",
              "What ties it to bodies. What is tied to a body does not touch it."),
-       field("pins", list(record(pin_record())), "none", "Kinematic particles; indices count from the part's first one."),
+       field("pins", list(record(pin_record())), "none",
+             "Kinematic particles; indices count from the part's first one."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets.")},
       {"cloth", "soft_body", "rope", "rod", "particles"}};
   return result;
@@ -173,7 +178,8 @@ std::vector<std::string> sweep_names() {
 const Record& object_record() {
   static const Record result{
       "object",
-      "A cloth, a soft body, a rope, a rod, a liquid, a gas, tracers, grains, particles with constraints, rigid bodies, or "
+      "A cloth, a soft body, a rope, a rod, a liquid, a gas, tracers, grains, particles with constraints, rigid "
+      "bodies, or "
       "a "
       "robot.",
       {field("name", string(), "the kind, with a number if it is taken", "Unique name, used in messages and files."),
@@ -190,11 +196,13 @@ const Record& object_record() {
        either("urdf", record(urdf_record()), "A robot description."),
        field("joints", list(record(joint_record())), "none", "Joints between its bodies."),
        field("parts", list(record(part_record())), "none",
-             "Ropes, rods, cloth and soft bodies that are tied to its bodies. Their particles follow those of the bodies."),
+             "Ropes, rods, cloth and soft bodies that are tied to its bodies. Their particles follow those of the "
+             "bodies."),
        field("velocity", vector("m/s", largest_velocity), Vec3f{}, "Initial velocity of all its particles."),
        field("clusters", list(record(cluster_record())), "none", "Groups of its particles that keep their shape."),
        field("pins", list(record(pin_record())), "none",
-             "Kinematic particles. A body whose particle has a pin turns with it, if a keyframe has a rotation; else it is "
+             "Kinematic particles. A body whose particle has a pin turns with it, if a keyframe has a rotation; else "
+             "it is "
              "free to "
              "turn, and a load tips it (`kinematic` of a body)."),
        field("attachments", list(record(attachment_record())), "none", "Particles tied to targets."),
@@ -206,14 +214,15 @@ const Record& object_record() {
        field("thickness", number("m", 0, largest_place),
              "the material's; 0.005 for a rope, half the spacing for a liquid or gas, the radius of grains, else 0.001",
              "Distance kept from colliders; two surfaces keep the sum of both."),
-       field(
-           "self_collision", boolean(), "false; true for rods and bodies",
-           "The surface does not pass through itself; without triangles, the links do not (docs/guide/contact.md). Bodies "
-           "do not pass through each other."),
+       field("self_collision", boolean(), "false; true for rods and bodies",
+             "The surface does not pass through itself; without triangles, the links do not (docs/guide/contact.md). "
+             "Bodies "
+             "do not pass through each other."),
        field("collides", boolean(), "false; true for soft bodies, rods, bodies, liquids, gases and grains",
              "The object does not pass through other objects with `collides`. Mesh colliders always collide."),
-       field("groups", bits(), "[0]",
-             "Indices of its groups, 0 to 31. Two objects collide if the `mask` of each contains a group of the other."),
+       field(
+           "groups", bits(), "[0]",
+           "Indices of its groups, 0 to 31. Two objects collide if the `mask` of each contains a group of the other."),
        field("mask", bits(), "all", "Indices of the groups that it collides with; [] for none."),
        field("static_friction", number("-", 0, 1000), "the material's; 0 for a liquid or gas, that of grains, else 0.4",
              "Coefficient of static friction."),
@@ -227,9 +236,10 @@ const Record& object_record() {
              "Of bodies: greatest torque against rolling, per normal force."),
        field("spinning_friction", number("m", 0, largest_place), Object{}.spinning_friction,
              "Of bodies: greatest torque about the contact normal, per normal force, in addition to that of friction."),
-       field("sweep", choice(sweep_names()), "automatic",
-             "The sweep that solves its constraints. `automatic`: the sweep of `settings`, or if that is automatic too, "
-             "the one that measured best on such objects."),
+       field(
+           "sweep", choice(sweep_names()), "automatic",
+           "The sweep that solves its constraints. `automatic`: the sweep of `settings`, or if that is automatic too, "
+           "the one that measured best on such objects."),
        field("drag", number("-", 0, 1000), Object{}.drag,
              "Drag coefficient of a triangle, or of a body that is one capsule, perpendicular to the wind."),
        field("lift", number("-", 0, 1000), Object{}.lift, "Lift coefficient."),
@@ -263,9 +273,10 @@ const Record& sweep_options_record() {
       "Options of sweeps; docs/internals/sweeps.md says when each helps.",
       {field("relaxation", positive("-", 2), SweepOptions{}.relaxation,
              "Factor of every correction, below 2; above 1 is over-relaxation."),
-       field("sharing", choice({"split", "average"}), "split",
-             "For `jacobi`: `split` divides a particle's mass among its constraints, which conserves momentum; `average` "
-             "takes the mean of the corrections, which does not."),
+       field(
+           "sharing", choice({"split", "average"}), "split",
+           "For `jacobi`: `split` divides a particle's mass among its constraints, which conserves momentum; `average` "
+           "takes the mean of the corrections, which does not."),
        field("acceleration", choice({"none", "chebyshev"}), "none",
              "Chebyshev semi-iteration, useful from about 20 iterations per substep; rejected with `natural`."),
        field("plain_iterations", integer(1, 10000), SweepOptions{}.plain_iterations,
@@ -295,7 +306,8 @@ const Record& sleep_record() {
       {field("on", boolean(), SleepOptions{}.on, "Islands of bodies that have been slow for `time` sleep."),
        field("speed", positive("m/s", 1000), SleepOptions{}.speed, "Slow: the centre of mass moves by less than this."),
        field("spin", positive("rad/s", 1000), SleepOptions{}.spin, "Slow: the body turns by less than this, too."),
-       field("time", number("s", 0, 1e6), SleepOptions{}.time, "For how long all bodies of an island have to be slow.")},
+       field("time", number("s", 0, 1e6), SleepOptions{}.time,
+             "For how long all bodies of an island have to be slow.")},
       {}};
   return result;
 }
@@ -304,39 +316,47 @@ const Record& settings_record() {
   static const Record result{
       "settings",
       "How constraints are solved. `threads`, `isa` and the measuring options do not change the result.",
-      {field(
-           "substeps", integer(0, 10000), Settings{}.substeps,
-           "Substeps per frame; 0: they follow strain and motion where chains solve an object; 5 for objects that "
-           "`multigrid` solves, 10 if they can touch surfaces, are in wind or a force field, or have pins that move or lie "
-           "together; 80 to 160 for volumes that chains solve; 20 for all others."),
+      {field("substeps", integer(0, 10000), Settings{}.substeps,
+             "Substeps per frame; 0: they follow strain and motion where chains solve an object; 5 for objects that "
+             "`multigrid` solves, 10 if they can touch surfaces, are in wind or a force field, or have pins that move "
+             "or lie "
+             "together; 80 to 160 for volumes that chains solve; 20 for all others."),
        field("iterations", integer(1, 10000), Settings{}.iterations, "Iterations per substep."),
        field("tolerance", number("m", 0, largest_place), Settings{}.tolerance,
-             "A substep ends its iterations when the root mean square error of its distance constraints falls below this; "
+             "A substep ends its iterations when the root mean square error of its distance constraints falls below "
+             "this; "
              "0: never."),
        field("threads", integer(0, 1024), Settings{}.threads, "Number of threads; 0: all hardware threads."),
-       field(
-           "sweep", choice(sweep_names()), "automatic",
-           "The method that projects constraints (docs/internals/sweeps.md), unless an object has its own. "
-           "`automatic` chooses for each object of 32 particles or more: `tethered_chains` for regular cloth and rope that "
-           "hang from pins, `chains` for others that can touch others or themselves, `multigrid` for irregular ones that "
-           "can meet no collider, and `tiled` for volumes at a pressure that their edges resist, PBD stiffness, or several "
-           "iterations. "
-           "`sequential` is the slow scalar reference with the bits of `tiled`."),
+       field("sweep", choice(sweep_names()), "automatic",
+             "The method that projects constraints (docs/internals/sweeps.md), unless an object has its own. "
+             "`automatic` chooses for each object of 32 particles or more: `tethered_chains` for regular cloth and "
+             "rope that "
+             "hang from pins, `chains` for others that can touch others or themselves, `multigrid` for irregular ones "
+             "that "
+             "can meet no collider, and `tiled` for volumes at a pressure that their edges resist, PBD stiffness, or "
+             "several "
+             "iterations. "
+             "`sequential` is the slow scalar reference with the bits of `tiled`."),
        field("sweep_options", record(sweep_options_record()), "the defaults", "Options of sweeps."),
        field("contact_filter", boolean(), Settings{}.contact_filter,
-             "Truncate steps so that colliding surfaces never cross (docs/guide/contact.md). Without it only contacts keep "
+             "Truncate steps so that colliding surfaces never cross (docs/guide/contact.md). Without it only contacts "
+             "keep "
              "them apart."),
        field("most_substeps", integer(0, 10000),
-             "100 (ropes 200) where substeps follow the State, or what a volume that they can meet needs; else eight times "
+             "100 (ropes 200) where substeps follow the State, or what a volume that they can meet needs; else eight "
+             "times "
              "`substeps`",
-             "Maximum number of substeps of a frame: where they follow the State (in multiples of four), and where a mesh "
+             "Maximum number of substeps of a frame: where they follow the State (in multiples of four), and where a "
+             "mesh "
              "collider moves fast (docs/guide/contact.md)."),
        field("least_substeps", integer(0, 10000), "12; 8 for cloth that only hangs by `tethered_chains`",
              "Minimum number of substeps of a frame where they follow the State, rounded up to a multiple of four."),
-       field("integrator", choice({"pbd", "energy"}), "pbd",
-             "How elastic constraints move matter: `pbd` by their forces at the substep's end, which takes (omega h)^2 / 2 "
-             "of the amplitude of a mode in a substep; `energy` by a mean of forces of three times, which takes 1/200 of "
-             "that (docs/guide/choosing_settings.md)."),
+       field(
+           "integrator", choice({"pbd", "energy"}), "pbd",
+           "How elastic constraints move matter: `pbd` by their forces at the substep's end, which takes (omega h)^2 / "
+           "2 "
+           "of the amplitude of a mode in a substep; `energy` by a mean of forces of three times, which takes 1/200 of "
+           "that (docs/guide/choosing_settings.md)."),
        field("initial_intersections", choice({"leave", "untangle", "refuse"}), "leave",
              "Treatment of surfaces that intersect at the start: leave them, move them apart, or refuse the scene."),
        field("untangling_speed", positive("m/s", 1000), Settings{}.untangling_speed, "Speed limit of depenetration."),

@@ -19,11 +19,12 @@ const Record& cylinder_record() {
 }
 
 const Record& cone_record() {
-  static const Record result{"cone",
-                             "A cone along the y-axis of its frame: its base at -half_length, its apex at half_length.",
-                             {field("radius", positive("m", largest_place), Cone{}.radius, "Radius of the base."),
-                              field("half_length", positive("m", largest_place), Cone{}.half_length, "Half the height.")},
-                             {}};
+  static const Record result{
+      "cone",
+      "A cone along the y-axis of its frame: its base at -half_length, its apex at half_length.",
+      {field("radius", positive("m", largest_place), Cone{}.radius, "Radius of the base."),
+       field("half_length", positive("m", largest_place), Cone{}.half_length, "Half the height.")},
+      {}};
   return result;
 }
 
@@ -47,7 +48,8 @@ const Record& concave_record() {
              "By how much pieces may fill hollows of the mesh."),
        field("most_pieces", integer(1, 1024), DecomposeOptions{}.most_pieces,
              "Greatest number of pieces; where more would be needed, hollows are filled further."),
-       field("most_corners", integer(8, 1024), DecomposeOptions{}.most_corners, "Greatest number of a piece's corners.")},
+       field("most_corners", integer(8, 1024), DecomposeOptions{}.most_corners,
+             "Greatest number of a piece's corners.")},
       {}};
   return result;
 }
@@ -70,7 +72,8 @@ const Record& solid_record() {
 const Record& body_grid_record() {
   static const Record result{
       "body grid",
-      "Copies at the points of a grid; a tower is a grid of counts [1, n, 1]. Copy (x, y, z) has index (z counts[1] + y) "
+      "Copies at the points of a grid; a tower is a grid of counts [1, n, 1]. Copy (x, y, z) has index (z counts[1] + "
+      "y) "
       "counts[0] + x.",
       {needed("counts", list(integer(1, 1000000), 3, 3), "Numbers of copies along x, y and z."),
        needed("spacing", vector("m", largest_place), "Distances between neighbours along x, y and z."),
@@ -99,7 +102,8 @@ const Record& spiral_record() {
       "Copies on a circle or spiral about the y-axis through the body's position; the -z axis of each points along the "
       "line.",
       {needed("count", integer(1, 1000000), "Number of copies."),
-       needed("radius", positive("m", largest_place), "Radius at the first copy, which lies on the +x side of the axis."),
+       needed("radius", positive("m", largest_place),
+              "Radius at the first copy, which lies on the +x side of the axis."),
        needed("spacing", positive("m", largest_place), "Distance between neighbours along the line."),
        field("pitch", number("m", 0, largest_place), 0.f, "Growth of the radius in each turn; 0: a circle.")},
       {}};
@@ -107,12 +111,12 @@ const Record& spiral_record() {
 }
 
 const Record& repeat_record() {
-  static const Record result{
-      "repeat",
-      "Copies of a body, named NAME_0, NAME_1, ...",
-      {either("grid", record(body_grid_record()), "A grid, tower, row or heap."),
-       either("pyramid", record(pyramid_record()), "A pyramid."), either("spiral", record(spiral_record()), "A spiral.")},
-      {"grid", "pyramid", "spiral"}};
+  static const Record result{"repeat",
+                             "Copies of a body, named NAME_0, NAME_1, ...",
+                             {either("grid", record(body_grid_record()), "A grid, tower, row or heap."),
+                              either("pyramid", record(pyramid_record()), "A pyramid."),
+                              either("spiral", record(spiral_record()), "A spiral.")},
+                             {"grid", "pyramid", "spiral"}};
   return result;
 }
 
@@ -121,27 +125,32 @@ const Record& repeat_record() {
 const Record& body_record() {
   static const Record result{
       "body",
-      "A rigid body. Its position and rotation are those of the frame in which its solids are described; its particle is "
+      "A rigid body. Its position and rotation are those of the frame in which its solids are described; its particle "
+      "is "
       "its "
       "centre of mass.",
       {field("name", string(), "\"body\", with a number if it is taken",
              "Unique in the object, used in messages and files."),
-       needed("solids", list(record(solid_record()), 1), "Its solids, which may overlap: each counts with its own mass."),
+       needed("solids", list(record(solid_record()), 1),
+              "Its solids, which may overlap: each counts with its own mass."),
        field("position", place(), BodyOptions{}.position, "Position at the start."),
        field("rotation", record(rotation_record()), "none", "Rotation at the start."),
-       field("velocity", vector("m/s", largest_velocity), "the object's", "Velocity of its centre of mass at the start."),
+       field("velocity", vector("m/s", largest_velocity), "the object's",
+             "Velocity of its centre of mass at the start."),
        field("angular_velocity", vector("rad/s", largest_velocity), BodyOptions{}.angular_velocity,
              "Angular velocity at the start, in world axes."),
        field("mass", any_of({positive("kg"), choice({"fixed"})}), "from the densities",
              "Replaces the mass that the densities give; \"fixed\" for a body that never moves."),
        field("kinematic", boolean(), BodyOptions{}.kinematic,
-             "True: infinite mass. Nothing pushes or turns the body; it carries what lies on it, and follows `motion`, or "
+             "True: infinite mass. Nothing pushes or turns the body; it carries what lies on it, and follows `motion`, "
+             "or "
              "the "
              "poses that a program sets."),
        field("motion", record(motion_record()), "none",
              "Motion of a kinematic body from that pose; as everywhere about a `pivot` in the world. Copies share it."),
        field("surface_velocity", vector("m/s", largest_velocity), BodyOptions{}.surface_velocity,
-             "Velocity in the body's frame with which its surface moves along itself, as that of a belt or track: friction "
+             "Velocity in the body's frame with which its surface moves along itself, as that of a belt or track: "
+             "friction "
              "takes along what it touches, or drives the body."),
        field("repeat", record(repeat_record()), "one body", "Makes copies of the body.")},
       {}};

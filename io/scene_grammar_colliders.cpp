@@ -13,7 +13,8 @@ const Record& plane_record() {
 namespace {
 
 constexpr const char* mesh_meaning =
-    "A static or kinematic surface, closed or open, that collides on both sides. `position` and `rotation` apply after the "
+    "A static or kinematic surface, closed or open, that collides on both sides. `position` and `rotation` apply after "
+    "the "
     "mesh's own placement.";
 
 const Record& mesh_frame_record() {
@@ -46,11 +47,11 @@ const Record& capsule_record() {
 }
 
 const Record& box_record() {
-  static const Record result{
-      "box",
-      "A box about the origin of its frame.",
-      {field("half_extents", positive_vector("m", largest_place), Box{}.half_extents, "Half the sizes along x, y and z.")},
-      {}};
+  static const Record result{"box",
+                             "A box about the origin of its frame.",
+                             {field("half_extents", positive_vector("m", largest_place), Box{}.half_extents,
+                                    "Half the sizes along x, y and z.")},
+                             {}};
   return result;
 }
 
@@ -94,17 +95,19 @@ const Record& collider_record() {
              "Coefficient of restitution: the share of the normal speed kept in a bounce. A pair has the larger one."),
        field("rolling_friction", number("m", 0, largest_place), Collider{}.rolling_friction,
              "For bodies: greatest torque against rolling, per normal force. A pair has the larger one."),
-       field("spinning_friction", number("m", 0, largest_place), Collider{}.spinning_friction,
-             "For bodies: greatest torque about the contact normal, per normal force, in addition to that of friction. A "
-             "pair has "
-             "the larger one."),
        field(
-           "surface_velocity", vector("m/s", largest_velocity), Collider{}.surface_velocity,
-           "Velocity in the collider's frame with which its surface moves along itself while its shape stays, as that of a "
-           "conveyor belt: friction takes along what touches it."),
+           "spinning_friction", number("m", 0, largest_place), Collider{}.spinning_friction,
+           "For bodies: greatest torque about the contact normal, per normal force, in addition to that of friction. A "
+           "pair has "
+           "the larger one."),
+       field("surface_velocity", vector("m/s", largest_velocity), Collider{}.surface_velocity,
+             "Velocity in the collider's frame with which its surface moves along itself while its shape stays, as "
+             "that of a "
+             "conveyor belt: friction takes along what touches it."),
        field("frames", list(record(mesh_frame_record())), "none",
              "Only for a mesh: its deformation, linear between frames; `motion` is applied after it."),
-       field("repeat_frames", boolean(), MeshCollider{}.repeat_frames, "Only for a mesh: restart after the last frame."),
+       field("repeat_frames", boolean(), MeshCollider{}.repeat_frames,
+             "Only for a mesh: restart after the last frame."),
        field("as", choice({"triangles", "distance_grid", "heightfield"}), "triangles",
              "Only for a mesh: its collision geometry. Distance grids and heightfields are cheap and solid, and meet "
              "bodies and particles, not edges of surfaces (docs/guide/contact.md)."),

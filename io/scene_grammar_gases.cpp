@@ -57,13 +57,16 @@ const Record& gas_record() {
        field("preset", choice({"air", "smoke", "helium"}), "none",
              "Density and diffusivity of a gas, surrounded by air; smoke is air at 400 K."),
        field("spacing", positive("m", largest_place), GasOptions{}.fluid.spacing, "Distance of particles at rest."),
-       field("density", positive("kg/m^3"), "that of the preset, else 1.2", "Density at rest, at the ambient temperature."),
+       field("density", positive("kg/m^3"), "that of the preset, else 1.2",
+             "Density at rest, at the ambient temperature."),
        field("speed_of_sound", number("m/s", 0, largest_velocity), GasOptions{}.fluid.speed_of_sound,
              "By which it yields to a pressure p: by p / (density c^2). 0: it does not yield."),
        field("temperature", positive("K", hottest), "that of the preset, else 293.15", "Temperature at the start."),
-       field("ambient_temperature", positive("K", hottest), Gas{}.ambient_temperature, "Temperature of the air around."),
+       field("ambient_temperature", positive("K", hottest), Gas{}.ambient_temperature,
+             "Temperature of the air around."),
        field("ambient_density", number("kg/m^3", 0), "1.204 with a preset, else 1.2",
-             "Density of the air around: the gas is accelerated by -g (ambient_density / density T / ambient_temperature - "
+             "Density of the air around: the gas is accelerated by -g (ambient_density / density T / "
+             "ambient_temperature - "
              "1)."),
        field("cooling_time", number("s", 0), Gas{}.cooling_time,
              "Time constant with which it cools to the ambient temperature; 0: it does not."),

@@ -22,7 +22,8 @@ const Record& flow_record() {
       "flow gauge",
       "The volume of liquid that passes through a parallelogram, in m^3/s, averaged over the frame.",
       {needed("corner", place(), "One of its corners."), needed("side_a", place(), "A side from there."),
-       needed("side_b", place(), "The other side from there. Flow in the direction of `side_a` x `side_b` is positive.")},
+       needed("side_b", place(),
+              "The other side from there. Flow in the direction of `side_a` x `side_b` is positive.")},
       {}};
   return result;
 }

@@ -23,7 +23,8 @@ const Record& turn_range_record() {
       "angle range",
       "Stops of an angle. At the start, the angle is 0.",
       {needed("low", number("degree", -largest_angle, largest_angle), "Lower end."),
-       needed("high", number("degree", -largest_angle, largest_angle), "Upper end, at most a turn above the lower one."),
+       needed("high", number("degree", -largest_angle, largest_angle),
+              "Upper end, at most a turn above the lower one."),
        field("compliance", number("rad/(N m)", 0), JointRange{}.compliance, "Compliance of the stops; 0: rigid.")},
       {}};
   return result;
@@ -87,7 +88,8 @@ const Record& turn_motor_record() {
       {either("speed", number("degree/s", -1e6, 1e6), "Speed to keep."),
        either("position", number("degree", -1e6, 1e6), "Angle to move to, at the remaining angle times `rate`."),
        either("torque", number("N m", -1e30, 1e30), "Torque."),
-       field("keyframes", list(record(turn_keyframe_record())), "none", "The target by time, instead of the one above."),
+       field("keyframes", list(record(turn_keyframe_record())), "none",
+             "The target by time, instead of the one above."),
        field("most", positive("N m"), JointMotor{}.most, "Greatest torque, without `torque`."),
        field("rate", positive("1/s"), JointMotor{}.rate, "Only with `position`: speed over remaining angle."),
        field("most_speed", positive("degree/s"), "no limit", "Only with `position`: greatest speed.")},
@@ -103,7 +105,8 @@ const Record& slide_motor_record() {
        either("position", number("m", -largest_place, largest_place),
               "Displacement to move to, at the remaining displacement times `rate`."),
        either("force", number("N", -1e30, 1e30), "Force."),
-       field("keyframes", list(record(slide_keyframe_record())), "none", "The target by time, instead of the one above."),
+       field("keyframes", list(record(slide_keyframe_record())), "none",
+             "The target by time, instead of the one above."),
        field("most", positive("N"), JointMotor{}.most, "Greatest force, without `force`."),
        field("rate", positive("1/s"), JointMotor{}.rate, "Only with `position`: speed over remaining displacement."),
        field("most_speed", positive("m/s"), "no limit", "Only with `position`: greatest speed.")},
@@ -127,7 +130,8 @@ const Record& ball_record() {
 }
 
 const Record& fixed_record() {
-  static const Record result{"fixed joint", "The two bodies move as one.", {needed("anchor", place(), anchor_meaning)}, {}};
+  static const Record result{
+      "fixed joint", "The two bodies move as one.", {needed("anchor", place(), anchor_meaning)}, {}};
   return result;
 }
 
@@ -203,7 +207,8 @@ const Record& planar_record() {
       "The second body slides in a plane of the first, and rotates about its normal.",
       {needed("anchor", place(), anchor_meaning), field("normal", axis(), PlanarJoint{}.normal, "Normal of the plane."),
        field("axis_x", axis(), "none",
-             "Direction x in the plane; y is the normal times x. Needed for limits, motors and springs of displacements."),
+             "Direction x in the plane; y is the normal times x. Needed for limits, motors and springs of "
+             "displacements."),
        field("x_limit", record(slide_range_record()), "no limit", "Range of the displacement along x."),
        field("y_limit", record(slide_range_record()), "no limit", "Range of the displacement along y."),
        field("turn_limit", record(turn_range_record()), "no limit", "Range of the angle about the normal."),
@@ -245,33 +250,35 @@ const Record& spring_record() {
 }
 
 const Record& pulley_record() {
-  static const Record result{
-      "pulley joint",
-      "A rope from the first body over two pulleys to the second one. Its length does not grow.",
-      {needed("anchors", two_places(), anchors_meaning), needed("pulleys", two_places(), "The two pulleys, at the start."),
-       field("ratio", positive("-"), PulleyJoint{}.ratio,
-             "Of a tackle: the force on the second body over that on the first.")},
-      {}};
+  static const Record result{"pulley joint",
+                             "A rope from the first body over two pulleys to the second one. Its length does not grow.",
+                             {needed("anchors", two_places(), anchors_meaning),
+                              needed("pulleys", two_places(), "The two pulleys, at the start."),
+                              field("ratio", positive("-"), PulleyJoint{}.ratio,
+                                    "Of a tackle: the force on the second body over that on the first.")},
+                             {}};
   return result;
 }
 
 const Record& gear_record() {
-  static const Record result{"gear joint",
-                             "Two bodies rotate about axes fixed in a third, the carrier: one angle times its teeth plus "
-                             "the other times its teeth is "
-                             "constant. The hinges are joints of their own.",
-                             {needed("axes", list(axis(), 2, 2), "The axis of each body, in the world at the start."),
-                              needed("teeth", list(integer(-1e6, 1e6), 2, 2),
-                                     "Number of teeth of each; different signs for an inner gear or a belt, which turn the "
-                                     "second body like the first.")},
-                             {}};
+  static const Record result{
+      "gear joint",
+      "Two bodies rotate about axes fixed in a third, the carrier: one angle times its teeth plus "
+      "the other times its teeth is "
+      "constant. The hinges are joints of their own.",
+      {needed("axes", list(axis(), 2, 2), "The axis of each body, in the world at the start."),
+       needed("teeth", list(integer(-1e6, 1e6), 2, 2),
+              "Number of teeth of each; different signs for an inner gear or a belt, which turn the "
+              "second body like the first.")},
+      {}};
   return result;
 }
 
 const Record& rack_record() {
   static const Record result{
       "rack joint",
-      "A pinion, the first body, that rotates about an axis moves a rack, the second one. Hinge and slider are joints of "
+      "A pinion, the first body, that rotates about an axis moves a rack, the second one. Hinge and slider are joints "
+      "of "
       "their own.",
       {field("axis", axis(), RackJoint{}.axis, "Axis of the pinion, in the world at the start."),
        field("direction", axis(), RackJoint{}.direction, "Direction in which the rack moves as the angle grows."),
@@ -292,13 +299,14 @@ const Record& slide_freedom_record() {
 }
 
 const Record& turn_freedom_record() {
-  static const Record result{"angle freedom",
-                             "Freedom about one axis.",
-                             {field("limit", record(turn_range_record()), "no limit", "Range of the angle."),
-                              field("motor", record(turn_motor_record()), "none", "Drives the angle."),
-                              field("friction", number("N m", 0), AxisFreedom{}.friction, "Greatest torque of friction."),
-                              field("spring", record(turn_spring_record()), "none", "Pulls the angle.")},
-                             {}};
+  static const Record result{
+      "angle freedom",
+      "Freedom about one axis.",
+      {field("limit", record(turn_range_record()), "no limit", "Range of the angle."),
+       field("motor", record(turn_motor_record()), "none", "Drives the angle."),
+       field("friction", number("N m", 0), AxisFreedom{}.friction, "Greatest torque of friction."),
+       field("spring", record(turn_spring_record()), "none", "Pulls the angle.")},
+      {}};
   return result;
 }
 
@@ -318,12 +326,12 @@ const Record& six_axis_record() {
 }
 
 const Record& copies_record() {
-  static const Record result{
-      "joint copies",
-      "Copies of a joint along a row of bodies: in copy k, the numbers at the ends of the bodies' names are greater by k.",
-      {needed("count", integer(1, 1000000), "Number of joints, the first included."),
-       needed("step", place(), "Displacement of the anchors from copy to copy.")},
-      {}};
+  static const Record result{"joint copies",
+                             "Copies of a joint along a row of bodies: in copy k, the numbers at the ends of the "
+                             "bodies' names are greater by k.",
+                             {needed("count", integer(1, 1000000), "Number of joints, the first included."),
+                              needed("step", place(), "Displacement of the anchors from copy to copy.")},
+                             {}};
   return result;
 }
 
@@ -378,7 +386,8 @@ const Record& joint_record() {
        either("gear", record(gear_record()), "A ratio of two rotations."),
        either("rack", record(rack_record()), "A ratio of a rotation and a displacement."),
        either("six_axis", record(six_axis_record()), "Freedom chosen for each axis."),
-       field("carrier", string(), "the world", "Only for pulley, gear and rack: the body that has the pulleys or axes."),
+       field("carrier", string(), "the world",
+             "Only for pulley, gear and rack: the body that has the pulleys or axes."),
        field("compliance", number("m/N and rad/(N m)", 0), JointOptions{}.compliance,
              "Compliance of locked directions; 0: rigid."),
        field("damping", number("N s/m and N m s/rad", 0), JointOptions{}.damping,

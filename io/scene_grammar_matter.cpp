@@ -75,15 +75,17 @@ const Record& constraint_record() {
        field("stiffness", stiffness(), "\"rigid\"", "Stiffness of all of these constraints."),
        field("compliances", list(number("depends on the type", 0)), "none",
              "One compliance per constraint; overrides the one in `stiffness`."),
-       field("plasticity", record(plasticity_record()), "none",
-             "Deformation that becomes permanent, of tetrahedron_shear, corotational_strain, green_strain, green_trace, "
-             "dihedral_bending and rod_joint."),
+       field(
+           "plasticity", record(plasticity_record()), "none",
+           "Deformation that becomes permanent, of tetrahedron_shear, corotational_strain, green_strain, green_trace, "
+           "dihedral_bending and rod_joint."),
        field("keyframes", list(record(rest_keyframe_record()), 1), "none",
              "Factors of the rest data of distance, distance_limit, tetrahedron_volume or fibre, linear between."),
-       field("break_force", number("N", 0, largest_quantity), 0.f,
-             "Force at which one of them breaks, of distance, distance_limit, point_on_triangle and point_in_tetrahedron "
-             "with a "
-             "compliance; 0: they hold.")},
+       field(
+           "break_force", number("N", 0, largest_quantity), 0.f,
+           "Force at which one of them breaks, of distance, distance_limit, point_on_triangle and point_in_tetrahedron "
+           "with a "
+           "compliance; 0: they hold.")},
       {}};
   return result;
 }
@@ -111,7 +113,8 @@ const Record& particles_record() {
        needed("masses", any_of({positive("kg"), list(any_of({positive("kg"), choice({"fixed"})}), 1)}),
               "One mass for all particles, or one per particle; \"fixed\" for a particle that never moves."),
        field("velocities", list(vector("m/s", largest_velocity)), "at rest", "One velocity per particle."),
-       field("frames", list(record(frame_record())), "none", "Orientations that constraints connect with the particles."),
+       field("frames", list(record(frame_record())), "none",
+             "Orientations that constraints connect with the particles."),
        field("constraints", list(record(constraint_record())), "none", "Constraints between the particles."),
        field("triangles", list(list(particle_index(), 3, 3)), "none",
              "The surface for air, volume and pictures, counter-clockwise seen from outside."),
@@ -126,16 +129,19 @@ const Record& fill_record() {
       "Particles on a cubic lattice that fills an axis-aligned box, from `min` to `max`, or a closed mesh.",
       {either("min", place(), "Corner of the box with the smallest coordinates."),
        either("mesh", record(mesh_record()), "A closed mesh, with its placement."),
-       field("max", place(), "none", "Corner of the box with the largest coordinates; only with `min`, which needs it."),
+       field("max", place(), "none",
+             "Corner of the box with the largest coordinates; only with `min`, which needs it."),
        field("clearance", number("m", 0, largest_place), 0.f,
              "Only for a mesh: distance of particles from its surface. Half the spacing if it is a vessel's wall."),
        field("jitter", number("-", 0, 0.25), 0.f,
-             "Displaces each particle along each axis by a random length up to this many spacings, and widens the lattice "
+             "Displaces each particle along each axis by a random length up to this many spacings, and widens the "
+             "lattice "
              "by twice as much, so "
              "that none overlap. 0.05 lets grains that fall mix; a block that stands by itself needs 0.2 to collapse."),
        field("seed", integer(0, 2147483647), 0, "Of the jitter: the same seed gives the same places."),
        field("leave_out_solids", boolean(), true,
-             "Leaves out particles that would overlap colliders, rigid bodies, soft bodies or other closed surfaces of the "
+             "Leaves out particles that would overlap colliders, rigid bodies, soft bodies or other closed surfaces of "
+             "the "
              "scene. A closed surface that encloses the whole fill is its vessel.")},
       {"min", "mesh"}};
   return result;
@@ -144,7 +150,8 @@ const Record& fill_record() {
 const Record& emitter_record() {
   static const Record result{
       "emitter",
-      "Emits layers of particles through a flat opening. It holds two layers behind the opening, where there must be room.",
+      "Emits layers of particles through a flat opening. It holds two layers behind the opening, where there must be "
+      "room.",
       {field("name", string(), "emitter", "Name."), field("position", place(), Vec3f{}, "Centre of the opening."),
        field("direction", vector("-", largest_place), Emitter{}.direction, "Of what it emits; any length but zero."),
        field("across", vector("-", largest_place), "level", "Along the width of a rectangle."),
@@ -182,7 +189,8 @@ std::vector<std::string> grain_names() { return names_of(grain_kinds()); }
 const Record& liquid_record() {
   static const Record result{
       "liquid",
-      "A liquid of particles. Liquids with the same spacing, speed of sound, groups and mask mix; others touch as spheres "
+      "A liquid of particles. Liquids with the same spacing, speed of sound, groups and mask mix; others touch as "
+      "spheres "
       "do.",
       {field("fill", record(fill_record()), "none", "The box or mesh that it fills at the start."),
        field("positions", places(), "none",
@@ -193,7 +201,8 @@ const Record& liquid_record() {
        field("speed_of_sound", number("m/s", 0, largest_velocity), Fluid{}.speed_of_sound,
              "By which it yields to a pressure p: by p / (density c^2). 0: it does not yield."),
        field("viscosity", number("Pa s", 0, 1e6), "that of `kind`, else 0",
-             "Dynamic viscosity: water 0.001, honey 10. 0: none. A liquid with viscosity does not slip along colliders and "
+             "Dynamic viscosity: water 0.001, honey 10. 0: none. A liquid with viscosity does not slip along colliders "
+             "and "
              "bodies."),
        field("surface_tension", number("N/m", 0, 1e6), 0.f,
              "Surface tension towards air: water 0.072, oil 0.03. 0: none. It needs substeps of at most about 0.05 "
@@ -202,9 +211,10 @@ const Record& liquid_record() {
              "Contact angle on colliders and rigid bodies, if there is surface tension. 180: no adhesion."),
        field("vorticity", number("m/s", 0, 1e6), Fluid{}.vorticity,
              "Vorticity confinement: accelerates by this times N x omega, so that swirls last. 0: none."),
-       field("clarity", positive("m", largest_place), "by the size of the picture",
-             "In pictures: the way in the liquid that leaves a third of the light that is not of its colour. Water some "
-             "metres, honey 0.02."),
+       field(
+           "clarity", positive("m", largest_place), "by the size of the picture",
+           "In pictures: the way in the liquid that leaves a third of the light that is not of its colour. Water some "
+           "metres, honey 0.02."),
        field("capacity", integer(1, 1 << 26), "those at the start", "Most particles that are there at a time."),
        field("emitters", list(record(emitter_record())), "none", "What adds particles; needs a `capacity`."),
        field("drains", list(record(drain_record())), "none", "Solids that take particles away, as each frame begins."),
@@ -225,9 +235,10 @@ const Record& grains_record() {
              "A real material, whose density, friction and cohesion are the defaults."),
        field("density", positive("kg/m^3"), "that of `kind`, else 2650",
              "Density of the solid, not of the bulk with its voids."),
-       field("friction", number("-", 0, 1000), "that of `kind`, else 0.6",
-             "Coefficient of friction of the bulk: tangent of the angle of repose. It is also the default friction with "
-             "colliders."),
+       field(
+           "friction", number("-", 0, 1000), "that of `kind`, else 0.6",
+           "Coefficient of friction of the bulk: tangent of the angle of repose. It is also the default friction with "
+           "colliders."),
        field("cohesion", number("Pa", 0, 1e9), "that of `kind`, else 0",
              "Tensile stress at which the bulk parts: each contact of two grains bears a pull of 0.87 diameter^2 times "
              "this."),

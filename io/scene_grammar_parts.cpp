@@ -13,7 +13,8 @@ namespace {
 const Record& stiffness_record() {
   static const Record result{
       "stiffness",
-      "How strongly constraints are enforced. Prefer `compliance`: its effect is independent of time step, substeps and "
+      "How strongly constraints are enforced. Prefer `compliance`: its effect is independent of time step, substeps "
+      "and "
       "iterations.",
       {either("compliance", number("inverse of stiffness; m/N for a distance", 0),
               "XPBD: the inverse stiffness alpha in the unit of the constraint's type; 0 is rigid."),
@@ -47,9 +48,10 @@ const Record& keyframe_record() {
       "A rigid pose at a time.",
       {needed("time", number("s", 0, 1e9), "Time of the pose; increases along the list."),
        field("position", place(), Keyframe{}.position, "Translation from the rest position."),
-       field("rotation", record(rotation_record()), "none",
-             "Rotation about the motion's `pivot`. From one keyframe to the next about the same axis it turns by all the "
-             "degrees between them, so 0 to 720 are two turns; about another one by the shorter arc.")},
+       field(
+           "rotation", record(rotation_record()), "none",
+           "Rotation about the motion's `pivot`. From one keyframe to the next about the same axis it turns by all the "
+           "degrees between them, so 0 to 720 are two turns; about another one by the shorter arc.")},
       {}};
   return result;
 }
@@ -86,10 +88,11 @@ const Record& plasticity_record() {
       "How a deformation becomes permanent. It is a strain of tetrahedra and of rods at their surface, and an angle in "
       "radians of hinges.",
       {needed("yield", number("-", 0), "Elastic deformation that does not become permanent."),
-       field(
-           "rate", number("1/s", 0), Plasticity{}.rate,
-           "How fast what is beyond `yield` flows: exp(-rate t) of it is left. 0: at once. With a `yield` of 0 it creeps."),
-       field("most", number("-", 0), "no limit", "Greatest permanent deformation; beyond it the matter is elastic again.")},
+       field("rate", number("1/s", 0), Plasticity{}.rate,
+             "How fast what is beyond `yield` flows: exp(-rate t) of it is left. 0: at once. With a `yield` of 0 it "
+             "creeps."),
+       field("most", number("-", 0), "no limit",
+             "Greatest permanent deformation; beyond it the matter is elastic again.")},
       {}};
   return result;
 }
@@ -111,7 +114,8 @@ const Record& volume_record() {
              "Rest volume over the volume of the given mesh: above 1 inflates, below 1 deflates."),
        field("stiffness", stiffness(), "\"rigid\"", "Compliance of the constraint on six times the volume, in m^5/N."),
        field("lift", number("kg/m^3", -1e6, 1e6), Volume{}.lift,
-             "By how much the air outside is denser than the gas inside, which bears the surface up by this times g times "
+             "By how much the air outside is denser than the gas inside, which bears the surface up by this times g "
+             "times "
              "the "
              "volume: 1.04 for helium."),
        field("keyframes", list(record(pressure_record()), 1), "none",
@@ -127,15 +131,16 @@ const Record& volume_record() {
 namespace {
 
 const Record& grid_record() {
-  static const Record result{"grid",
-                             "A flat rectangle in the xz-plane about the origin, facing +y. Vertex (row r, column c) has "
-                             "index r * columns + c; columns "
-                             "run along x, rows along z.",
-                             {needed("columns", integer(2, largest_grid), "Vertices along x."),
-                              needed("rows", integer(2, largest_grid), "Vertices along z."),
-                              needed("width", positive("m", largest_place), "Size along x."),
-                              needed("depth", positive("m", largest_place), "Size along z.")},
-                             {}};
+  static const Record result{
+      "grid",
+      "A flat rectangle in the xz-plane about the origin, facing +y. Vertex (row r, column c) has "
+      "index r * columns + c; columns "
+      "run along x, rows along z.",
+      {needed("columns", integer(2, largest_grid), "Vertices along x."),
+       needed("rows", integer(2, largest_grid), "Vertices along z."),
+       needed("width", positive("m", largest_place), "Size along x."),
+       needed("depth", positive("m", largest_place), "Size along z.")},
+      {}};
   return result;
 }
 
@@ -160,19 +165,20 @@ const Record& tube_record() {
        needed("top_radius", positive("m", largest_place), "Radius of the upper rim."),
        needed("bottom_radius", positive("m", largest_place), "Radius of the lower rim."),
        field("folds", integer(0, 256), 0, "Waves around the tube; 0 for none."),
-       field(
-           "fold_depth", number("-", 0, 0.9), 0.f,
-           "Height of the waves at the lower rim as a share of its radius; it decreases linearly to 0 at the upper rim.")},
+       field("fold_depth", number("-", 0, 0.9), 0.f,
+             "Height of the waves at the lower rim as a share of its radius; it decreases linearly to 0 at the upper "
+             "rim.")},
       {}};
   return result;
 }
 
 const Record& box_mesh_record() {
-  static const Record result{"box mesh",
-                             "A closed box about the origin with sides along the axes.",
-                             {needed("size", positive_vector("m", largest_place), "Sizes along x, y and z."),
-                              field("segments", integer(1, 256), 1, "Squares along each edge; a square is two triangles.")},
-                             {}};
+  static const Record result{
+      "box mesh",
+      "A closed box about the origin with sides along the axes.",
+      {needed("size", positive_vector("m", largest_place), "Sizes along x, y and z."),
+       field("segments", integer(1, 256), 1, "Squares along each edge; a square is two triangles.")},
+      {}};
   return result;
 }
 
@@ -216,20 +222,23 @@ const Record& heightfield_record() {
 const Record& mesh_record() {
   static const Record result{
       "mesh",
-      "The source of a surface and its placement: fitted, then scaled, then rotated, then moved. The result is also the "
+      "The source of a surface and its placement: fitted, then scaled, then rotated, then moved. The result is also "
+      "the "
       "rest shape.",
-      {either(
-           "file", string(),
-           "Path of an .obj, .ply or .stl file, relative to the folder of the scene. URLs, devices and pipes are refused."),
+      {either("file", string(),
+              "Path of an .obj, .ply or .stl file, relative to the folder of the scene. URLs, devices and pipes are "
+              "refused."),
        either("array", string(),
               "Name of a mesh in memory that the program gives with the scene (SceneReadOptions::arrays)."),
        either("grid", record(grid_record()), "A rectangle."),
        either("sphere", record(sphere_mesh_record()), "A closed sphere."),
-       either("tube", record(tube_record()), "An open tube."), either("box", record(box_mesh_record()), "A closed box."),
+       either("tube", record(tube_record()), "An open tube."),
+       either("box", record(box_mesh_record()), "A closed box."),
        either("heightfield", record(heightfield_record()), "Terrain."),
        either("rabbit", record(rabbit_record()), "A closed animal shape."),
        field("fit", positive("m", largest_place), "none",
-             "Scales and moves the mesh so that its longest side has this length, its centre lies above the origin and its "
+             "Scales and moves the mesh so that its longest side has this length, its centre lies above the origin and "
+             "its "
              "lowest point at y = 0. For meshes in unknown units."),
        field("scale", any_of({positive("-", 1e6), positive_vector("-", 1e6)}), 1,
              "Scale factor, one for all axes or one per axis."),

@@ -18,7 +18,8 @@ const Record& material_record() {
        field("density", positive("kg/m^3"), RodMaterial{}.density, "Mass per volume."),
        field("youngs_modulus", positive("Pa"), RodMaterial{}.youngs_modulus,
              "Stress per strain of stretching and bending."),
-       field("shear_modulus", positive("Pa"), RodMaterial{}.shear_modulus, "Stress per strain of twisting and shearing."),
+       field("shear_modulus", positive("Pa"), RodMaterial{}.shear_modulus,
+             "Stress per strain of twisting and shearing."),
        field("damping", number("s", 0), RodMaterial{}.damping, "Stress over elastic modulus and rate of strain."),
        field("static_friction", number("-", 0, 1000), RodMaterial{}.static_friction, "Coefficient of static friction."),
        field("kinetic_friction", number("-", 0, 1000), "0.3; at most the static one",
@@ -90,11 +91,12 @@ const Record& rod_repeat_record() {
 }
 
 const Record& end_record() {
-  static const Record result{"rod end",
-                             "What holds an end of a rod: a body of the object, or \"world\".",
-                             {either("clamped", string(), "Holds its place and its direction; it does not twist there."),
-                              either("ball", string(), "Holds its place; it turns freely.")},
-                             {"clamped", "ball"}};
+  static const Record result{
+      "rod end",
+      "What holds an end of a rod: a body of the object, or \"world\".",
+      {either("clamped", string(), "Holds its place and its direction; it does not twist there."),
+       either("ball", string(), "Holds its place; it turns freely.")},
+      {"clamped", "ball"}};
   return result;
 }
 

@@ -137,7 +137,9 @@ inline Field field(const char* name, Type type, const T& fallback, const char* m
   return {name, std::move(type), words(fallback), meaning, false};
 }
 
-inline Field needed(const char* name, Type type, const char* meaning) { return {name, std::move(type), {}, meaning, true}; }
+inline Field needed(const char* name, Type type, const char* meaning) {
+  return {name, std::move(type), {}, meaning, true};
+}
 
 /// A member of a group of which exactly one must be present.
 inline Field either(const char* name, Type type, const char* meaning) {

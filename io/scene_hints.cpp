@@ -86,7 +86,8 @@ std::string nearest_elsewhere(const std::string& wanted, const std::vector<Reach
   std::vector<std::string> names;
   for (const Reached& one : reached)
     for (std::string& name : field_names_of(*one.record)) names.push_back(std::move(name));
-  const std::string near = wanted.size() < 4 ? "" : nearest_spelling(wanted, names);  // short names are similar to too many
+  const std::string near =
+      wanted.size() < 4 ? "" : nearest_spelling(wanted, names);  // short names are similar to too many
   for (const Reached& one : reached)
     if (!near.empty() && one.record->find(near) != nullptr)
       return "did you mean '" + (one.path.empty() ? "" : one.path + ".") + near + "'" +

@@ -56,7 +56,8 @@ void set_motor(const JsonDocument& document, const JsonValue& at, const char* na
   if (set(*value, "most_speed", motor.most_speed)) motor.most_speed *= unit;
   for (const char* only : {"rate", "most_speed"})
     if (const JsonValue* given = value->find(only); given != nullptr && motor.kind != JointMotor::Kind::position)
-      document.fail_key(*given, "a motor that keeps a speed has no " + std::string(only), "remove it, or give a position");
+      document.fail_key(*given, "a motor that keeps a speed has no " + std::string(only),
+                        "remove it, or give a position");
   if (const JsonValue* given = value->find("most"); given != nullptr && motor.kind == JointMotor::Kind::torque)
     document.fail_key(*given, "a motor of a given torque or force has no other greatest one", "remove it");
   target = motor;
@@ -301,8 +302,9 @@ class Joints {
       set(*repeat, "count", count);
       set(*repeat, "step", step);
       if (count > 1 && step == Vec3f{} && counted_alike(item))
-        document_.fail_key(*repeat, "joins the same bodies at the same place " + std::to_string(count) + " times",
-                           "name bodies whose names end in numbers, such as 'link_0', which count up, or give a 'step'");
+        document_.fail_key(
+            *repeat, "joins the same bodies at the same place " + std::to_string(count) + " times",
+            "name bodies whose names end in numbers, such as 'link_0', which count up, or give a 'step'");
     }
     for (int copy = 0; copy < count; ++copy) add_copy(item, copy, static_cast<float>(copy) * step, count > 1);
   }

@@ -132,7 +132,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     }
     const std::string problem = printable(without_preamble(exception.what()));
     const std::size_t last = position > 0 ? position - 1 : 0;
-    throw Error(document_.locate_byte(last), "not valid JSON: " + problem, syntax_advice(document_.text, last, problem));
+    throw Error(document_.locate_byte(last), "not valid JSON: " + problem,
+                syntax_advice(document_.text, last, problem));
   }
 
  private:

@@ -34,8 +34,8 @@ ClothOptions cloth_options(const JsonDocument& document, const JsonValue& at, co
   return options;
 }
 
-BuiltObject cloth_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
-                     std::vector<std::string>& repairs) {
+BuiltObject cloth_of(const JsonDocument& document, const JsonValue& at, const std::string& name,
+                     const MeshFolder& folder, std::vector<std::string>& repairs) {
   SceneMesh surface = make_mesh(document, *at.find("mesh"), folder, name);
   for (const std::string& repair : surface.repairs) repairs.push_back("object '" + name + "', " + repair);
   return {make_cloth(surface.mesh, cloth_options(document, at, name)), surface.columns, surface.rows};
@@ -113,7 +113,8 @@ std::vector<Vec3f> places_in(const Filling& by, const JsonValue& fill) {
     by.document.fail_key(*given, "has no 'jitter' to draw", "give a 'jitter', or remove it");
   const Filling wider{by.document, by.folder, by.name, by.repairs, by.spacing * (1 + 2 * jitter)};
   const float most = jitter * by.spacing, way = std::sqrt(3.f) * most;
-  return jittered(fill.find("mesh") != nullptr ? places_in_mesh(wider, fill, way) : places_in_box(wider, fill), most, seed);
+  return jittered(fill.find("mesh") != nullptr ? places_in_mesh(wider, fill, way) : places_in_box(wider, fill), most,
+                  seed);
 }
 
 }  // namespace
@@ -123,7 +124,8 @@ std::vector<Vec3f> places_of(const Filling& by, const JsonValue& at) {
   const JsonValue* fill = at.find("fill");
   if (fill == nullptr && positions.empty() && at.find("emitters") == nullptr)
     by.document.fail(at, "has no particles", "give 'fill', 'positions' or 'emitters'");
-  if (fill != nullptr && !positions.empty()) by.document.fail_key(*fill, "is given with 'positions'", "give one of them");
+  if (fill != nullptr && !positions.empty())
+    by.document.fail_key(*fill, "is given with 'positions'", "give one of them");
   if (fill == nullptr) return positions;
   return places_in(by, *fill);
 }
@@ -141,8 +143,8 @@ void set_flow(const JsonDocument& document, const JsonValue& at, Options& option
     document.fail(*at.find("capacity"), "more than " + std::to_string(largest_scene) + " particles", "give fewer");
 }
 
-BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
-                      std::vector<std::string>& repairs) {
+BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const std::string& name,
+                      const MeshFolder& folder, std::vector<std::string>& repairs) {
   LiquidOptions options;
   options.name = name;
   if (const JsonValue* kind = at.find("kind")) {
@@ -162,8 +164,8 @@ BuiltObject liquid_of(const JsonDocument& document, const JsonValue& at, const s
   return {make_liquid(places_of({document, folder, name, repairs, options.fluid.spacing}, at), options)};
 }
 
-BuiltObject grains_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const MeshFolder& folder,
-                      std::vector<std::string>& repairs) {
+BuiltObject grains_of(const JsonDocument& document, const JsonValue& at, const std::string& name,
+                      const MeshFolder& folder, std::vector<std::string>& repairs) {
   GrainsOptions options;
   options.name = name;
   if (const JsonValue* kind = at.find("kind")) {
@@ -276,16 +278,18 @@ BuiltObject particles_of(const JsonDocument& document, const JsonValue& at, cons
   object.masses = masses_of(document, *at.find("masses"), count);
   if (const JsonValue* velocities = at.find("velocities")) {
     if (velocities->items.size() != count)
-      document.fail(*velocities,
-                    std::to_string(velocities->items.size()) + " velocities for " + std::to_string(count) + " particles",
-                    "give one per particle, or the object's velocity");
+      document.fail(
+          *velocities,
+          std::to_string(velocities->items.size()) + " velocities for " + std::to_string(count) + " particles",
+          "give one per particle, or the object's velocity");
     for (const JsonValue& item : velocities->items) object.velocities.push_back(vector_of(item));
   }
   for (const JsonValue& item : elements(at, "frames")) object.frames.push_back(object_frame_of(document, item));
   for (const JsonValue& item : elements(at, "constraints"))
     object.constraints.push_back(constraints_of(document, item, count, object.frames.size()));
   for (const JsonValue& item : elements(at, "triangles"))
-    object.triangles.push_back({particle_of(document, item.items[0], count), particle_of(document, item.items[1], count),
+    object.triangles.push_back({particle_of(document, item.items[0], count),
+                                particle_of(document, item.items[1], count),
                                 particle_of(document, item.items[2], count)});
   set(document, at, "volume", object.volume);
   return {std::move(object)};

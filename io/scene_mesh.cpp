@@ -168,7 +168,8 @@ void check_places(const JsonDocument& document, const JsonValue& at, const std::
   const auto inside = [](float x) { return x >= -largest_place && x <= largest_place; };  // false for NaN
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec3f& p = positions[i];
-    if (std::isnan(p.x + p.y + p.z)) document.fail(at, "vertex " + std::to_string(i) + " is not finite", "mend the mesh");
+    if (std::isnan(p.x + p.y + p.z))
+      document.fail(at, "vertex " + std::to_string(i) + " is not finite", "mend the mesh");
     if (!inside(p.x) || !inside(p.y) || !inside(p.z))
       document.fail(at, "vertex " + std::to_string(i) + " lies more than 1000 km from the origin",
                     "scale or move the mesh");
@@ -246,7 +247,8 @@ void fill(const JsonDocument& document, const JsonValue& at, const MeshFolder& f
   if (const JsonValue* tube = at.find("tube")) result.mesh = tube_of(*tube);
   if (const JsonValue* box = at.find("box")) result.mesh = box_of(*box);
   if (const JsonValue* rabbit = at.find("rabbit")) result.mesh = rabbit_of(*rabbit);
-  if (const JsonValue* heightfield = at.find("heightfield")) result.mesh = heightfield_of(document, *heightfield, result);
+  if (const JsonValue* heightfield = at.find("heightfield"))
+    result.mesh = heightfield_of(document, *heightfield, result);
 }
 
 }  // namespace
@@ -275,8 +277,8 @@ Placement place(const JsonDocument& document, const JsonValue& at, std::vector<V
   return placement;
 }
 
-SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const std::string& name,
-                    Repair repair) {
+SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder,
+                    const std::string& name, Repair repair) {
   SceneMesh result;
   fill(document, at, folder, name, repair, result);
   result.placement = place(document, at, result.mesh.positions);

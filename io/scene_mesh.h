@@ -57,8 +57,8 @@ enum class Repair { yes, no };
 
 /// Reads or generates the mesh of a checked "mesh" record, which belongs to the object or collider `name`. Throws an
 /// Error if a path is not allowed, is no readable mesh file, or if a vertex is beyond `largest_place`.
-SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder, const std::string& name,
-                    Repair repair = Repair::yes);
+SceneMesh make_mesh(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder,
+                    const std::string& name, Repair repair = Repair::yes);
 
 /// The tetrahedra in memory that the string `at` names. Throws an Error if there are none, or if an index is out of
 /// range.
@@ -68,11 +68,12 @@ TetrahedralMesh tetrahedra_named(const JsonDocument& document, const JsonValue& 
 /// is absent. Throws an Error if there are no such points, or one is beyond `largest_place`.
 std::vector<Vec3f> positions_at(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder);
 
-/// Moves positions by the placement in a checked record with `fit`, `scale`, `rotate` and `translate`. Throws an Error if one is then
-/// beyond `largest_place`.
+/// Moves positions by the placement in a checked record with `fit`, `scale`, `rotate` and `translate`. Throws an Error
+/// if one is then beyond `largest_place`.
 Placement place(const JsonDocument& document, const JsonValue& at, std::vector<Vec3f>& positions);
 
-/// Reads the vertices of another frame of `mesh`, with its placement. Throws like make_mesh, or if their number differs.
+/// Reads the vertices of another frame of `mesh`, with its placement. Throws like make_mesh, or if their number
+/// differs.
 std::vector<Vec3f> make_frame(const JsonDocument& document, const JsonValue& at, const MeshFolder& folder,
                               const SceneMesh& mesh);
 

@@ -74,7 +74,8 @@ RodEnd end_of(const JsonDocument& document, const JsonValue& at, const char* nam
   return end;
 }
 
-RodOptions options_of(const JsonDocument& document, const JsonValue& at, const std::string& name, const Object& object) {
+RodOptions options_of(const JsonDocument& document, const JsonValue& at, const std::string& name,
+                      const Object& object) {
   RodOptions options;
   options.name = name;
   set(at, "name", options.name);

@@ -82,8 +82,8 @@ TetrahedralMesh tetrahedra_of(const JsonDocument& document, const JsonValue& at,
   return mesh;
 }
 
-/// An eighth of the longest side, and less where the body is thinner than that: of a plate, three quarters of its thickness. But never
-/// less than a 64th.
+/// An eighth of the longest side, and less where the body is thinner than that: of a plate, three quarters of its
+/// thickness. But never less than a 64th.
 float default_size(const TriangleMesh& mesh) {
   const MeshBounds bounds = bounds_of(mesh.positions);
   const float longest = bounds.longest_side();
@@ -122,7 +122,8 @@ void set_skin(const JsonDocument& document, const JsonValue& at, const MeshFolde
   }
   if (!skin->truth) return;
   if (surface == nullptr)
-    document.fail_key(*skin, "of `tetrahedra` must say what mesh it is", "give a mesh, such as {\"file\": \"skin.obj\"}");
+    document.fail_key(*skin, "of `tetrahedra` must say what mesh it is",
+                      "give a mesh, such as {\"file\": \"skin.obj\"}");
   body.skin = make_skin(body, *surface);
 }
 

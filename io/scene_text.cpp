@@ -36,7 +36,8 @@ Scene scene_from_json(const std::string& text, const std::string& name) {
   const scene_file::JsonDocument document = scene_file::parse_json(text, name, most);
   const scene_file::JsonValue& root = document.root;
   if (root.kind != scene_file::JsonValue::Kind::object || root.find(format_name.data()) == nullptr)
-    document.fail(root, "is not a scene that scene_json() wrote", "read a scene file with read_scene() or parse_scene()");
+    document.fail(root, "is not a scene that scene_json() wrote",
+                  "read a scene file with read_scene() or parse_scene()");
   std::uint32_t found = 0;
   Scene scene;
   save_file::TextInput in(document, root);

@@ -119,7 +119,8 @@ Turn turn_of(const JsonDocument& document, const JsonValue& keyframe) {
 
 Vec3d in_double(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
-/// The degrees from one rotation to another about the axis of both; 0 if they have none in common. Sets that axis in `from`.
+/// The degrees from one rotation to another about the axis of both; 0 if they have none in common. Sets that axis in
+/// `from`.
 double degrees_between(Turn& from, const Turn& to) {
   if (from.degrees == 0) from.axis = to.axis;
   if (to.degrees == 0) return -from.degrees;
@@ -129,8 +130,9 @@ double degrees_between(Turn& from, const Turn& to) {
   return (dot(a, b) < 0 ? -to.degrees : to.degrees) - from.degrees;
 }
 
-/// Appends keyframes up to `next` that turn by a quarter turn each, where it turns by half a turn or more: between two keyframes a Motion
-/// takes the shorter arc. They are evenly spaced, and share in position and angle what their rounded times do.
+/// Appends keyframes up to `next` that turn by a quarter turn each, where it turns by half a turn or more: between two
+/// keyframes a Motion takes the shorter arc. They are evenly spaced, and share in position and angle what their rounded
+/// times do.
 void append_turns(const JsonDocument& document, const JsonValue& at, Turn from, const Turn& to, const Keyframe& next,
                   std::vector<Keyframe>& keys) {
   const double degrees = degrees_between(from, to);
@@ -235,7 +237,8 @@ bool set(const JsonDocument& document, const JsonValue& at, const char* name, Fa
   const JsonValue* stretch = value->find("stretch_stiffness");
   if (stretch == nullptr) return true;
   const bool inextensible = stretch->kind == JsonValue::Kind::string;
-  target.stretch_stiffness = inextensible ? std::numeric_limits<float>::infinity() : static_cast<float>(stretch->number);
+  target.stretch_stiffness =
+      inextensible ? std::numeric_limits<float>::infinity() : static_cast<float>(stretch->number);
   return true;
 }
 

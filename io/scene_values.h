@@ -17,7 +17,8 @@ inline constexpr float radian = 0.017453292519943295f;  ///< per degree
 
 Vec3f vector_of(const JsonValue& value);
 
-/// Reads the member `name` into `target`, which keeps its default if the member is absent. Returns true if it is present.
+/// Reads the member `name` into `target`, which keeps its default if the member is absent. Returns true if it is
+/// present.
 bool set(const JsonValue& at, const char* name, bool& target);
 bool set(const JsonValue& at, const char* name, int& target);
 bool set(const JsonValue& at, const char* name, float& target);

@@ -26,10 +26,11 @@ void TetraBuilder::add_tetrahedron(const std::array<std::int64_t, 4>& nodes, int
 
 void TetraBuilder::sort_nodes() {
   std::stable_sort(nodes_.begin(), nodes_.end(), [](const Node& a, const Node& b) { return a.number < b.number; });
-  const auto same =
-      std::adjacent_find(nodes_.begin(), nodes_.end(), [](const Node& a, const Node& b) { return a.number == b.number; });
+  const auto same = std::adjacent_find(nodes_.begin(), nodes_.end(),
+                                       [](const Node& a, const Node& b) { return a.number == b.number; });
   if (same != nodes_.end())
-    fail(same[1].line, "node " + std::to_string(same->number) + " is there twice", "give each node a number of its own");
+    fail(same[1].line, "node " + std::to_string(same->number) + " is there twice",
+         "give each node a number of its own");
 }
 
 std::size_t TetraBuilder::place_of(std::int64_t number, int line) const {
@@ -37,9 +38,9 @@ std::size_t TetraBuilder::place_of(std::int64_t number, int line) const {
                                       [](const Node& node, std::int64_t wanted) { return node.number < wanted; });
   if (found == nodes_.end() || found->number != number)
     fail(line, "a tetrahedron uses node " + std::to_string(number) + ", which does not exist",
-         nodes_.empty()
-             ? "the file has no nodes"
-             : "nodes run from " + std::to_string(nodes_.front().number) + " to " + std::to_string(nodes_.back().number));
+         nodes_.empty() ? "the file has no nodes"
+                        : "nodes run from " + std::to_string(nodes_.front().number) + " to " +
+                              std::to_string(nodes_.back().number));
   return static_cast<std::size_t>(found - nodes_.begin());
 }
 

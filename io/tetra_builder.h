@@ -19,8 +19,9 @@ class TetraBuilder {
   void add_tetrahedron(const std::array<std::int64_t, 4>& nodes, int line);
   void note(std::string repair) { repairs_.push_back(std::move(repair)); }
 
-  /// The mesh: tetrahedra of negative volume are turned, nodes of none left out, touching parts noted. Throws an Error if there is no
-  /// tetrahedron, a node is there twice, a tetrahedron uses one that does not exist, or floats are too coarse so far from the origin.
+  /// The mesh: tetrahedra of negative volume are turned, nodes of none left out, touching parts noted. Throws an Error
+  /// if there is no tetrahedron, a node is there twice, a tetrahedron uses one that does not exist, or floats are too
+  /// coarse so far from the origin.
   TetrahedralMeshFile result();
 
  private:

@@ -15,8 +15,9 @@ struct NamedText {
 };
 TetrahedralMeshFile read_tetgen(const NamedText& nodes, const NamedText& elements);
 
-TetrahedralMeshFile read_gmsh(std::string_view bytes, const std::string& name);  ///< .msh 2.2 and 4.1, as text and binary
-TetrahedralMeshFile read_vtk(std::string_view bytes, const std::string& name);   ///< legacy .vtk
+TetrahedralMeshFile read_gmsh(std::string_view bytes,
+                              const std::string& name);  ///< .msh 2.2 and 4.1, as text and binary
+TetrahedralMeshFile read_vtk(std::string_view bytes, const std::string& name);  ///< legacy .vtk
 /// The same with numbers as bytes, big end first. `offset` is that of the line after "BINARY".
 TetrahedralMeshFile read_binary_vtk(std::string_view bytes, std::size_t offset, const std::string& name);
 

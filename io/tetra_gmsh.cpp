@@ -1,5 +1,5 @@
-// Reads Gmsh .msh 2.2 and 4.1, as text and binary (Geuzaine and Remacle, Gmsh's reference manual, "MSH file format"): nodes and linear
-// tetrahedra. Points, lines, triangles and quadrangles are passed over, and so are all other sections.
+// Reads Gmsh .msh 2.2 and 4.1, as text and binary (Geuzaine and Remacle, Gmsh's reference manual, "MSH file format"):
+// nodes and linear tetrahedra. Points, lines, triangles and quadrangles are passed over, and so are all other sections.
 #include <algorithm>
 
 #include "tetra_builder.h"
@@ -53,7 +53,9 @@ void Source::fail(const std::string& problem, const std::string& advice) const {
   bytes_.fail(problem, advice);
 }
 
-std::int64_t Source::tag(const char* what) { return is_binary_ ? bytes_.value<std::int32_t>(what) : words_.integer(what); }
+std::int64_t Source::tag(const char* what) {
+  return is_binary_ ? bytes_.value<std::int32_t>(what) : words_.integer(what);
+}
 
 std::int64_t Source::index(const char* what) {
   if (!is_binary_) return words_.integer(what);
@@ -78,7 +80,8 @@ void Source::read_format() {
   const std::string_view version = words_.word();
   is_version_2_ = version == "2.2" || version == "2.1" || version == "2";
   if (!is_version_2_ && version != "4.1")
-    fail("has version " + in_quotes(version) + " of the format", "save it as version 2.2 or 4.1: gmsh -save -format msh41");
+    fail("has version " + in_quotes(version) + " of the format",
+         "save it as version 2.2 or 4.1: gmsh -save -format msh41");
   const bool is_binary = words_.integer("the kind of file") == 1;
   if (words_.integer("the size of numbers") != 8)
     fail("has numbers of other than 8 bytes", "save it by a present version of Gmsh");
@@ -111,7 +114,8 @@ void Source::expect_end(const std::string& section) {
   else
     found = words_.word();
   if (found.empty() || found.substr(0, 4) == "$End") return;
-  fail("has more in $" + section + " than its counts say: " + in_quotes(found) + " is where $End" + section + " should be",
+  fail("has more in $" + section + " than its counts say: " + in_quotes(found) + " is where $End" + section +
+           " should be",
        "correct the counts, or export it again");
 }
 
@@ -183,7 +187,8 @@ void read_elements_2(Source& from, TetraBuilder& builder) {
 
 void read_elements_4(Source& from, TetraBuilder& builder) {
   const std::int64_t blocks = from.count("the number of blocks of elements");
-  for (const char* what : {"the number of elements", "the least number of an element", "the largest number of an element"})
+  for (const char* what :
+       {"the number of elements", "the least number of an element", "the largest number of an element"})
     from.index(what);
   for (std::int64_t block = 0; block < blocks; ++block) {
     from.tag("the dimension of a block");

@@ -1,4 +1,5 @@
-// Reads Medit .mesh as text (Frey 2001, "MEDIT: an interactive mesh visualization software"): keywords, each with a count and rows.
+// Reads Medit .mesh as text (Frey 2001, "MEDIT: an interactive mesh visualization software"): keywords, each with a
+// count and rows.
 #include <algorithm>
 #include <iterator>
 
@@ -78,7 +79,8 @@ TetrahedralMeshFile read_medit(std::string_view bytes, const std::string& name) 
       read_vertices(words, builder);
     } else if (keyword == "Tetrahedra") {
       read_tetrahedra(words, builder);
-    } else if (std::find(std::begin(refused_keywords), std::end(refused_keywords), keyword) != std::end(refused_keywords)) {
+    } else if (std::find(std::begin(refused_keywords), std::end(refused_keywords), keyword) !=
+               std::end(refused_keywords)) {
       if (words.count("the number of rows") > 0)
         words.fail("has " + std::string(keyword), "export linear tetrahedra alone");
     } else {

@@ -1,5 +1,6 @@
-// Reads binary Medit files (.meshb), as libMeshb writes them (Marechal, "The libMeshb library"): blocks, each with a code, the place of the
-// next one, a count and rows. Versions 1 to 4 have floats or doubles, and places and counts of 32 or 64 bits.
+// Reads binary Medit files (.meshb), as libMeshb writes them (Marechal, "The libMeshb library"): blocks, each with a
+// code, the place of the next one, a count and rows. Versions 1 to 4 have floats or doubles, and places and counts of
+// 32 or 64 bits.
 #include "tetra_builder.h"
 #include "tetra_bytes.h"
 #include "tetra_formats.h"
@@ -14,7 +15,8 @@ constexpr std::int32_t refused_codes[] = {9, 10, 30, 33, 49, 82, 83, 85};
 
 class BinaryMedit {
  public:
-  BinaryMedit(std::string_view bytes, const std::string& name) : size_(bytes.size()), from_(bytes, name), builder_(name) {}
+  BinaryMedit(std::string_view bytes, const std::string& name)
+      : size_(bytes.size()), from_(bytes, name), builder_(name) {}
 
   TetrahedralMeshFile read() {
     read_head();

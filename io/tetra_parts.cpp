@@ -49,7 +49,8 @@ std::string note_of_touching_parts(const TetrahedralMesh& mesh) {
   if (count == 0) return {};
   const std::string nodes =
       count == 1 ? "1 node is at the position of a node" : std::to_string(count) + " nodes are at positions of nodes";
-  return nodes + " of another part, but not connected to it: the parts come apart; merge equal nodes if they are one body";
+  return nodes +
+         " of another part, but not connected to it: the parts come apart; merge equal nodes if they are one body";
 }
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
-// Reads TetGen .node and .ele (Si 2015, TetGen's manual, section 5.2): a line with counts, then a line for each node or element, of which
-// attributes and markers at its end are not read. Numbers may start at 0 or 1.
+// Reads TetGen .node and .ele (Si 2015, TetGen's manual, section 5.2): a line with counts, then a line for each node or
+// element, of which attributes and markers at its end are not read. Numbers may start at 0 or 1.
 #include "tetra_builder.h"
 #include "tetra_formats.h"
 #include "tetra_text.h"

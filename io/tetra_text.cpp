@@ -18,7 +18,8 @@ std::string_view WordReader::here() {
 bool WordReader::next_line() {
   while (lines_.next()) {
     rest_ = lines_.line();
-    if (rest_.find('\0') != std::string_view::npos) fail("contains a zero byte, so it is not text", "export it as ASCII");
+    if (rest_.find('\0') != std::string_view::npos)
+      fail("contains a zero byte, so it is not text", "export it as ASCII");
     std::string_view ahead = rest_;
     const std::string_view word = take_word(ahead);
     if (!word.empty() && (comment_ == 0 || word.front() != comment_)) return true;

@@ -9,7 +9,8 @@
 
 namespace pliant {
 
-/// Reads words one after another, whatever the lines. A word that begins with `comment` ends its line; 0: there are no comments.
+/// Reads words one after another, whatever the lines. A word that begins with `comment` ends its line; 0: there are no
+/// comments.
 class WordReader {
  public:
   WordReader(std::string_view bytes, const std::string& name, char comment = '#')

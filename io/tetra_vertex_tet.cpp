@@ -1,5 +1,5 @@
-// Reads the text format of Gaia and of other research code: lines "Vertex NUMBER X Y Z" and "Tet NUMBER A B C D"; what follows on a line
-// is not read.
+// Reads the text format of Gaia and of other research code: lines "Vertex NUMBER X Y Z" and "Tet NUMBER A B C D"; what
+// follows on a line is not read.
 #include "tetra_builder.h"
 #include "tetra_formats.h"
 #include "tetra_text.h"

@@ -1,5 +1,6 @@
-// Reads legacy VTK unstructured grids whose numbers are text (Kitware, "VTK file formats"): POINTS, CELLS and CELL_TYPES, in the layout of
-// version 2 to 4 and in that of 5.1. Data of points and cells, which follow, are not read. tetra_vtk_binary.cpp reads those of bytes.
+// Reads legacy VTK unstructured grids whose numbers are text (Kitware, "VTK file formats"): POINTS, CELLS and
+// CELL_TYPES, in the layout of version 2 to 4 and in that of 5.1. Data of points and cells, which follow, are not read.
+// tetra_vtk_binary.cpp reads those of bytes.
 #include <vector>
 
 #include "tetra_builder.h"

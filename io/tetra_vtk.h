@@ -1,4 +1,5 @@
-// What VTK unstructured grids as text and as bytes have in common. `From` is the reader, whose fail() throws an Error at its place.
+// What VTK unstructured grids as text and as bytes have in common. `From` is the reader, whose fail() throws an Error
+// at its place.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +30,8 @@ void add_vtk_offset(const From& from, std::int64_t next, std::int64_t corners, s
   offsets.push_back(next);
 }
 
-/// Adds the cells that are tetrahedra, of as many types as there are cells; next() reads one. Points, lines and polygons are passed over.
+/// Adds the cells that are tetrahedra, of as many types as there are cells; next() reads one. Points, lines and
+/// polygons are passed over.
 template <class From, class Next>
 void add_vtk_tetrahedra(const From& from, const VtkCells& cells, std::int64_t types, const Next& next,
                         TetraBuilder& builder) {

@@ -80,7 +80,8 @@ void BinaryVtk::offset_cells(std::int64_t offsets, std::int64_t size, std::strin
 void BinaryVtk::counted_cells(std::int64_t count) {
   from_.checked(count, 4, "the number of cells");
   for (std::int64_t i = 0; i < count; ++i) {
-    const std::int64_t corners = from_.checked(from_.value<std::int32_t>("a number of corners"), 4, "a number of corners");
+    const std::int64_t corners =
+        from_.checked(from_.value<std::int32_t>("a number of corners"), 4, "a number of corners");
     std::vector<std::int64_t> cell;
     for (std::int64_t k = 0; k < corners; ++k) cell.push_back(from_.value<std::int32_t>("a corner"));
     cells_.add(std::move(cell), 0);

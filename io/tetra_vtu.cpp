@@ -1,6 +1,6 @@
-// Reads VTK unstructured grids in XML files (.vtu; Kitware, "VTK file formats"): Points and Cells of all pieces, as text, base64 or raw bytes,
-// whole or compressed. Data of points and cells are not read. Pieces of a parallel run touch: points of several pieces that are equal
-// become one, and points of one piece stay as they are.
+// Reads VTK unstructured grids in XML files (.vtu; Kitware, "VTK file formats"): Points and Cells of all pieces, as
+// text, base64 or raw bytes, whole or compressed. Data of points and cells are not read. Pieces of a parallel run
+// touch: points of several pieces that are equal become one, and points of one piece stay as they are.
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -47,7 +47,8 @@ class VtuReader {
     const Element* root = document_.FirstChildElement("VTKFile");
     if (root == nullptr) fail(1, "has no element 'VTKFile'", "give a .vtu file of VTK");
     const Element* grid = root->FirstChildElement("UnstructuredGrid");
-    if (grid == nullptr) fail(root->GetLineNum(), "has no UnstructuredGrid", "write tetrahedra as an unstructured grid");
+    if (grid == nullptr)
+      fail(root->GetLineNum(), "has no UnstructuredGrid", "write tetrahedra as an unstructured grid");
     read_encoding(*root);
     const Element* first = grid->FirstChildElement("Piece");
     has_several_ = first != nullptr && first->NextSiblingElement("Piece") != nullptr;
@@ -70,7 +71,8 @@ class VtuReader {
     const std::string_view rest = bytes.substr(start);
     const std::size_t end = rest.find('>');
     const std::size_t first = end == std::string_view::npos ? end : rest.find('_', end);
-    if (first == std::string_view::npos) fail(0, "has an AppendedData without '_'", "the file is cut off: export it again");
+    if (first == std::string_view::npos)
+      fail(0, "has an AppendedData without '_'", "the file is cut off: export it again");
     appended_.is_base64 = rest.substr(0, end).find("raw") == std::string_view::npos;
     appended_.bytes = rest.substr(first + 1);
     if (appended_.is_base64) appended_.bytes = appended_.bytes.substr(0, appended_.bytes.find('<'));
@@ -181,7 +183,8 @@ class VtuReader {
       fail(at.GetLineNum(), "has points of type " + in_quotes(type), "write Float32 or Float64");
     out = type == "Float32" ? converted<float, float>(bytes_of(at)) : narrowed(converted<double, double>(bytes_of(at)));
     for (const float number : out)
-      if (!(number - number == 0)) fail(at.GetLineNum(), "has a coordinate that is not finite", "give finite coordinates");
+      if (!(number - number == 0))
+        fail(at.GetLineNum(), "has a coordinate that is not finite", "give finite coordinates");
     return out;
   }
 
@@ -189,7 +192,8 @@ class VtuReader {
     std::vector<float> out;
     out.reserve(from.size());
     for (const double number : from)
-      out.push_back(number > 3e38 || number < -3e38 ? std::numeric_limits<float>::infinity() : static_cast<float>(number));
+      out.push_back(number > 3e38 || number < -3e38 ? std::numeric_limits<float>::infinity()
+                                                    : static_cast<float>(number));
     return out;
   }
 
@@ -205,7 +209,8 @@ class VtuReader {
   template <class T>
   void require(const Element& at, const std::vector<T>& found, std::int64_t wanted) const {
     if (static_cast<std::int64_t>(found.size()) != wanted)
-      fail(at.GetLineNum(), "has " + std::to_string(found.size()) + " numbers, where " + std::to_string(wanted) + " belong",
+      fail(at.GetLineNum(),
+           "has " + std::to_string(found.size()) + " numbers, where " + std::to_string(wanted) + " belong",
            "the file is damaged");
   }
 
@@ -213,20 +218,22 @@ class VtuReader {
     const std::int64_t points = count(piece, "NumberOfPoints"), cells = count(piece, "NumberOfCells");
     if (cells == 0) return;
     constexpr std::int64_t most = 1 << 30;
-    if (points > most || cells > most) fail(piece.GetLineNum(), "has more points or cells than fit", "give a coarser mesh");
+    if (points > most || cells > most)
+      fail(piece.GetLineNum(), "has more points or cells than fit", "give a coarser mesh");
     const Element &at = array(piece, "Points", nullptr), &corners_at = array(piece, "Cells", "connectivity"),
                   &ends_at = array(piece, "Cells", "offsets"), &types_at = array(piece, "Cells", "types");
     const std::vector<float> x = reals(at);
     require(at, x, 3 * points);
     const std::vector<std::int64_t> numbers = add_points(x, at.GetLineNum());
-    const std::vector<std::int64_t> corners = integers(corners_at), ends = integers(ends_at), types = integers(types_at);
+    const std::vector<std::int64_t> corners = integers(corners_at), ends = integers(ends_at),
+                                    types = integers(types_at);
     require(ends_at, ends, cells);
     require(types_at, types, cells);
     add_cells(corners, ends, types, numbers, piece.GetLineNum());
   }
 
-  /// Returns the number of each point. Where a piece has several at one position, the first goes with the first of another piece there,
-  /// and so on: a crack stays open.
+  /// Returns the number of each point. Where a piece has several at one position, the first goes with the first of
+  /// another piece there, and so on: a crack stays open.
   std::vector<std::int64_t> add_points(const std::vector<float>& x, int line) {
     std::map<Position, std::size_t> of_piece;
     std::vector<std::int64_t> numbers;

@@ -1,8 +1,8 @@
 // Archives for save_fields.h: one writes a struct as JSON, one reads it back from a tree.
 //
-// A struct is an object with its members by name, a list an array, Vec3f and Quatf arrays of their parts, an enumeration
-// its word, a variant an object with one member, what is absent null. Numbers have the fewest digits that read back
-// exactly; JSON has no infinity, so that it is the string "infinity".
+// A struct is an object with its members by name, a list an array, Vec3f and Quatf arrays of their parts, an
+// enumeration its word, a variant an object with one member, what is absent null. Numbers have the fewest digits that
+// read back exactly; JSON has no infinity, so that it is the string "infinity".
 #pragma once
 
 #include <array>
@@ -31,7 +31,8 @@ inline std::string_view next_name(std::string_view& names) {
   const std::size_t end = std::min(names.find(','), names.size());
   const std::string_view name = names.substr(0, end);
   names.remove_prefix(end);
-  while (!names.empty() && (names.front() == ',' || names.front() == ' ' || names.front() == '\n')) names.remove_prefix(1);
+  while (!names.empty() && (names.front() == ',' || names.front() == ' ' || names.front() == '\n'))
+    names.remove_prefix(1);
   return name;
 }
 
@@ -115,7 +116,8 @@ class TextOutput {
   void put(E value) {
     const auto all = words(value);
     const auto index = static_cast<std::size_t>(value);
-    if (index >= all.size()) throw Error({}, "the scene has a value of an enumeration that it does not have", "mend it");
+    if (index >= all.size())
+      throw Error({}, "the scene has a value of an enumeration that it does not have", "mend it");
     put_word(all[index]);
   }
   void put(const std::string& text) {
@@ -176,11 +178,12 @@ class TextOutput {
   bool is_first_ = true;
 };
 
-/// Reads members from a tree. Members that are not there keep their values; others than those of the struct, and values of
-/// another type, are Errors at their place in the text.
+/// Reads members from a tree. Members that are not there keep their values; others than those of the struct, and values
+/// of another type, are Errors at their place in the text.
 class TextInput {
  public:
-  TextInput(const scene_file::JsonDocument& document, const scene_file::JsonValue& at) : document_(document), at_(&at) {}
+  TextInput(const scene_file::JsonDocument& document, const scene_file::JsonValue& at)
+      : document_(document), at_(&at) {}
 
   template <class... T>
   void operator()(const char* names, T&... values) {

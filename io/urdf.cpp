@@ -32,7 +32,8 @@ Pose product(const Pose& a, const Pose& b) {
 
 /// Inertia about the centre of mass, from the axes of `turn` to those of the link: R I R^T.
 void turn_inertia(const Quatf& turn, Vec3f& moments, Vec3f& products) {
-  const Vec3f axes[3] = {output::turned(turn, {1, 0, 0}), output::turned(turn, {0, 1, 0}), output::turned(turn, {0, 0, 1})};
+  const Vec3f axes[3] = {output::turned(turn, {1, 0, 0}), output::turned(turn, {0, 1, 0}),
+                         output::turned(turn, {0, 0, 1})};
   const Vec3f rows[3] = {
       {moments.x, products.z, products.y}, {products.z, moments.y, products.x}, {products.y, products.x, moments.z}};
   const auto part = [](const Vec3f& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
@@ -76,7 +77,8 @@ class RobotBuilder {
     set_colour();
     object_.collides = true;
     object_.self_collision = options_.self_collision;
-    if (object_.bodies.empty()) fail(robot_.links[root].line, "has no link with mass or geometry", "add inertial elements");
+    if (object_.bodies.empty())
+      fail(robot_.links[root].line, "has no link with mass or geometry", "add inertial elements");
     return std::move(object_);
   }
 
@@ -84,7 +86,9 @@ class RobotBuilder {
   [[noreturn]] void fail(int line, const std::string& problem, const std::string& advice) const {
     throw Error({.file = path_, .line = line, .object = robot_.name, .element = {}}, problem, advice);
   }
-  void warn(int line, const std::string& text) { warnings_.push_back(path_ + ":" + std::to_string(line) + ": " + text); }
+  void warn(int line, const std::string& text) {
+    warnings_.push_back(path_ + ":" + std::to_string(line) + ": " + text);
+  }
 
   /// Refuses a target of a joint that is not there, or that no motor moves.
   void require_targets() const {
@@ -113,7 +117,8 @@ class RobotBuilder {
       const urdf::Joint* of = &joint;
       for (std::size_t steps = 0; !of->mimics.empty(); ++steps) {
         if (steps == robot_.joints.size())
-          fail(joint.line, "joint '" + joint.name + "' mimics itself, by way of others", "let one joint lead the others");
+          fail(joint.line, "joint '" + joint.name + "' mimics itself, by way of others",
+               "let one joint lead the others");
         of = &mimicked_by(*of);
       }
     }
@@ -178,7 +183,8 @@ class RobotBuilder {
       if (parents_.count(robot_.links[l].name) == 0) roots.push_back(l);
     if (roots.empty()) fail_by_loop(robot_.links[0].name);
     if (roots.size() > 1)
-      fail(robot_.links[roots[1]].line, "link '" + robot_.links[roots[1]].name + "' is joined to nothing", "add a joint");
+      fail(robot_.links[roots[1]].line, "link '" + robot_.links[roots[1]].name + "' is joined to nothing",
+           "add a joint");
     return roots[0];
   }
 
@@ -333,7 +339,8 @@ class RobotBuilder {
     return ", and no '" + name.substr(std::string(package_).size()) + "' in this folder or one above";
   }
 
-  /// "package://NAME/PATH" is PATH in the option's folder of packages, else in the nearest folder above the file that has it.
+  /// "package://NAME/PATH" is PATH in the option's folder of packages, else in the nearest folder above the file that
+  /// has it.
   std::string found_file(const std::string& name) const {
     namespace fs = std::filesystem;
     const std::string file = "file://";
@@ -352,7 +359,9 @@ class RobotBuilder {
   void set_colour() {
     for (const urdf::Link& link : robot_.links) {
       if (!link.colour) continue;
-      const auto linear = [](float c) { return std::clamp(c, 0.f, 1.f) * std::clamp(c, 0.f, 1.f); };  // from sRGB, nearly
+      const auto linear = [](float c) {
+        return std::clamp(c, 0.f, 1.f) * std::clamp(c, 0.f, 1.f);
+      };  // from sRGB, nearly
       object_.colour = {linear(link.colour->x), linear(link.colour->y), linear(link.colour->z)};
       return;
     }
@@ -373,8 +382,8 @@ class RobotBuilder {
                   HingeJoint{a, b, pose.position, axis, joint.type == "revolute" ? limit_of(joint, 6.2831855f) : none_,
                              motor_of(joint), joint.friction, named, joint.damping});
       } else if (joint.type == "prismatic") {
-        add_joint(object_, SliderJoint{a, b, pose.position, axis, limit_of(joint, 1e6f), motor_of(joint), joint.friction,
-                                       named, joint.damping});
+        add_joint(object_, SliderJoint{a, b, pose.position, axis, limit_of(joint, 1e6f), motor_of(joint),
+                                       joint.friction, named, joint.damping});
       } else if (joint.type == "planar") {
         if (joint.friction != 0 || joint.damping != 0 || joint.has_limit)
           warn(joint.line, "friction, damping and limits of the planar joint '" + joint.name + "' are ignored");

@@ -53,7 +53,9 @@ const std::map<std::string, Known>& known_elements() {
   return known;
 }
 
-bool has(const Names& names, const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); }
+bool has(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 class Walk {
  public:
@@ -67,13 +69,15 @@ class Walk {
       const std::string name = one->Name();
       const bool is_of_xml = name.rfind("xml", 0) == 0;  // such as xmlns:xacro
       if (!is_of_xml && !has(known.attributes, name))
-        ignored("attribute ", name, at.Name(), one->GetLineNum(), known.attributes, has(known.ignored_attributes, name));
+        ignored("attribute ", name, at.Name(), one->GetLineNum(), known.attributes,
+                has(known.ignored_attributes, name));
     }
     for (const tinyxml2::XMLElement* one = at.FirstChildElement(); one != nullptr; one = one->NextSiblingElement()) {
       if (has(known.children, one->Name()))
         element(*one);
       else
-        ignored("", one->Name(), at.Name(), one->GetLineNum(), known.children, has(known.ignored_children, one->Name()));
+        ignored("", one->Name(), at.Name(), one->GetLineNum(), known.children,
+                has(known.ignored_children, one->Name()));
     }
   }
 
@@ -90,8 +94,8 @@ class Walk {
     int count = 0;
   };
 
-  void ignored(const std::string& what, const std::string& name, const std::string& inside, int line, const Names& known,
-               bool is_known) {
+  void ignored(const std::string& what, const std::string& name, const std::string& inside, int line,
+               const Names& known, bool is_known) {
     const std::string key = what + in_quotes(name) + " of " + inside;
     const auto found = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& kind) { return kind.key == key; });
     if (found != kinds_.end()) {

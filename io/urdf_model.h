@@ -65,8 +65,8 @@ inline bool has_target(const Joint& joint) {
   return joint.type == "revolute" || joint.type == "continuous" || joint.type == "prismatic";
 }
 
-/// Reads a file. Throws an Error with file and line if it is no XML, or what it says is no URDF. Elements and attributes that are
-/// ignored are named in `warnings`, each kind once.
+/// Reads a file. Throws an Error with file and line if it is no XML, or what it says is no URDF. Elements and
+/// attributes that are ignored are named in `warnings`, each kind once.
 Robot read(const std::string& path, std::vector<std::string>& warnings);
 /// Reads the bytes of a file. `name` stands for it.
 Robot parse(std::string_view bytes, const std::string& name, std::vector<std::string>& warnings);

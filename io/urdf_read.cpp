@@ -34,7 +34,9 @@ class Reader {
     throw Error({.file = path_, .line = line, .object = {}, .element = {}}, problem, advice);
   }
 
-  void warn(int line, const std::string& text) { warnings_.push_back(path_ + ":" + std::to_string(line) + ": " + text); }
+  void warn(int line, const std::string& text) {
+    warnings_.push_back(path_ + ":" + std::to_string(line) + ": " + text);
+  }
 
   std::string text(const Element& at, const char* name) const {
     const char* value = at.Attribute(name);
@@ -116,7 +118,8 @@ class Reader {
 std::optional<Geometry> geometry_of(Reader& reader, const Element& parent) {
   const Element* at = parent.FirstChildElement("geometry");
   const Element* shape = at == nullptr ? nullptr : at->FirstChildElement();
-  if (shape == nullptr) reader.fail(parent.GetLineNum(), std::string(parent.Name()) + " has no geometry", "add a shape");
+  if (shape == nullptr)
+    reader.fail(parent.GetLineNum(), std::string(parent.Name()) + " has no geometry", "add a shape");
   Geometry geometry;
   geometry.origin = reader.origin(parent);
   geometry.line = shape->GetLineNum();

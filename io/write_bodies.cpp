@@ -95,7 +95,8 @@ class SurfaceWriter final : public FormatWriter {
   }
 
   static FrameObject surface_of(const FrameObject& object) {
-    FrameObject result{.name = object.name, .colour = object.colour, .width = object.width, .triangles = {}, .lines = {}};
+    FrameObject result{
+        .name = object.name, .colour = object.colour, .width = object.width, .triangles = {}, .lines = {}};
     for (const FrameBody& body : object.bodies) {
       const TriangleMesh& solid = object.solids[body.solid];
       for (const auto& [a, b, c] : solid.triangles)
@@ -108,7 +109,8 @@ class SurfaceWriter final : public FormatWriter {
   void check_bodies_of(const Frame& frame) const {
     // The format checks what it gets; only what the expansion itself reads is checked here.
     for (std::size_t o = 0; o < objects_.size(); ++o)
-      if (!objects_[o].bodies.empty() && (frame.bodies.size() <= o || frame.bodies[o].size() != objects_[o].bodies.size()))
+      if (!objects_[o].bodies.empty() &&
+          (frame.bodies.size() <= o || frame.bodies[o].size() != objects_[o].bodies.size()))
         throw Error({"", 0, objects_[o].name, ""}, "a frame has another number of bodies than the scene");
   }
 
@@ -172,7 +174,8 @@ ShadedMesh shaded(const TriangleMesh& mesh) {
 void describe_bodies(const Object& object, FrameObject& result) {
   std::map<std::string, int> known;
   for (const ObjectBody& body : object.bodies) {
-    const auto [found, is_new] = known.try_emplace(SolidKey(body.solids).text(), static_cast<int>(result.solids.size()));
+    const auto [found, is_new] =
+        known.try_emplace(SolidKey(body.solids).text(), static_cast<int>(result.solids.size()));
     if (is_new) result.solids.push_back(mesh_of(body.solids, segments_for(object.bodies.size())));
     result.bodies.push_back({body.name, found->second});
   }

@@ -111,7 +111,9 @@ void FormatWriter::commit(OutputFile& file) {
   written_.push_back({file.path(), file.size()});
 }
 
-std::vector<std::vector<int>> join_lines(const std::vector<std::array<int, 2>>& edges) { return LineWalk(edges).lines(); }
+std::vector<std::vector<int>> join_lines(const std::vector<std::array<int, 2>>& edges) {
+  return LineWalk(edges).lines();
+}
 
 FrameObject describe(const Object& object) {
   FrameObject result{.name = object.name,
@@ -131,7 +133,9 @@ FrameObject describe(const Object& object) {
 }
 
 int line_group_of(const Object& object) {
-  const auto is_it = [](const ConstraintGroup& group) { return group.type == "distance" && group.particles.size() >= 2; };
+  const auto is_it = [](const ConstraintGroup& group) {
+    return group.type == "distance" && group.particles.size() >= 2;
+  };
   const auto found = std::find_if(object.constraints.begin(), object.constraints.end(), is_it);
   return found == object.constraints.end() ? -1 : static_cast<int>(found - object.constraints.begin());
 }
@@ -158,8 +162,9 @@ bool is_any_remeshed(const std::vector<FrameObject>& objects) {
 }
 
 bool is_any_varying(const std::vector<FrameObject>& objects) {
-  return std::any_of(objects.begin(), objects.end(),
-                     [](const FrameObject& object) { return object.is_remeshed || object.is_relinked || object.varies; });
+  return std::any_of(objects.begin(), objects.end(), [](const FrameObject& object) {
+    return object.is_remeshed || object.is_relinked || object.varies;
+  });
 }
 
 std::vector<FrameObject> present_objects(const std::vector<FrameObject>& objects, const Frame& frame) {
@@ -173,7 +178,8 @@ std::vector<FrameObject> present_objects(const std::vector<FrameObject>& objects
   return result;
 }
 
-void check_frame(const std::string& path, const std::vector<FrameObject>& objects, const Frame& frame, double last_time) {
+void check_frame(const std::string& path, const std::vector<FrameObject>& objects, const Frame& frame,
+                 double last_time) {
   if (!(frame.time > last_time)) refuse(path, {}, {}, "the time of a frame is not after that of the previous one");
   if (frame.positions.size() != objects.size())
     refuse(path, {}, {}, "a frame has another number of objects than the scene");
@@ -212,7 +218,8 @@ std::vector<std::string> identifiers(const std::vector<std::string>& names) {
   return result;
 }
 
-std::vector<Vec3f> vertex_normals(const std::vector<Vec3f>& positions, const std::vector<std::array<int, 3>>& triangles) {
+std::vector<Vec3f> vertex_normals(const std::vector<Vec3f>& positions,
+                                  const std::vector<std::array<int, 3>>& triangles) {
   std::vector<Vec3d> sums(positions.size());
   const auto wide = [&](int i) { return Vec3d{positions[i].x, positions[i].y, positions[i].z}; };
   for (const auto& [a, b, c] : triangles) {

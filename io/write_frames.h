@@ -33,11 +33,13 @@ struct FrameObject {
   int particles = 0;
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::vector<int>> lines;  ///< particles along each line; a closed line ends with its first particle
-  std::vector<TriangleMesh> solids{};   ///< surfaces of bodies, each in the body's principal axes about its centre of mass
+  std::vector<TriangleMesh>
+      solids{};  ///< surfaces of bodies, each in the body's principal axes about its centre of mass
   std::vector<FrameBody> bodies{};
   bool is_remeshed = false;  ///< true: a surface that is another mesh in each frame (Frame::triangles)
-  bool is_relinked = false;  ///< true: lines of which links can break: each frame has those that are left (Frame::lines)
-  bool varies = false;       ///< true: points, of which each frame has as many as are there
+  bool is_relinked =
+      false;            ///< true: lines of which links can break: each frame has those that are left (Frame::lines)
+  bool varies = false;  ///< true: points, of which each frame has as many as are there
 
   /// True if the object has particles to show that are no centres of bodies.
   bool has_matter() const { return bodies.empty() || !triangles.empty() || !lines.empty(); }
@@ -58,8 +60,8 @@ struct Frame {
   std::vector<std::vector<Vec3f>> velocities;     ///< velocities of each object's particles, or empty [m/s]
   std::int64_t number = 0;                        ///< number of the frame in the run, for file names
   std::vector<std::vector<BodyMotion>> bodies{};  ///< motions of each object's bodies; empty if no object has any
-  /// The triangles of each object that is remeshed, whose positions are then its vertices, without velocities; those of others are empty.
-  /// Empty if no object is remeshed.
+  /// The triangles of each object that is remeshed, whose positions are then its vertices, without velocities; those of
+  /// others are empty. Empty if no object is remeshed.
   std::vector<std::vector<std::array<int, 3>>> triangles{};
   /// The lines of each object that is relinked, by its particles; those of others are empty. Empty if no object is
   /// relinked.
@@ -110,14 +112,16 @@ std::vector<std::vector<int>> join_lines(const std::vector<std::array<int, 2>>& 
 
 /// Throws an Error that names `path` and the object if a frame does not fit the objects, has a position that is not
 /// finite, or is not later than `last_time` (-infinity for the first frame).
-void check_frame(const std::string& path, const std::vector<FrameObject>& objects, const Frame& frame, double last_time);
+void check_frame(const std::string& path, const std::vector<FrameObject>& objects, const Frame& frame,
+                 double last_time);
 
 /// A different identifier for each object or name, of letters, digits and _; the first character is no digit.
 std::vector<std::string> identifiers(const std::vector<FrameObject>& objects);
 std::vector<std::string> identifiers(const std::vector<std::string>& names);
 
 /// Normals of vertices, weighted by triangle area; (0, 1, 0) where undefined.
-std::vector<Vec3f> vertex_normals(const std::vector<Vec3f>& positions, const std::vector<std::array<int, 3>>& triangles);
+std::vector<Vec3f> vertex_normals(const std::vector<Vec3f>& positions,
+                                  const std::vector<std::array<int, 3>>& triangles);
 
 /// A path without its suffix, and the suffix in lower case with its point; empty if it has none.
 struct SplitPath {
@@ -140,14 +144,15 @@ std::unique_ptr<FormatWriter> make_usda_writer(const Destination& to, const Obje
 std::unique_ptr<FormatWriter> make_pc2_writer(const Destination& to, const Objects& objects, double frame_time);
 std::unique_ptr<FormatWriter> make_pvd_writer(const Destination& to, const Objects& objects);
 
-/// A writer of a format without bodies, which gets their surfaces as vertices that move. `make` makes it for given objects.
-std::unique_ptr<FormatWriter> make_surface_writer(const Objects& objects,
-                                                  const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
+/// A writer of a format without bodies, which gets their surfaces as vertices that move. `make` makes it for given
+/// objects.
+std::unique_ptr<FormatWriter> make_surface_writer(
+    const Objects& objects, const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
 
 /// A writer of a format whose lines cannot change. Each link of an object that is relinked gets two vertices of its
 /// own, which are in one place from when it breaks. `make` makes it for given objects.
-std::unique_ptr<FormatWriter> make_segment_writer(const Objects& objects,
-                                                  const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
+std::unique_ptr<FormatWriter> make_segment_writer(
+    const Objects& objects, const std::function<std::unique_ptr<FormatWriter>(const Objects&)>& make);
 
 /// Makes the writer for the suffix of `path`, whose files go to `sink` if there is one. Throws an Error that lists the
 /// known suffixes if it is unknown, or cannot have an object that is remeshed.

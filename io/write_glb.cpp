@@ -106,7 +106,8 @@ int add_part(Document& document, const Part& part) {
 
 class GlbWriter final : public FormatWriter {
  public:
-  GlbWriter(const Destination& to, const Objects& objects) : path_(to.path), objects_(objects), file_(to.open(to.path)) {
+  GlbWriter(const Destination& to, const Objects& objects)
+      : path_(to.path), objects_(objects), file_(to.open(to.path)) {
     for (std::size_t o = 0; o < objects_.size(); ++o) {
       if (objects_[o].has_matter()) {
         parts_.emplace_back(to, objects_[o]);
@@ -155,14 +156,16 @@ class GlbWriter final : public FormatWriter {
 
  private:
   [[noreturn]] void refuse(const std::string& problem) const {
-    throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, problem, "write fewer frames, or .usda or .pvd");
+    throw Error({.file = path_, .line = 0, .object = {}, .element = {}}, problem,
+                "write fewer frames, or .usda or .pvd");
   }
 
   std::uint64_t weight_count() const { return times_.size() * (times_.size() - 1); }
 
   std::uint64_t estimated_size() const {
     std::uint64_t size = 4 * (weight_count() + times_.size());
-    for (const Part& part : parts_) size += part.size() + 12 * part.object().triangles.size() + 600 * times_.size() + 4096;
+    for (const Part& part : parts_)
+      size += part.size() + 12 * part.object().triangles.size() + 600 * times_.size() + 4096;
     for (const GlbBodies& bodies : bodies_) size += bodies.estimated_size();
     return size;
   }
@@ -178,7 +181,8 @@ class GlbWriter final : public FormatWriter {
       const int output = document.add_accessor(weight_view, 0, float_32, weight_count(), "SCALAR");
       samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
     }
-    for (const int node : morphed) channels.push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
+    for (const int node : morphed)
+      channels.push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
     for (GlbBodies& bodies : bodies_) bodies.add_channels(document, input, samplers, channels);
     if (channels.empty()) return;  // nothing moves: the times alone are in the file
     document.push("animations",

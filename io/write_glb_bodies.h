@@ -1,5 +1,5 @@
-// Rigid bodies in glTF: each is a node below that of its object, with an animation of its translation and rotation. Bodies of
-// equal solids share a mesh, so files are small.
+// Rigid bodies in glTF: each is a node below that of its object, with an animation of its translation and rotation.
+// Bodies of equal solids share a mesh, so files are small.
 #pragma once
 
 #include <array>

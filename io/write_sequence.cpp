@@ -42,7 +42,8 @@ class SequenceWriter : public FormatWriter {
 
 class ObjSequence final : public SequenceWriter {
  public:
-  ObjSequence(const Destination& to, const Objects& objects) : SequenceWriter(to, objects), elements_(elements(objects)) {}
+  ObjSequence(const Destination& to, const Objects& objects)
+      : SequenceWriter(to, objects), elements_(elements(objects)) {}
 
  private:
   /// The faces, lines and points of each object as text, which is the same in every frame.
@@ -98,7 +99,8 @@ class PlySequence final : public SequenceWriter {
     header_ += "element vertex " + std::to_string(first) + "\nproperty float x\nproperty float y\nproperty float z\n";
     header_ += "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty int object\n";
     header_ += "element face " + std::to_string(faces_) + "\nproperty list uchar int vertex_indices\n";
-    if (edges_ > 0) header_ += "element edge " + std::to_string(edges_) + "\nproperty int vertex1\nproperty int vertex2\n";
+    if (edges_ > 0)
+      header_ += "element edge " + std::to_string(edges_) + "\nproperty int vertex1\nproperty int vertex2\n";
     header_ += "end_header\n";
   }
 

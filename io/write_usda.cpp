@@ -1,5 +1,5 @@
-// Writes USD as text: one prim for each object under /World, its points as time samples. Rigid bodies are prims that move
-// (write_usda_bodies.h).
+// Writes USD as text: one prim for each object under /World, its points as time samples. Rigid bodies are prims that
+// move (write_usda_bodies.h).
 //
 // A time code is a frame number, so that tools show integers; samples at other times are between these. The text has
 // all samples of a prim together, so each object has a Spool of its own until the end.
@@ -171,8 +171,9 @@ class UsdaWriter final : public FormatWriter {
                   "add one before finishing");
     std::string rate;
     append(rate, frames_per_second(frame_time_));
-    file_->write("#usda 1.0\n(\n    defaultPrim = \"World\"\n    startTimeCode = " + first_code_ + "\n    endTimeCode = " +
-                 last_code_ + "\n    timeCodesPerSecond = " + rate + "\n    framesPerSecond = " + rate +
+    file_->write("#usda 1.0\n(\n    defaultPrim = \"World\"\n    startTimeCode = " + first_code_ +
+                 "\n    endTimeCode = " + last_code_ + "\n    timeCodesPerSecond = " + rate +
+                 "\n    framesPerSecond = " + rate +
                  "\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Xform \"World\"\n{");
     std::vector<std::string> names;
     for (const auto* indices : {&prim_objects_, &body_objects_})

@@ -58,7 +58,8 @@ void UsdaBodies::write_solid(OutputFile& file, const std::string& name, const Sh
   tuple(colour, object_.colour);
   file.write("\n        class Mesh \"" + name + "\"\n        {\n");
   file.write("            uniform bool doubleSided = 1\n            uniform token subdivisionScheme = \"none\"\n");
-  file.write("            int[] faceVertexCounts = " + listed(std::vector<int>(mesh.triangles.size(), 3), number) + "\n");
+  file.write("            int[] faceVertexCounts = " + listed(std::vector<int>(mesh.triangles.size(), 3), number) +
+             "\n");
   file.write("            int[] faceVertexIndices = " + listed(indices, number) + "\n");
   file.write("            color3f[] primvars:displayColor = [" + colour + "]\n");
   file.write("            float3[] extent = " + extent(mesh.positions, 0) + "\n");
@@ -67,7 +68,8 @@ void UsdaBodies::write_solid(OutputFile& file, const std::string& name, const Sh
              " (\n                interpolation = \"vertex\"\n            )\n        }\n");
 }
 
-void UsdaBodies::write_body(OutputFile& file, std::size_t body, const std::string& name, const std::string& solid) const {
+void UsdaBodies::write_body(OutputFile& file, std::size_t body, const std::string& name,
+                            const std::string& solid) const {
   file.write("\n        def Mesh \"" + name + "\" (\n            doc = " + usda_string(object_.bodies[body].name) +
              "\n            inherits = <" + solid + ">\n        )\n        {\n");
   const auto place = [](const RigidPose& pose) { return pose.position; };

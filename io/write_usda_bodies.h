@@ -1,5 +1,5 @@
-// Rigid bodies in USD: a prim for each, below that of its object, with time samples of its translation and orientation. Bodies of
-// equal solids inherit one mesh.
+// Rigid bodies in USD: a prim for each, below that of its object, with time samples of its translation and orientation.
+// Bodies of equal solids inherit one mesh.
 #pragma once
 
 #include <string>

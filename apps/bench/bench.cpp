@@ -56,7 +56,8 @@ class Bench {
   void run(const std::string& workload, int size) {
     first_ms_ = 0;
     const std::string suffix = "-alternating";
-    const bool alternates = workload.size() > suffix.size() && workload.substr(workload.size() - suffix.size()) == suffix;
+    const bool alternates =
+        workload.size() > suffix.size() && workload.substr(workload.size() - suffix.size()) == suffix;
     const Diagonals diagonals = alternates ? Diagonals::alternating : Diagonals::uniform;
     const std::string kind = alternates ? workload.substr(0, workload.size() - suffix.size()) : workload;
     if (kind == "W1-stretching") run_w1(workload, make_w1(size, false, diagonals), size);
@@ -78,12 +79,13 @@ class Bench {
   void run_1x10(const std::string& workload, const Cloth& cloth, int size) {
     if (options_.against_bullet) {
       for (BulletOrder order : {BulletOrder::spread, BulletOrder::shuffled})
-        measure({workload, size, order == BulletOrder::spread ? "bullet" : "bullet, links shuffled"}, cloth, bullets_best,
-                [&] { return make_bullet(cloth, bullets_best, order); });
+        measure({workload, size, order == BulletOrder::spread ? "bullet" : "bullet, links shuffled"}, cloth,
+                bullets_best, [&] { return make_bullet(cloth, bullets_best, order); });
     }
     measure({workload, size, "plain loop"}, cloth, bullets_best, [&] { return make_plain_loop(cloth, bullets_best); });
     measure_pliant(workload, cloth, size, bullets_best);
-    measure_pliant(workload, cloth, size, small_steps);  // the same number of projections as small steps, as recommended
+    measure_pliant(workload, cloth, size,
+                   small_steps);  // the same number of projections as small steps, as recommended
   }
 
   void run_set_up(const std::string& workload, int size) {
@@ -156,7 +158,8 @@ void check(const Options& options) {
     if (size < smallest_size || size > largest_size)
       throw Error({}, "a cloth of " + std::to_string(size) + " x " + std::to_string(size) + " cannot be measured",
                   "choose a size in " + std::to_string(smallest_size) + ".." + std::to_string(largest_size));
-  if (options.frames < 1 || options.warm_up < 0) throw Error({}, "there are no frames to measure", "measure at least 1");
+  if (options.frames < 1 || options.warm_up < 0)
+    throw Error({}, "there are no frames to measure", "measure at least 1");
   if (options.against_bullet && !has_bullet())
     throw Error({}, "this program was built without Bullet", "install libbullet-dev and configure again");
 }
@@ -170,7 +173,8 @@ const std::vector<Workload>& workloads() {
       {"W1-stretching-alternating", "as W1-stretching, but with alternating diagonals"},
       {"W1-bending-alternating", "as W1-bending, but with alternating diagonals"},
       {"W1-1x10",
-       "edges only, 1 substep of 10 iterations, at which Bullet is fastest; the last row is Pliant with 10 substeps of 1"},
+       "edges only, 1 substep of 10 iterations, at which Bullet is fastest; the last row is Pliant with 10 substeps of "
+       "1"},
       {"W1-1x10-alternating", "the same with alternating diagonals"},
       {"W1-set-up", "time to make and compile the cloth with bending, once"},
   };

@@ -20,7 +20,7 @@ struct Row {
   double ns_per_projection = 0;  ///< time of a whole frame, with prediction and velocity update, over its projections
   double stretch_mean = 0, stretch_p99 = 0, stretch_max = 0;  ///< length over rest length after the last frame
   double energy_lost = 0;                                     ///< energy lost by frame 40 [J]; W1-quality only
-  bool met = true;                                            ///< true if the required quality was reached; W1-quality only
+  bool met = true;  ///< true if the required quality was reached; W1-quality only
   std::vector<PhaseTime>
       phases{};      ///< for "pliant": time of each phase per frame [ms], from a separate run that times phases
   double ratio = 0;  ///< time of the first row of the same workload and size over the time of this one
@@ -30,7 +30,7 @@ struct Options {
   std::string workload;  ///< name of the workload; empty: all
   std::vector<int> sizes{64, 128, 256, 512};
   int warm_up = 20, frames = 120;  ///< frames before the measurement, and frames measured
-  int threads = 0;                 ///< threads of the engine's second run; the first one uses one; 0: all hardware threads
+  int threads = 0;  ///< threads of the engine's second run; the first one uses one; 0: all hardware threads
   bool against_bullet = false;
   std::function<void(const Row&)> on_row;  ///< called for each row as soon as it is measured
 };

@@ -39,7 +39,8 @@ BendingEnergy::BendingEnergy(const Scene& scene) {
         for (std::size_t k = 0; k < 4; ++k) hinge.particle[k] = static_cast<std::size_t>(group.particles[4 * i + k]);
         const double compliance =
             static_cast<double>(i < group.compliances.size() ? group.compliances[i] : group.stiffness.value);
-        hinge.rest = i < group.rest.size() ? static_cast<double>(group.rest[i]) : angle(object.positions, hinge.particle);
+        hinge.rest =
+            i < group.rest.size() ? static_cast<double>(group.rest[i]) : angle(object.positions, hinge.particle);
         hinge.stiffness = compliance > 0 ? 1 / compliance : 0;
         hinges.push_back(hinge);
       }

@@ -9,7 +9,8 @@
 
 namespace pliant::bench {
 
-/// The elastic energy C^2 / (2 compliance) of a scene's dihedral hinges. Rigid hinges and those with PBD stiffness store none.
+/// The elastic energy C^2 / (2 compliance) of a scene's dihedral hinges. Rigid hinges and those with PBD stiffness
+/// store none.
 class BendingEnergy {
  public:
   explicit BendingEnergy(const Scene& scene);

@@ -49,8 +49,8 @@ class BulletCloth final : public Engine {
       places.push_back(to_bullet(object.positions[i]));
       masses.push_back(object.masses[i]);
     }
-    body_ =
-        std::make_unique<btSoftBody>(&world_.getWorldInfo(), static_cast<int>(places.size()), places.data(), masses.data());
+    body_ = std::make_unique<btSoftBody>(&world_.getWorldInfo(), static_cast<int>(places.size()), places.data(),
+                                         masses.data());
     body_->m_materials[0]->m_kLST = 1;
     for (const Edge& edge : cloth.edges) body_->appendLink(edge.a, edge.b);
     for (int pin : cloth.pins) body_->setMass(pin, 0);

@@ -81,8 +81,8 @@ class BulletLanding final : public LandingEngine {
       places.push_back(to_bullet(object.positions[i]));
       masses.push_back(object.masses[i]);
     }
-    auto body =
-        std::make_unique<btSoftBody>(&world_.getWorldInfo(), static_cast<int>(places.size()), places.data(), masses.data());
+    auto body = std::make_unique<btSoftBody>(&world_.getWorldInfo(), static_cast<int>(places.size()), places.data(),
+                                             masses.data());
     body->m_materials[0]->m_kLST = 1;
     for (const Edge& edge : edges) body->appendLink(edge.a, edge.b);
     for (const auto& [a, b, c] : object.triangles) body->appendFace(a, b, c);

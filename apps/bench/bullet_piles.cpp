@@ -19,7 +19,9 @@ btTransform to_transform(const Vec3f& position, const Quatf& q) {
 }
 
 struct MakeShape {
-  std::unique_ptr<btCollisionShape> operator()(const Sphere& s) const { return std::make_unique<btSphereShape>(s.radius); }
+  std::unique_ptr<btCollisionShape> operator()(const Sphere& s) const {
+    return std::make_unique<btSphereShape>(s.radius);
+  }
   std::unique_ptr<btCollisionShape> operator()(const Capsule& s) const {
     return std::make_unique<btCapsuleShape>(s.radius, 2 * s.half_length);
   }
@@ -42,7 +44,9 @@ struct Volume {
 class BulletPile final : public PileEngine {
  public:
   BulletPile(const Pile& pile, int substeps)
-      : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_), substeps_(substeps) {
+      : dispatcher_(&configuration_),
+        world_(&dispatcher_, &broadphase_, &solver_, &configuration_),
+        substeps_(substeps) {
     world_.setGravity(btVector3(0, btScalar(-9.81), 0));
     for (const PileBody& body : pile.bodies)
       add(std::visit(MakeShape{}, body.shape), density * std::visit(Volume{}, body.shape),

@@ -22,7 +22,8 @@ double thread_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-/// Joints that are PBD constraints of stiffness 1 are projected one after another; others that form trees are solved directly.
+/// Joints that are PBD constraints of stiffness 1 are projected one after another; others that form trees are solved
+/// directly.
 Object chain_of(int links, bool by_sweeps) {
   Object chain;
   chain.name = "chain";
@@ -79,7 +80,8 @@ class Chain {
     const double x = q.x, y = q.y, z = q.z, w = q.w, half = side * static_cast<double>(half_link);
     const Vec3f& at = positions_[link];
     return {static_cast<double>(at.x) + half * (1 - 2 * (y * y + z * z)),
-            static_cast<double>(at.y) + half * 2 * (x * y + w * z), static_cast<double>(at.z) + half * 2 * (x * z - w * y)};
+            static_cast<double>(at.y) + half * 2 * (x * y + w * z),
+            static_cast<double>(at.z) + half * 2 * (x * z - w * y)};
   }
 
   double drift() {

@@ -1,4 +1,5 @@
-// The cost of a chain of ball joints with a heavy end: solved directly, against sweeps over its joints (`pliant bench joints`).
+// The cost of a chain of ball joints with a heavy end: solved directly, against sweeps over its joints (`pliant bench
+// joints`).
 #pragma once
 
 #include <functional>
@@ -22,8 +23,9 @@ struct ChainOptions {
   std::function<void(const ChainRow&)> on_row;
 };
 
-/// Links of 0.5 m and 1 kg, the last one 100 kg, are let go from horizontal: solved directly with 8, 4 and 2 substeps, and by 40
-/// substeps of sweeps over the joints. All take turns frame by frame, on one thread. Throws an Error if a size is below 2.
+/// Links of 0.5 m and 1 kg, the last one 100 kg, are let go from horizontal: solved directly with 8, 4 and 2 substeps,
+/// and by 40 substeps of sweeps over the joints. All take turns frame by frame, on one thread. Throws an Error if a
+/// size is below 2.
 std::vector<ChainRow> measure_chains(const ChainOptions& options);
 
 std::string to_json(const std::vector<ChainRow>& rows);

@@ -100,7 +100,8 @@ std::vector<ColumnRow> measure_columns(const ColumnOptions& options) {
   if (options.frames <= measured_frames) throw Error({}, "the last second is measured", "give at least 61 frames");
   std::vector<ColumnRow> rows;
   for (const int depth : options.depths) {
-    if (depth < 1 || depth > deepest) throw Error({}, "a column of " + std::to_string(depth) + " cm", "give 1 to 10000");
+    if (depth < 1 || depth > deepest)
+      throw Error({}, "a column of " + std::to_string(depth) + " cm", "give 1 to 10000");
     for (const double spacing : options.spacings) {
       const double layers = depth / 100. / spacing;
       if (layers < fewest_layers || layers > most_layers) continue;

@@ -1,4 +1,5 @@
-// How much denser than at rest columns of liquid are, and how fast they still move, by settings (`pliant bench columns`).
+// How much denser than at rest columns of liquid are, and how fast they still move, by settings (`pliant bench
+// columns`).
 #pragma once
 
 #include <functional>
@@ -15,7 +16,8 @@ struct ColumnRow {
   int iterations = 0;       ///< per substep
   bool is_default = false;  ///< the substeps are those that the engine chose
   double mean = 0,
-         largest = 0;  ///< excess of density over that at rest: on average over frames, and of any particle and frame [-]
+         largest =
+             0;  ///< excess of density over that at rest: on average over frames, and of any particle and frame [-]
   double speed = 0, fastest = 0;  ///< of particles: on average, and of any particle and frame [m/s]
   double height = 0;              ///< by the centre of mass, over that at the start [-]
   double ns = 0;                  ///< median processor time of a frame, over particles, substeps and iterations [ns]
@@ -31,8 +33,9 @@ struct ColumnOptions {
   std::function<void(const ColumnRow&)> on_row;
 };
 
-/// Lets columns of liquid, eight particles wide, stand in tanks of planes without friction, on one thread. For each depth and spacing, the default
-/// substeps with one iteration come first. Throws an Error if a depth is not 1 to 10 000 cm or if there are too few frames.
+/// Lets columns of liquid, eight particles wide, stand in tanks of planes without friction, on one thread. For each
+/// depth and spacing, the default substeps with one iteration come first. Throws an Error if a depth is not 1 to 10 000
+/// cm or if there are too few frames.
 std::vector<ColumnRow> measure_columns(const ColumnOptions& options);
 
 std::string to_json(const std::vector<ColumnRow>& rows);

@@ -152,7 +152,8 @@ std::vector<CoveredRow> measure(int size, const CoveredOptions& options) {
 
 Covered make_covered(int size, int bodies) {
   Covered out;
-  out.cloth = make_cloth(grid_mesh(size, size, cloth_side, cloth_side), {.name = "cloth", .material = fabric("cotton")});
+  out.cloth =
+      make_cloth(grid_mesh(size, size, cloth_side, cloth_side), {.name = "cloth", .material = fabric("cotton")});
   for (Vec3f& p : out.cloth.positions) p.y = 0.9f;
   out.cloth.thickness = 0.004f;
   out.cloth.collides = out.cloth.self_collision = true;

@@ -1,5 +1,5 @@
-// A cloth that falls on falling bodies, against both apart: what contact between them costs, and crossings by exact signs
-// (`pliant bench covered`).
+// A cloth that falls on falling bodies, against both apart: what contact between them costs, and crossings by exact
+// signs (`pliant bench covered`).
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,8 @@ struct CoveredOptions {
   std::function<void(const CoveredRow&)> on_row;
 };
 
-/// Measures all three rows in turn, frame by frame. Throws an Error if a size is outside 2..1000 or there are no frames.
+/// Measures all three rows in turn, frame by frame. Throws an Error if a size is outside 2..1000 or there are no
+/// frames.
 std::vector<CoveredRow> measure_covered(const CoveredOptions& options);
 
 std::string to_json(const std::vector<CoveredRow>& rows);

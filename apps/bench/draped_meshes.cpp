@@ -18,7 +18,8 @@ constexpr float sheet_thickness = 2e-3f;  ///< of the sheet, a fifth of its edge
 constexpr float sheet_damping = 1;        ///< rate at which air slows the sheet [1/s]
 constexpr int drape_frames = 240;
 
-/// The mesh, scaled, with its lowest vertex on the ground and its box centred above the origin. `top` is its height [m].
+/// The mesh, scaled, with its lowest vertex on the ground and its box centred above the origin. `top` is its height
+/// [m].
 TriangleMesh placed(TriangleMesh mesh, float& top) {
   Vec3f low = mesh.positions.front(), high = low;
   for (const Vec3f& p : mesh.positions) {

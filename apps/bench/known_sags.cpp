@@ -66,10 +66,11 @@ NamedScene cantilever() {
   ClothOptions options;
   options.material = m;
   Object sheet = make_cloth(
-      grid_mesh(columns, edges + 2, static_cast<float>((columns - 1) * edge), static_cast<float>(length + edge)), options);
+      grid_mesh(columns, edges + 2, static_cast<float>((columns - 1) * edge), static_cast<float>(length + edge)),
+      options);
   const float half = static_cast<float>((length + edge) / 2);
-  return scene_of("cantilever of cotton", held_between(std::move(sheet), &Vec3f::z, static_cast<float>(edge) - half, half),
-                  share * length);
+  return scene_of("cantilever of cotton",
+                  held_between(std::move(sheet), &Vec3f::z, static_cast<float>(edge) - half, half), share * length);
 }
 
 /// A sheet of 0.25 m by 1 m with the warp downwards hangs by its upper edge, and stretches by rho g L^2 / (2 Y), or by

@@ -170,7 +170,8 @@ std::unique_ptr<LandingEngine> make_pliant_landing(const Landing& landing, Steps
 }
 
 std::vector<LandingRow> measure_landings(const LandingOptions& options) {
-  if (options.frames < 1 || !(options.limit > 0)) throw Error({}, "there are no frames to measure", "measure at least 1");
+  if (options.frames < 1 || !(options.limit > 0))
+    throw Error({}, "there are no frames to measure", "measure at least 1");
   for (const int size : options.sizes)
     if (size < 2 || size > 4096)
       throw Error({}, "a cloth of " + std::to_string(size) + " vertices per side cannot be measured",

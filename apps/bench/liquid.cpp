@@ -21,7 +21,8 @@ constexpr int most_for_plain_loop = 400000;
 /// A block about 1.26 times as high as it is wide.
 Scene splash(int particles, bool has_stray) {
   const auto across = static_cast<float>(std::lround(std::cbrt(particles / 1.26)));
-  const Vec3f size = splash_spacing * Vec3f{across, std::round(static_cast<float>(particles) / (across * across)), across};
+  const Vec3f size =
+      splash_spacing * Vec3f{across, std::round(static_cast<float>(particles) / (across * across)), across};
   Scene scene;
   scene.settings.threads = 1;
   scene.settings.substeps = 5;

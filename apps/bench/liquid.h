@@ -30,10 +30,10 @@ struct LiquidOptions {
   std::function<void(const LiquidRow&)> on_row;
 };
 
-/// A block of liquid breaks in a tank of five times its length: particles 5 cm apart, steps of 5 ms, 5 substeps of one iteration. The ways to
-/// step it take turns, step by step, on one thread except for "two threads" and "1/60 s". The plain loop handles one particle after
-/// another, with the same neighbour lists, and gives the same bits, which is checked; from 400 000 particles on it is left out. Throws an
-/// Error if a size is below 100 or above 10^7.
+/// A block of liquid breaks in a tank of five times its length: particles 5 cm apart, steps of 5 ms, 5 substeps of one
+/// iteration. The ways to step it take turns, step by step, on one thread except for "two threads" and "1/60 s". The
+/// plain loop handles one particle after another, with the same neighbour lists, and gives the same bits, which is
+/// checked; from 400 000 particles on it is left out. Throws an Error if a size is below 100 or above 10^7.
 std::vector<LiquidRow> measure_liquids(const LiquidOptions& options);
 
 std::string to_json(const std::vector<LiquidRow>& rows);

@@ -94,7 +94,8 @@ double measure_bytes(const std::function<Scene()>& small, const std::function<Sc
 }
 
 std::vector<MemoryRow> measure_memory(const MemoryOptions& options) {
-  if (resident("VmHWM") == 0) throw Error({}, "this system does not report the memory of a process", "measure on Linux");
+  if (resident("VmHWM") == 0)
+    throw Error({}, "this system does not report the memory of a process", "measure on Linux");
   std::vector<MemoryRow> rows;
   for (const int size : options.sizes) {
     if (size < 2 || size > 4096)

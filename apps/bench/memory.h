@@ -31,8 +31,8 @@ struct MemoryOptions {
 /// 2..4096.
 std::vector<MemoryRow> measure_memory(const MemoryOptions& options);
 
-/// The memory that the World of a scene takes once it has made two steps, in a process of its own that has stepped a small scene before; Linux
-/// alone [bytes].
+/// The memory that the World of a scene takes once it has made two steps, in a process of its own that has stepped a
+/// small scene before; Linux alone [bytes].
 double measure_bytes(const std::function<Scene()>& small, const std::function<Scene()>& scene);
 
 std::string to_json(const std::vector<MemoryRow>& rows);

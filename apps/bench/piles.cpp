@@ -54,7 +54,8 @@ TriangleMesh bowl_of(float size) {
   mesh.positions.push_back({});
   for (int ring = 1; ring <= rings; ++ring)
     for (int i = 0; i < around; ++i) {
-      const float r = 1.3f * size * static_cast<float>(ring) / rings, angle = 6.2831853f * static_cast<float>(i) / around;
+      const float r = 1.3f * size * static_cast<float>(ring) / rings,
+                  angle = 6.2831853f * static_cast<float>(i) / around;
       mesh.positions.push_back({r * std::cos(angle), r * r / size, r * std::sin(angle)});
     }
   const auto vertex = [](int ring, int i) { return ring == 0 ? 0 : 1 + (ring - 1) * around + i % around; };
@@ -76,10 +77,11 @@ Pile pour(int bodies) {
     const int layer = i / (across * across), place = i % (across * across);
     const auto along = [&](int n) { return 0.3f * (static_cast<float>(n) - 0.5f * static_cast<float>(across - 1)); };
     const float jitter = 0.02f * static_cast<float>((i * 37) % 11 - 5) / 5;
-    pile.bodies.push_back({poured_shape(i),
-                           {along(place % across) + jitter, 0.3f + 0.6f * side + 0.3f * static_cast<float>(layer),
-                            along(place / across) - jitter},
-                           product(turned_about_x(static_cast<float>(i % 7)), turned_about_y(static_cast<float>(i % 5)))});
+    pile.bodies.push_back(
+        {poured_shape(i),
+         {along(place % across) + jitter, 0.3f + 0.6f * side + 0.3f * static_cast<float>(layer),
+          along(place / across) - jitter},
+         product(turned_about_x(static_cast<float>(i % 7)), turned_about_y(static_cast<float>(i % 5)))});
   }
   return pile;
 }
@@ -159,8 +161,10 @@ double now_ms(int threads) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-PileRow measure(const Pile& pile, const PileOptions& options, const std::string& name, PileEngine& engine, int threads) {
-  PileRow row{pile.name, name, pile.size, static_cast<int>(pile.bodies.size()), threads, engine.substeps(), options.frames};
+PileRow measure(const Pile& pile, const PileOptions& options, const std::string& name, PileEngine& engine,
+                int threads) {
+  PileRow row{pile.name,         name,          pile.size, static_cast<int>(pile.bodies.size()), threads,
+              engine.substeps(), options.frames};
   const std::vector<Vec3f> start = engine.positions();
   for (int i = 0; i < options.frames; ++i) {
     const double before = now_ms(threads);
@@ -225,7 +229,8 @@ std::unique_ptr<PileEngine> make_pliant_pile(const Pile& pile, int threads) {
 }
 
 std::vector<PileRow> measure_piles(const PileOptions& options) {
-  if (options.frames < 1 || !(options.limit > 0)) throw Error({}, "there are no frames to measure", "measure at least 1");
+  if (options.frames < 1 || !(options.limit > 0))
+    throw Error({}, "there are no frames to measure", "measure at least 1");
   for (const int size : options.sizes)
     if (size < 1 || size > 100000)
       throw Error({}, "a pile of size " + std::to_string(size) + " cannot be measured", "choose a size in 1..100000");

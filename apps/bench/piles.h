@@ -1,4 +1,5 @@
-// Piles of rigid bodies: a pyramid, a tower, and mixed bodies poured into a bowl; the engine and Bullet (`pliant bench bodies`).
+// Piles of rigid bodies: a pyramid, a tower, and mixed bodies poured into a bowl; the engine and Bullet (`pliant bench
+// bodies`).
 #pragma once
 
 #include <functional>
@@ -49,14 +50,15 @@ class PileEngine {
 };
 
 std::unique_ptr<PileEngine> make_pliant_pile(const Pile& pile, int threads);
-/// Makes an engine of Bullet's rigid bodies with sequential impulses, ten iterations and its own margins, that never sleep. Null
-/// if this program was built without Bullet.
+/// Makes an engine of Bullet's rigid bodies with sequential impulses, ten iterations and its own margins, that never
+/// sleep. Null if this program was built without Bullet.
 std::unique_ptr<PileEngine> make_bullet_pile(const Pile& pile, int substeps);
 
 /// A pile at some frame.
 struct PileSnapshot {
   int frame = 0;
-  double moved = 0;  ///< largest distance of a centre of mass from where it started [m]; not finite if a position is not
+  double moved =
+      0;  ///< largest distance of a centre of mass from where it started [m]; not finite if a position is not
   double speed = 0;  ///< of the fastest body [m/s]
   int lost = 0;      ///< bodies below the ground
 };
@@ -75,13 +77,15 @@ struct PileRow {
 struct PileOptions {
   std::vector<std::string> piles{"pyramid", "tower", "pour"};
   std::vector<int> sizes;  ///< empty: pyramids of 30 and 100, a tower of 50, 1 000 to 10 000 poured bodies
-  int frames = 240;    ///< frames of 1/60 s until the first snapshot; the second is at five times as many (of `pour`: none)
+  int frames =
+      240;  ///< frames of 1/60 s until the first snapshot; the second is at five times as many (of `pour`: none)
   double limit = 120;  ///< no second snapshot if it would take longer [s]
   bool against_bullet = false;
   std::function<void(const PileRow&)> on_row;
 };
 
-/// Measures piles. Throws an Error if a size is outside 1..100000, there are no frames, or Bullet is requested but not built in.
+/// Measures piles. Throws an Error if a size is outside 1..100000, there are no frames, or Bullet is requested but not
+/// built in.
 std::vector<PileRow> measure_piles(const PileOptions& options);
 
 std::string to_json(const std::vector<PileRow>& rows);

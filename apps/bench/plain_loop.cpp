@@ -78,8 +78,8 @@ class PlainLoop final : public Engine {
       const Vec3f g2 = n1 * (-edge / n1n1), g3 = n2 * (-edge / n2n2);
       const float per_e2 = 1 / (edge * edge), t1 = dot(a, e) * per_e2, t2 = dot(b, e) * per_e2;
       const Vec3f g1 = -(g2 * t1 + g3 * t2), g0 = -(g1 + g2 + g3);
-      const float weight = p0.inverse_mass * dot(g0, g0) + p1.inverse_mass * dot(g1, g1) + p2.inverse_mass * dot(g2, g2) +
-                           p3.inverse_mass * dot(g3, g3);
+      const float weight = p0.inverse_mass * dot(g0, g0) + p1.inverse_mass * dot(g1, g1) +
+                           p2.inverse_mass * dot(g2, g2) + p3.inverse_mass * dot(g3, g3);
       const float denominator = weight + hinge.compliance / (h * h);
       if (denominator == 0) continue;
       const float change = -angle / denominator;

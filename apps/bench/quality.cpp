@@ -96,11 +96,15 @@ const std::vector<QualityWorkload>& quality_workloads() {
   static const std::vector<QualityWorkload> all{
       {Kind::hung,
        {"W1-quality",
-        "with bending: the substeps needed for p99 of stretch <= 1.02 and maximum <= 1.10 in every frame; takes minutes, "
+        "with bending: the substeps needed for p99 of stretch <= 1.02 and maximum <= 1.10 in every frame; takes "
+        "minutes, "
         "so only by name"},
        1.02,
        1.10},
-      {Kind::irregular, {"W1-quality-irregular", "the same on an irregular mesh: p99 <= 1.03; only by name"}, 1.03, any},
+      {Kind::irregular,
+       {"W1-quality-irregular", "the same on an irregular mesh: p99 <= 1.03; only by name"},
+       1.03,
+       any},
       {Kind::draped,
        {"W1-quality-draped", "the irregular mesh draped over a ball without pins: p99 <= 1.03; only by name"},
        1.03,
@@ -110,7 +114,8 @@ const std::vector<QualityWorkload>& quality_workloads() {
 }
 
 std::vector<Row> measure_quality(const QualityWorkload& workload, int size, int frames) {
-  const bool hung = workload.kind == QualityWorkload::Kind::hung, pinned = workload.kind != QualityWorkload::Kind::draped;
+  const bool hung = workload.kind == QualityWorkload::Kind::hung,
+             pinned = workload.kind != QualityWorkload::Kind::draped;
   const int from = std::max(1, size / 12), plain = static_cast<int>(std::pow(size, 1.5) / 4);
   const Contender contenders[] = {
       {"tiled", Sweep::tiled, false, hung ? std::max(4, plain) : size,

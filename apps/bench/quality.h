@@ -16,7 +16,8 @@ struct QualityWorkload {
   double p99, largest;
 };
 
-/// The workloads: cloth hung by two corners; the same on an irregular mesh; cloth without pins over a ball, friction 0.3.
+/// The workloads: cloth hung by two corners; the same on an irregular mesh; cloth without pins over a ball, friction
+/// 0.3.
 const std::vector<QualityWorkload>& quality_workloads();
 
 /// Measures a cloth of `size` x `size` with the tiled sweep, with chains (and tethers if pinned) and with multigrid.

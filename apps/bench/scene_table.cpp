@@ -52,7 +52,8 @@ void leave_open(Scene& scene) {
   for (Object& object : scene.objects) object.sweep = Sweep::automatic;
 }
 
-/// "chains+tethers 40" as a sweep with tethers and 40 substeps; without a number the substeps that the scene chooses for it.
+/// "chains+tethers 40" as a sweep with tethers and 40 substeps; without a number the substeps that the scene chooses
+/// for it.
 void apply(const std::string& text, Scene& scene) {
   if (text == "own") return;
   leave_open(scene);
@@ -60,7 +61,8 @@ void apply(const std::string& text, Scene& scene) {
   Settings& settings = scene.settings;
   const std::size_t space = text.find(' ');
   const std::string method = text.substr(0, space), name = method.substr(0, method.find('+'));
-  const auto known = std::find_if(sweeps().begin(), sweeps().end(), [&](const NamedSweep& s) { return s.name == name; });
+  const auto known =
+      std::find_if(sweeps().begin(), sweeps().end(), [&](const NamedSweep& s) { return s.name == name; });
   const int substeps = space == std::string::npos ? 0 : std::atoi(text.c_str() + space);
   if (known == sweeps().end() || (space != std::string::npos && substeps < 1))
     throw Error({}, "'" + text + "' names no sweep and substeps", "write for example 'chains 40'");
@@ -75,7 +77,8 @@ class Surfaces {
   explicit Surfaces(const Scene& scene) : colliders_(scene.mesh_colliders.size()) {
     for (const Object& object : scene.objects) add(object.triangles, object.positions.size());
     dynamic_ = count_;
-    for (const MeshCollider& collider : scene.mesh_colliders) add(collider.mesh.triangles, collider.mesh.positions.size());
+    for (const MeshCollider& collider : scene.mesh_colliders)
+      add(collider.mesh.triangles, collider.mesh.positions.size());
     finder_.emplace(triangles_, count_);
   }
 

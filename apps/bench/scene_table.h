@@ -31,10 +31,10 @@ struct SceneRow {
   double milliseconds = 0;       ///< mean per frame
   double substeps = 0;           ///< mean per frame
   double yield = 0;              ///< NamedScene::yield at the end; 0: not known
-  int crossings = -1;            ///< most edges that pass through a triangle in any frame, by exact signs; -1: not counted
-  bool finite = true;            ///< false: the run ended at a non-finite value
-  /// Of the default's row: the cheapest setting of a sweep and substeps whose row holds the bounds, empty if none does, and
-  /// the cost of the default as a multiple of its cost.
+  int crossings = -1;  ///< most edges that pass through a triangle in any frame, by exact signs; -1: not counted
+  bool finite = true;  ///< false: the run ended at a non-finite value
+  /// Of the default's row: the cheapest setting of a sweep and substeps whose row holds the bounds, empty if none does,
+  /// and the cost of the default as a multiple of its cost.
   std::string cheapest{};
   double ratio = 0;
 };

@@ -30,8 +30,9 @@ struct SoftBodyBenchOptions {
   std::function<void(const SoftBodyRow&)> on_row;
 };
 
-/// A bar of cubic cells of six tetrahedra each, held at one end, swings down under its weight: frames of 1/60 s with 10 substeps (edges and volumes) or 20
-/// (neo-Hookean). The ways to step it take turns, frame by frame, and give the same bits, which is checked. Throws an Error if a size is out of range.
+/// A bar of cubic cells of six tetrahedra each, held at one end, swings down under its weight: frames of 1/60 s with 10
+/// substeps (edges and volumes) or 20 (neo-Hookean). The ways to step it take turns, frame by frame, and give the same
+/// bits, which is checked. Throws an Error if a size is out of range.
 std::vector<SoftBodyRow> measure_soft_bodies(const SoftBodyBenchOptions& options);
 
 std::string to_json(const std::vector<SoftBodyRow>& rows);

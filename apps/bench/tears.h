@@ -26,8 +26,8 @@ struct TearOptions {
   std::function<void(const TearRow&)> on_row;
 };
 
-/// Cuts nearly incompressible blocks and hanging cloths in two, a little in each frame. Both objects of a row take turns. Throws an Error if a size is
-/// not 2 to 60, or if there are no frames.
+/// Cuts nearly incompressible blocks and hanging cloths in two, a little in each frame. Both objects of a row take
+/// turns. Throws an Error if a size is not 2 to 60, or if there are no frames.
 std::vector<TearRow> measure_tears(const TearOptions& options);
 
 std::string to_json(const std::vector<TearRow>& rows);

@@ -60,7 +60,8 @@ void catch_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // signals that nohup or `&` ignore stay ignored
+    if (before.sa_handler != SIG_IGN)
+      sigaction(signal, &action, nullptr);  // signals that nohup or `&` ignore stay ignored
   }
   action.sa_handler = end_program;
   sigaction(SIGALRM, &action, nullptr);

@@ -8,7 +8,8 @@ struct MeasureSubcommand {
   const char* description;  ///< in the help
 };
 
-inline constexpr MeasureSubcommand validate_subcommand{"validate", "Compare the engine with known answers of mechanics"};
+inline constexpr MeasureSubcommand validate_subcommand{"validate",
+                                                       "Compare the engine with known answers of mechanics"};
 inline constexpr MeasureSubcommand bench_subcommand{
     "bench", "Measure the time of frames, compared with a plain loop and another engine"};
 inline constexpr MeasureSubcommand compare_subcommand{"compare", "Compare how fast sweeps solve a scene"};

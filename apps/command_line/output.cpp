@@ -100,7 +100,8 @@ void print(const std::string& text) {
   if (!written) {
     Location where;
     where.file = "standard output";
-    throw Error(where, "could not be written", "check whether the disk is full or the other end of the pipe was closed");
+    throw Error(where, "could not be written",
+                "check whether the disk is full or the other end of the pipe was closed");
   }
 }
 

@@ -21,8 +21,8 @@ std::string counted(std::size_t count, const std::string& noun);
 /// True of what a robot description lacks or has in vain, which SceneFile::repairs has beside the repairs of meshes.
 bool is_of_robot(const std::string& repair);
 
-/// Prints "repaired: ..." for each repair of a mesh, which then differs from its file, and "doubtful: ..." for each doubt about a
-/// robot description.
+/// Prints "repaired: ..." for each repair of a mesh, which then differs from its file, and "doubtful: ..." for each
+/// doubt about a robot description.
 void print_repairs(const std::vector<std::string>& repairs);
 
 /// Prints "left out: ..." for each fill that leaves out what is solid (SceneFile::left_out).

@@ -1,5 +1,5 @@
-// How pliant and pliant-measure read their command lines. CLI11 takes seconds to compile, so only their main.cpp include
-// this.
+// How pliant and pliant-measure read their command lines. CLI11 takes seconds to compile, so only their main.cpp
+// include this.
 #pragma once
 
 #include <CLI/CLI.hpp>

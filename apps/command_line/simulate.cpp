@@ -15,8 +15,8 @@ namespace pliant::command {
 
 namespace {
 
-/// Sets the sweep of all objects by a name such as "chains+tethers". Options that the name does not mention stay as the scene
-/// has them.
+/// Sets the sweep of all objects by a name such as "chains+tethers". Options that the name does not mention stay as the
+/// scene has them.
 void set_sweep(const std::string& name, Scene& scene) {
   for (Object& object : scene.objects) object.sweep = Sweep::automatic;
   Settings& settings = scene.settings;
@@ -42,7 +42,8 @@ void add_meshes(const std::vector<std::string>& meshes, SceneReadOptions& option
   for (const std::string& one : meshes) {
     const std::size_t sign = one.find('=');
     if (sign == 0 || sign == std::string::npos || sign + 1 == one.size())
-      throw Error({}, "'" + one + "' does not name an object and a mesh", "write name=path, such as --mesh body=bunny.obj");
+      throw Error({}, "'" + one + "' does not name an object and a mesh",
+                  "write name=path, such as --mesh body=bunny.obj");
     const bool is_new = options.meshes.emplace(one.substr(0, sign), one.substr(sign + 1)).second;
     if (!is_new) throw Error({}, "'" + one.substr(0, sign) + "' is given two meshes", "give it one");
   }
@@ -120,10 +121,10 @@ void require_frame(const Scene& scene, const std::string& path, int frame) {
   if (frame <= scene.frames) return;
   Location where;
   where.file = path;
-  throw Error(
-      where,
-      "there is no frame " + std::to_string(frame) + ", it has " + counted(static_cast<std::size_t>(scene.frames), "frame"),
-      "name one from 0, the start, to " + std::to_string(scene.frames) + ", or raise the scene's \"frames\"");
+  throw Error(where,
+              "there is no frame " + std::to_string(frame) + ", it has " +
+                  counted(static_cast<std::size_t>(scene.frames), "frame"),
+              "name one from 0, the start, to " + std::to_string(scene.frames) + ", or raise the scene's \"frames\"");
 }
 
 void refuse_tears(const Scene& scene, const std::string& path, const std::string& who) {

@@ -28,7 +28,8 @@ World make_world(const Scene& scene, const std::string& path);
 Error of_file(const Error& error, const std::string& path);
 
 /// Steps a World until it has made all frames of the scene, and calls `after_frame` after each. Returns false after a
-/// frame that is not finite. Shows progress on a terminal unless `quiet`. Throws Interrupted after a termination signal.
+/// frame that is not finite. Shows progress on a terminal unless `quiet`. Throws Interrupted after a termination
+/// signal.
 bool simulate(World& world, const Scene& scene, bool quiet, const std::function<void(const Report&)>& after_frame);
 
 /// Throws an Error if the scene has fewer frames than `frame`.

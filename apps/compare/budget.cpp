@@ -44,7 +44,8 @@ struct Trial {
 };
 
 /// Simulates the first `frames` frames, or until a value is not finite.
-Trial simulate(const Scene& scene, const Settings& settings, const std::string& name, int frames, const Options& options) {
+Trial simulate(const Scene& scene, const Settings& settings, const std::string& name, int frames,
+               const Options& options) {
   World world(scene, settings);
   Trial trial{{name, settings.substeps, settings.iterations, 0, {0, 0, 0}, {}}};
   std::vector<double> milliseconds;
@@ -67,7 +68,8 @@ Trial simulate(const Scene& scene, const Settings& settings, const std::string& 
   return trial;
 }
 
-Trial simulate(const Scene& scene, const Method& method, int substeps, int iterations, int frames, const Options& options) {
+Trial simulate(const Scene& scene, const Method& method, int substeps, int iterations, int frames,
+               const Options& options) {
   return simulate(scene, settings_of(scene, method, substeps, iterations), method.name, frames, options);
 }
 
@@ -115,7 +117,8 @@ std::optional<Budgeted> fit(const Scene& scene, const Method& method, int iterat
 [[noreturn]] void refuse(const Misses& misses, const Options& options) {
   const std::string budget = figure(options.budget, 4) + " ms a frame";
   if (misses.not_finite == 0) {
-    throw Error({}, "nothing fits into " + budget + ": the cheapest trial takes about " + figure(misses.fastest, 2) + " ms",
+    throw Error({},
+                "nothing fits into " + budget + ": the cheapest trial takes about " + figure(misses.fastest, 2) + " ms",
                 "increase the budget");
   }
   throw Error({}, "every combination that fits into " + budget + " diverges",

@@ -44,7 +44,7 @@ struct Curve {
   std::string name;
   std::vector<IterationResidual> record;  ///< residuals after each iteration; the first entry is the prediction
   std::vector<double> residuals;          ///< residuals of the type that is plotted
-  std::vector<Sample> samples;            ///< measurements after some numbers of iterations, with the first and the last
+  std::vector<Sample> samples;  ///< measurements after some numbers of iterations, with the first and the last
 };
 
 /// The best result that one method reaches within the time budget.
@@ -64,10 +64,10 @@ struct Refusal {
 
 struct Options {
   std::vector<std::string> methods;  ///< names of methods; empty: the default and default_methods()
-  int frame = -1;               ///< number of frames before the substep that is compared; -1: half of the scene's frames
-  int substeps = 0;             ///< substeps per frame, which set the length of that substep; 0: the scene's own
-  int iterations = 100;         ///< largest number of iterations of the curves, 1..10000
-  double budget = 0;            ///< time per frame [ms]; 0: measure only the curves
+  int frame = -1;        ///< number of frames before the substep that is compared; -1: half of the scene's frames
+  int substeps = 0;      ///< substeps per frame, which set the length of that substep; 0: the scene's own
+  int iterations = 100;  ///< largest number of iterations of the curves, 1..10000
+  double budget = 0;     ///< time per frame [ms]; 0: measure only the curves
   std::function<void()> pause;  ///< called between measurements; may throw
 };
 

@@ -56,7 +56,8 @@ Report step_once(World& world, const Scene& scene, const Options& options) {
   return report;
 }
 
-std::vector<IterationResidual> record_of(const Scene& scene, World& start, const Method& method, const Options& options) {
+std::vector<IterationResidual> record_of(const Scene& scene, World& start, const Method& method,
+                                         const Options& options) {
   Settings settings = settings_of(scene, method, options.iterations);
   settings.record_residuals = true;
   World world(scene, settings);
@@ -111,7 +112,8 @@ void solve_by_turns(std::vector<Run>& runs, const Scene& scene, const Options& o
 
 std::vector<Sample> samples_of(const Scene& scene, World& start, const Method& method, const Options& options) {
   std::vector<Run> runs;
-  for (int iterations : sampled_iterations(options.iterations)) runs.push_back(run_of(scene, start, method, iterations));
+  for (int iterations : sampled_iterations(options.iterations))
+    runs.push_back(run_of(scene, start, method, iterations));
   solve_by_turns(runs, scene, options);
   std::vector<Sample> samples;
   samples.reserve(runs.size());
@@ -141,7 +143,8 @@ Curve measure_curve(const Scene& scene, World& start, const Method& method, cons
   for (const IterationResidual& at : curve.record) curve.residuals.push_back(drawn_residual(at));
   curve.samples = samples_of(scene, start, method, options);
   lower_to_longer_runs(curve.samples);
-  for (Sample& sample : curve.samples) sample.residual = curve.residuals.at(static_cast<std::size_t>(sample.iterations));
+  for (Sample& sample : curve.samples)
+    sample.residual = curve.residuals.at(static_cast<std::size_t>(sample.iterations));
   return curve;
 }
 

@@ -66,7 +66,8 @@ std::string table_head(const Result& result) {
       format("residual: root mean square error of the %s constraints%s, %.3g before the first iteration\n",
              result.residual_type.c_str(), result.residual_type == "distance" ? " [m]" : "", first.residuals.front()) +
       "stretch: largest elongation beyond rest length [%]\n" +
-      (times_next(result) ? "ms: of the substep after it, since the first one after a restore rebuilds near lists\n" : "") +
+      (times_next(result) ? "ms: of the substep after it, since the first one after a restore rebuilds near lists\n"
+                          : "") +
       "\n";
   std::string above = format("%-18s %9s ", "", "ms an"), below = format("%-18s %9s ", "sweep", "iteration");
   for (const char* what : {"residual", "stretch"}) {
@@ -91,8 +92,8 @@ std::string budget_table(const Result& result) {
   if (result.budgeted.empty()) return {};
   std::string table = format("\nwithin %s ms per frame, %d frames from the start; stretch: worst of all frames [%%]\n",
                              figure(result.budget, 4).c_str(), result.frames) +
-                      format("%-18s %8s x %-10s %8s %9s %9s %9s\n", "sweep", "substeps", "iterations", "ms/frame", "mean",
-                             "p99", "largest");
+                      format("%-18s %8s x %-10s %8s %9s %9s %9s\n", "sweep", "substeps", "iterations", "ms/frame",
+                             "mean", "p99", "largest");
   for (const Budgeted& row : result.budgeted)
     table += format("%-18s %8d x %-10d %8.3f %9.3g %9.3g %9.3g\n", row.name.c_str(), row.substeps, row.iterations,
                     row.milliseconds, percent(row.worst.mean), percent(row.worst.p99), percent(row.worst.largest));
@@ -107,8 +108,10 @@ Json json_of(const Stretch& stretch) {
 
 Json json_of(const IterationResidual& at) {
   Json primal = Json::object();
-  for (const Residual& residual : at.primal) primal[residual.type] = {{"rms", residual.rms}, {"largest", residual.largest}};
-  return {{"iteration", at.iteration}, {"primal", primal}, {"dual_rms", at.dual_rms}, {"dual_largest", at.dual_largest}};
+  for (const Residual& residual : at.primal)
+    primal[residual.type] = {{"rms", residual.rms}, {"largest", residual.largest}};
+  return {
+      {"iteration", at.iteration}, {"primal", primal}, {"dual_rms", at.dual_rms}, {"dual_largest", at.dual_largest}};
 }
 
 Json json_of(const Curve& curve) {

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int turns = 3;  // number of rounds in which all curves are timed
 
-/// A World at the frame from which curves start, and the substeps of the frame before it; of the first frame if it is at
-/// the start.
+/// A World at the frame from which curves start, and the substeps of the frame before it; of the first frame if it is
+/// at the start.
 struct Start {
   World world;
   int substeps = 0;
@@ -131,8 +131,8 @@ Result run(const Scene& given, const Options& options) {
     for (std::size_t i = 0; i < measured.size(); ++i)
       time_again(scene, start.world, measured[i], options, result.curves[i]);
   if (result.curves.empty())
-    throw Error(
-        {}, "every sweep was rejected, the first, " + result.refused.front().name + ": " + result.refused.front().reason);
+    throw Error({}, "every sweep was rejected, the first, " + result.refused.front().name + ": " +
+                        result.refused.front().reason);
   result.residual_type = type_of(result.curves);
   return result;
 }

@@ -34,7 +34,8 @@ namespace {
 
 constexpr int usual_frames = 120;
 constexpr const char* head =
-    "workload                 size engine      threads substeps x iter  ms/frame  ns/proj.   stretch mean     p99     max  "
+    "workload                 size engine      threads substeps x iter  ms/frame  ns/proj.   stretch mean     p99     "
+    "max  "
     " ratio\n";
 
 void print_row(const pliant::bench::Row& row) {
@@ -62,8 +63,8 @@ std::string bench_contact(const BenchOptions& options) {
   wanted.on_row = [](const pliant::bench::ContactRow& row) {
     throw_if_interrupted();
     char text[256];
-    std::snprintf(text, sizeof text, "%4d %10d %12.2f %9.2f %6.2f %12.2f %12.3f %20.1f %12.0f\n", row.size, row.particles,
-                  row.without_ms, row.with_ms, row.ratio, row.largest_ms, row.with_us_per_particle,
+    std::snprintf(text, sizeof text, "%4d %10d %12.2f %9.2f %6.2f %12.2f %12.3f %20.1f %12.0f\n", row.size,
+                  row.particles, row.without_ms, row.with_ms, row.ratio, row.largest_ms, row.with_us_per_particle,
                   row.candidates_per_particle, row.lists);
     print(text);
   };
@@ -119,7 +120,8 @@ std::string bench_bodies(const BenchOptions& options) {
     throw_if_interrupted();
     std::string snapshots;
     for (const pliant::bench::PileSnapshot& snapshot : row.snapshots)
-      snapshots += fmt::format("  {}: {:.3g}; {:.2g}; {}", snapshot.frame, snapshot.moved, snapshot.speed, snapshot.lost);
+      snapshots +=
+          fmt::format("  {}: {:.3g}; {:.2g}; {}", snapshot.frame, snapshot.moved, snapshot.speed, snapshot.lost);
     print(fmt::format("{:<8} {:5} {:7}  {:<14} {:8} {:9} {:9.3f} {:12.2f} {:10.2f} {:8.2f}{}\n", row.pile, row.size,
                       row.bodies, row.engine, row.threads, row.substeps, row.mean_ms, row.largest_ms,
                       1000. / 60 / row.mean_ms, row.ratio, snapshots));
@@ -134,9 +136,9 @@ std::string bench_covered(const BenchOptions& options) {
   print("what          size  bodies  mean, ms  median, ms  slowest, ms  ratio  crossings: worst; frames; unnamed\n");
   wanted.on_row = [](const pliant::bench::CoveredRow& row) {
     throw_if_interrupted();
-    print(fmt::format("{:<12} {:5} {:7} {:9.3f} {:11.3f} {:12.2f} {:6.2f}  {}; {}; {}\n", row.what, row.size, row.bodies,
-                      row.mean_ms, row.median_ms, row.largest_ms, row.ratio, row.worst_crossings, row.frames_with_crossings,
-                      row.unnamed));
+    print(fmt::format("{:<12} {:5} {:7} {:9.3f} {:11.3f} {:12.2f} {:6.2f}  {}; {}; {}\n", row.what, row.size,
+                      row.bodies, row.mean_ms, row.median_ms, row.largest_ms, row.ratio, row.worst_crossings,
+                      row.frames_with_crossings, row.unnamed));
   };
   return to_json(pliant::bench::measure_covered(wanted));
 }
@@ -148,8 +150,8 @@ std::string bench_joints(const BenchOptions& options) {
   print("links  solver  substeps  ms/frame  drift, mm  ratio\n");
   wanted.on_row = [](const pliant::bench::ChainRow& row) {
     throw_if_interrupted();
-    print(fmt::format("{:5}  {:<6} {:9} {:9.4f} {:10.4f} {:6.3f}\n", row.links, row.solver, row.substeps, row.ms_per_frame,
-                      1000 * row.drift, row.ratio));
+    print(fmt::format("{:5}  {:<6} {:9} {:9.4f} {:10.4f} {:6.3f}\n", row.links, row.solver, row.substeps,
+                      row.ms_per_frame, 1000 * row.drift, row.ratio));
   };
   return to_json(pliant::bench::measure_chains(wanted));
 }
@@ -159,7 +161,8 @@ std::string bench_liquids(const BenchOptions& options) {
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
   wanted.frames = options.frames.value_or(wanted.frames);
   print(
-      "particles  engine       isa         substeps  median, ms  slowest, ms  ns/particle  search  compression   ratio  "
+      "particles  engine       isa         substeps  median, ms  slowest, ms  ns/particle  search  compression   ratio "
+      " "
       "bytes/particle  surface/step\n");
   wanted.on_row = [](const pliant::bench::LiquidRow& row) {
     throw_if_interrupted();
@@ -176,7 +179,8 @@ std::string bench_soft_bodies(const BenchOptions& options) {
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
   wanted.frames = options.frames.value_or(wanted.frames);
   print(
-      "cells  tetrahedra  material           engine       substeps  ms/frame  ns/proj.   ratio  inverted  worst volume  "
+      "cells  tetrahedra  material           engine       substeps  ms/frame  ns/proj.   ratio  inverted  worst volume "
+      " "
       "set-up, ms\n");
   wanted.on_row = [](const pliant::bench::SoftBodyRow& row) {
     throw_if_interrupted();
@@ -192,7 +196,8 @@ std::string bench_columns(const BenchOptions& options) {
   if (!options.sizes.empty()) wanted.depths = options.sizes;
   wanted.frames = options.frames.value_or(wanted.frames);
   print(
-      "depth, m  spacing, m  particles  substeps x iter.  denser: mean  largest  speed, mm/s: mean  largest  height  ns  "
+      "depth, m  spacing, m  particles  substeps x iter.  denser: mean  largest  speed, mm/s: mean  largest  height  "
+      "ns  "
       "ms/1000 particles\n");
   wanted.on_row = [](const pliant::bench::ColumnRow& row) {
     throw_if_interrupted();
@@ -208,7 +213,9 @@ std::string bench_tears(const BenchOptions& options) {
   pliant::bench::TearOptions wanted;
   if (!options.sizes.empty()) wanted.sizes = options.sizes;
   wanted.frames = options.frames.value_or(wanted.frames);
-  print("object  cells  elements  substeps  cuts  new particles  ms: whole     cut  ratio  us/new particle  ns/element\n");
+  print(
+      "object  cells  elements  substeps  cuts  new particles  ms: whole     cut  ratio  us/new particle  "
+      "ns/element\n");
   wanted.on_row = [](const pliant::bench::TearRow& row) {
     throw_if_interrupted();
     print(fmt::format("{:<6}  {:5}  {:8}  {:8}  {:4}  {:13.1f}  {:9.2f}  {:6.2f}  {:5.2f}  {:15.1f}  {:10.0f}\n",
@@ -248,12 +255,12 @@ std::string bench_default(const BenchOptions& options) {
                              : row.cheapest.empty()                 ? "  no named one holds"
                                                     : fmt::format("  {:.2f} to '{}'", row.ratio, row.cheapest);
     print(fmt::format(
-        "{:<30} {:<18} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:<9} {:10.4f}  {:>9}  {:>5}{}{}\n", row.scene,
-        row.settings, row.substeps, row.milliseconds, 100 * row.p99, fmt::format("({})", row.frame_of_p99),
+        "{:<30} {:<18} {:8.1f} {:9.2f} {:8.2f} {:<7} {:11.2f} {:<8} {:10.4f} {:<9} {:10.4f}  {:>9}  {:>5}{}{}\n",
+        row.scene, row.settings, row.substeps, row.milliseconds, 100 * row.p99, fmt::format("({})", row.frame_of_p99),
         100 * row.largest, fmt::format("({})", row.frame_of_largest), row.gain,
         fmt::format("({:.4f})", row.gain_with_bending), 1000 * row.moved,
-        row.crossings < 0 ? "-" : std::to_string(row.crossings), row.yield == 0 ? "-" : fmt::format("{:.3f}", row.yield),
-        cost, row.finite ? "" : "  not finite"));
+        row.crossings < 0 ? "-" : std::to_string(row.crossings),
+        row.yield == 0 ? "-" : fmt::format("{:.3f}", row.yield), cost, row.finite ? "" : "  not finite"));
   };
   return to_json(pliant::bench::measure_scenes(scenes, wanted));
 }

@@ -68,7 +68,8 @@ int compare(const CompareOptions& options) {
   const Outputs outputs = open_outputs(options.out);
   const pliant::compare::Result result = measured(options, scene);
   print(one_line(options.scene) + " " + pliant::compare::to_table(result));
-  for (const auto& refusal : result.refused) print("left out: " + refusal.name + ": " + one_line(refusal.reason) + "\n");
+  for (const auto& refusal : result.refused)
+    print("left out: " + refusal.name + ": " + one_line(refusal.reason) + "\n");
   if (outputs.json) {
     outputs.json->write(pliant::compare::to_json(result));
     outputs.json->commit();

@@ -1,5 +1,5 @@
-// The command line of `pliant-measure`, which `pliant` runs for its subcommands validate, bench and compare. Messages and help
-// name `pliant`, and exit statuses are its own.
+// The command line of `pliant-measure`, which `pliant` runs for its subcommands validate, bench and compare. Messages
+// and help name `pliant`, and exit statuses are its own.
 #include "apps/command_line/interrupt.h"
 #include "apps/command_line/measure_subcommands.h"
 #include "apps/command_line/parse.h"
@@ -14,7 +14,8 @@ void add_validate(CLI::App& app, ValidateOptions& options, Chosen& chosen) {
   validate_app->add_option("NAME", options.group, "group of answers (default: all)");
   validate_app->add_flag("--slow", options.slow, "include rows that take minutes");
   validate_app
-      ->add_option("--queries", options.queries, "folder of query sets for continuous collision tests (group `collision`)")
+      ->add_option("--queries", options.queries,
+                   "folder of query sets for continuous collision tests (group `collision`)")
       ->type_name("FOLDER");
   validate_app
       ->add_option("--json", options.json,
@@ -32,7 +33,8 @@ void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
   bench_app->add_option("--against", options.against, "also measure this engine")
       ->type_name("NAME")
       ->check(CLI::IsMember({"bullet"}));
-  bench_app->add_option("--sizes", options.sizes, "particles per side, of W5 particles, or size of a pile, such as 64,128")
+  bench_app
+      ->add_option("--sizes", options.sizes, "particles per side, of W5 particles, or size of a pile, such as 64,128")
       ->type_name("SIZES")
       ->delimiter(',')
       ->check(range(1, 10000000));
@@ -50,10 +52,12 @@ void add_bench(CLI::App& app, BenchOptions& options, Chosen& chosen) {
       ->type_name("N")
       ->check(range(0, most_threads));
   bench_app->add_option("--scenes", options.scenes, "of 'default': scene files to measure")->type_name("FILES");
-  bench_app->add_option("--settings", options.settings, "of 'default': also measure these, such as \"chains 40,multigrid\"")
+  bench_app
+      ->add_option("--settings", options.settings, "of 'default': also measure these, such as \"chains 40,multigrid\"")
       ->type_name("SETTINGS")
       ->delimiter(',');
-  bench_app->add_option("--meshes", options.meshes, "of 'default': let a cotton sheet fall over each mesh of this folder")
+  bench_app
+      ->add_option("--meshes", options.meshes, "of 'default': let a cotton sheet fall over each mesh of this folder")
       ->type_name("FOLDER");
   bench_app->add_option("--json", options.json, "write the rows to this JSON file")->type_name("FILE");
   bench_app->callback([&] { chosen = [&] { return bench(options); }; });
@@ -76,7 +80,8 @@ void add_compare(CLI::App& app, CompareOptions& options, Chosen& chosen) {
       ->check(range(1, 10000))
       ->capture_default_str();
   compare_app
-      ->add_option("--budget-ms", options.budget, "also compare the stretch that sweeps reach in this time per frame [ms]")
+      ->add_option("--budget-ms", options.budget,
+                   "also compare the stretch that sweeps reach in this time per frame [ms]")
       ->type_name("T")
       ->check(range(1e-3, 1e6));
   compare_app->add_option("--frames", options.overrides.frames, "number of frames of the scene (default: its own)")

@@ -21,13 +21,14 @@ struct ValidateOptions {
 int validate(const ValidateOptions& options);
 
 struct BenchOptions {
-  std::string workload;       ///< name of a workload; empty: all
-  std::string against;        ///< "bullet" to measure it too; empty: not
-  std::vector<int> sizes;     ///< numbers of vertices along a side; empty: 64, 128, 256, 512
-  std::optional<int> frames;  ///< frames measured, after 20 that are not (not of `default`); none: 120, or those of a scene
-  double limit = 120;         ///< time limit of a row of W3 [s]
-  int threads = 0;            ///< threads of the second run; the first one uses one; 0: all hardware threads
-  std::string json;           ///< file for the rows as JSON; empty: none
+  std::string workload;    ///< name of a workload; empty: all
+  std::string against;     ///< "bullet" to measure it too; empty: not
+  std::vector<int> sizes;  ///< numbers of vertices along a side; empty: 64, 128, 256, 512
+  std::optional<int>
+      frames;          ///< frames measured, after 20 that are not (not of `default`); none: 120, or those of a scene
+  double limit = 120;  ///< time limit of a row of W3 [s]
+  int threads = 0;     ///< threads of the second run; the first one uses one; 0: all hardware threads
+  std::string json;    ///< file for the rows as JSON; empty: none
   std::vector<std::string> scenes, settings;  ///< of workload `default`: scene files, and settings beside the default
   std::string meshes;  ///< of workload `default`: a folder of meshes, over each of which a sheet falls; empty: none
 };

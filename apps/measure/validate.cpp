@@ -51,8 +51,8 @@ int validate(const ValidateOptions& options) {
   const auto failed = std::count_if(result.rows.begin(), result.rows.end(), [](const auto& row) { return !row.pass; });
   if (failed == 0) return 0;
   const auto first = std::find_if(result.rows.begin(), result.rows.end(), [](const auto& row) { return !row.pass; });
-  throw Error(
-      {}, std::to_string(failed) + " of " + std::to_string(result.rows.size()) + " rows fail, the first: " + first->name);
+  throw Error({}, std::to_string(failed) + " of " + std::to_string(result.rows.size()) +
+                      " rows fail, the first: " + first->name);
 }
 
 }  // namespace pliant::command

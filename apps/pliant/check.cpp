@@ -132,9 +132,11 @@ void try_out(const Scene& scene, double seconds, Checked& checked) {
         " gives more\n");
 }
 
-/// For example "20 substeps a frame", or where objects differ "10 substeps a frame for 'flag', 20 for 'sock' and 2 more".
+/// For example "20 substeps a frame", or where objects differ "10 substeps a frame for 'flag', 20 for 'sock' and 2
+/// more".
 std::string substeps_in_words(const Scene& scene, const Settings& chosen) {
-  if (chosen.substeps != 0) return counted(static_cast<std::size_t>(std::max(chosen.substeps, 0)), "substep") + " a frame";
+  if (chosen.substeps != 0)
+    return counted(static_cast<std::size_t>(std::max(chosen.substeps, 0)), "substep") + " a frame";
   std::map<int, std::vector<std::string>> names;
   const std::vector<int> substeps = chosen_substeps(scene);
   for (std::size_t o = 0; o < substeps.size(); ++o) names[substeps[o]].push_back(scene.objects[o].name);

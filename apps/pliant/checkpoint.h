@@ -1,5 +1,5 @@
-// Checkpoints of a run: files from which a run continues with the same bits. They have its State, or where objects come apart, and a State
-// does not fit the scene any more, its World.
+// Checkpoints of a run: files from which a run continues with the same bits. They have its State, or where objects come
+// apart, and a State does not fit the scene any more, its World.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// The command line of `pliant`: parses it, calls a subcommand, and turns an exception into one line of text and an exit status.
+// The command line of `pliant`: parses it, calls a subcommand, and turns an exception into one line of text and an exit
+// status.
 //
 // Exit status: 0 done, 1 an error or a grave finding, 2 a command line error, 128 + N ended by signal N.
 #include <algorithm>
@@ -36,7 +37,8 @@ void add_settings(CLI::App& app, Overrides& overrides) {
   app.add_option("--iterations", overrides.iterations, "iterations per substep (default: the scene's)")
       ->type_name("N")
       ->check(range(1, 10000));
-  app.add_option("--sweep", overrides.sweep, "sweep and options, such as chains or chains+tethers (default: the scene's)")
+  app.add_option("--sweep", overrides.sweep,
+                 "sweep and options, such as chains or chains+tethers (default: the scene's)")
       ->type_name("NAME");
 }
 
@@ -66,7 +68,8 @@ void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
   run_app->add_option("--report", options.report, "write hashes, times, residuals and stretch to this JSON file")
       ->type_name("FILE");
   CLI::Option* checkpoint =
-      run_app->add_option("--checkpoint", options.checkpoint, "save the state to this file, from which --resume continues")
+      run_app
+          ->add_option("--checkpoint", options.checkpoint, "save the state to this file, from which --resume continues")
           ->type_name("FILE");
   run_app->add_option("--every", options.every, "frames between checkpoints; the end and Ctrl-C also save one")
       ->type_name("N")
@@ -112,7 +115,8 @@ void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
   CLI::App* render_app = app.add_subcommand("render", "Draw a scene as a picture or movie, without a display");
   render_app->add_option("SCENE", options.scene, "scene file (JSON)")->required();
   render_app->add_option("--out", options.out, "picture (.png) or movie (.mp4)")->type_name("FILE")->required();
-  render_app->add_option("--frame", options.frame, "frame to draw, or last frame of a movie (default: the scene's last)")
+  render_app
+      ->add_option("--frame", options.frame, "frame to draw, or last frame of a movie (default: the scene's last)")
       ->type_name("N")
       ->check(range(0, most));
   render_app->add_option("--size", options.size, "width and height in pixels (default: 1280x720, with --draft 640x360)")
@@ -140,7 +144,8 @@ void add_study(CLI::App& app, StudyOptions& options, Chosen& chosen) {
   study_app->add_option("--out", options.out, "table (CSV) with a row for each combination; rows that it has are kept")
       ->type_name("FILE")
       ->required();
-  study_app->add_option("--measure", options.measures, "member of the report of a run as a column: /contacts; repeatable")
+  study_app
+      ->add_option("--measure", options.measures, "member of the report of a run as a column: /contacts; repeatable")
       ->type_name("POINTER")
       ->allow_extra_args(false);
   study_app->add_option("--pictures", options.pictures, "picture (.png) of the last frame of each variant")
@@ -157,7 +162,8 @@ void add_study(CLI::App& app, StudyOptions& options, Chosen& chosen) {
 void add_check(CLI::App& app, CheckOptions& options, Chosen& chosen) {
   CLI::App* check_app = app.add_subcommand("check", "Report errors and doubtful settings of a scene or a mesh");
   check_app->add_option("FILE", options.path, "scene (.json) or mesh (.obj, .ply, .stl)")->required();
-  check_app->add_option("--seconds", options.seconds, "time for trial runs that test whether the solver converges; 0: none")
+  check_app
+      ->add_option("--seconds", options.seconds, "time for trial runs that test whether the solver converges; 0: none")
       ->type_name("S")
       ->check(range(0.0, 86400.0))
       ->capture_default_str();

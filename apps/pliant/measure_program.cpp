@@ -28,7 +28,8 @@ std::string advice(const fs::path& folder) {
   std::error_code unknown;
   if (fs::exists(build / "CMakeCache.txt", unknown))
     return "which is not built; build it with: cmake --build " + build.string() + " --target pliant_measure";
-  return "which is not installed; build it where pliant was built, with cmake --build FOLDER --target pliant_measure, and "
+  return "which is not installed; build it where pliant was built, with cmake --build FOLDER --target pliant_measure, "
+         "and "
          "install again";
 }
 

@@ -5,8 +5,8 @@
 
 namespace pliant::command {
 
-/// Replaces this program by pliant-measure from the same folder, with the same arguments. Returns only if that fails: why,
-/// and what to do. `subcommand` is the one that is wanted.
+/// Replaces this program by pliant-measure from the same folder, with the same arguments. Returns only if that fails:
+/// why, and what to do. `subcommand` is the one that is wanted.
 std::string replace_by_measure_program(const std::string& subcommand, char** argv);
 
 }  // namespace pliant::command

@@ -1,8 +1,8 @@
 // pliant render: a scene as a picture or a movie, drawn without a display.
 //
 // A movie has one fixed camera and extent, which must show the whole motion. So all of its pictures are made, as data,
-// before the first is drawn. If they do not fit in memory, the scene is simulated twice: both runs give the same bits. A
-// strip of pictures has one camera and extent too, so that only the objects differ.
+// before the first is drawn. If they do not fit in memory, the scene is simulated twice: both runs give the same bits.
+// A strip of pictures has one camera and extent too, so that only the objects differ.
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -226,10 +226,10 @@ int render(const RenderOptions& options) {
     throw Error(where, "is neither .png nor .mp4", "give --out one of these suffixes; for geometry use pliant run");
   }
   if (!options.strip.empty() && (is_movie || options.frame)) {
-    throw Error(
-        {},
-        std::string("--strip draws ") + (is_movie ? "a picture, not a movie" : "several frames, so it excludes --frame"),
-        "give --out a name that ends in .png, and the frames to --strip alone");
+    throw Error({},
+                std::string("--strip draws ") +
+                    (is_movie ? "a picture, not a movie" : "several frames, so it excludes --frame"),
+                "give --out a name that ends in .png, and the frames to --strip alone");
   }
   if (!options.resume.empty() && (is_movie || !options.strip.empty()))
     throw Error({}, "--resume draws one picture", "give --out a name that ends in .png, and no --strip");

@@ -103,7 +103,8 @@ int run(const RunOptions& options) {
 
   std::vector<std::unique_ptr<FrameWriter>> writers;
   for (const std::string& path : options.out)
-    writers.push_back(make_frame_writer(path, start.contents ? *start.contents : scene, world, {options.liquid_surfaces}));
+    writers.push_back(
+        make_frame_writer(path, start.contents ? *start.contents : scene, world, {options.liquid_surfaces}));
   GaugeTable gauges(options.gauges, file, world);
   std::unique_ptr<AtomicFile> report_file;
   if (!options.report.empty()) report_file = std::make_unique<AtomicFile>(options.report);

@@ -156,7 +156,8 @@ void RunReport::add(const Report& report, const World& world) {
     tears_.lost_constraints += torn.lost_constraints;
   }
   tears_.broken_joints += static_cast<std::int64_t>(report.broken_joints.size());
-  if (tears_.first_frame < 0 && !(report.torn.empty() && report.broken_joints.empty())) tears_.first_frame = report.frame;
+  if (tears_.first_frame < 0 && !(report.torn.empty() && report.broken_joints.empty()))
+    tears_.first_frame = report.frame;
   iterations_.mean += report.iterations.mean;
   milliseconds_.push_back(report.milliseconds);
   most_substeps_ = std::max(most_substeps_, report.substeps);
@@ -188,13 +189,13 @@ std::vector<std::string> RunReport::warnings(const World& world) const {
   constexpr double tolerated = 0.01;
   std::vector<std::string> lines = warnings_.lines();
   if (worst_compression_.mean > tolerated)
-    lines.push_back("in frame " + std::to_string(frame_of_mean_) + ", liquids were " +
-                    figure(100 * worst_compression_.mean, 2) +
-                    " % denser than at rest on average; use more substeps, which compress a liquid by the square of their "
-                    "length, or a higher speed_of_sound if it has one");
+    lines.push_back(
+        "in frame " + std::to_string(frame_of_mean_) + ", liquids were " + figure(100 * worst_compression_.mean, 2) +
+        " % denser than at rest on average; use more substeps, which compress a liquid by the square of their "
+        "length, or a higher speed_of_sound if it has one");
   if (worst_tetrahedra_.inverted > 0)
-    lines.push_back("in frame " + std::to_string(frame_of_tetrahedra_) + ", " + std::to_string(worst_tetrahedra_.inverted) +
-                    " of " + std::to_string(worst_tetrahedra_.tetrahedra) +
+    lines.push_back("in frame " + std::to_string(frame_of_tetrahedra_) + ", " +
+                    std::to_string(worst_tetrahedra_.inverted) + " of " + std::to_string(worst_tetrahedra_.tetrahedra) +
                     " tetrahedra were turned inside out; use more substeps");
   std::vector<std::string> said = lines;
   said.push_back(advice(world));
@@ -257,7 +258,8 @@ std::string RunReport::json(const std::string& scene_path, const Scene& scene, c
   json["widest_tie"] = tie_json(world, widest_tie_, frame_of_tie_);
   json["flow"] = flow_json(scene, flow_);
   json["tears"] = tears_json(scene, tears_);
-  json["compression"] = compression_json(scene, last_.compression, worst_compression_, frame_of_mean_, frame_of_largest_);
+  json["compression"] =
+      compression_json(scene, last_.compression, worst_compression_, frame_of_mean_, frame_of_largest_);
   json["tetrahedra"] = tetrahedra_json(world, worst_tetrahedra_, frame_of_tetrahedra_);
   json["nonfinite"] = report_parts::nonfinite_json(last_);
   json["warnings"] = warnings(world);

@@ -33,12 +33,13 @@ using Json = nlohmann::ordered_json;
 using render::RenderScene;
 
 /// The columns after those of what is varied; the pointers into the report of `pliant run --report` that fill them.
-const std::vector<std::pair<std::string, std::string>> always_measured{{"frames", "/frames"},
-                                                                       {"state_hash", "/state_hash"},
-                                                                       {"ms_per_frame", "/ms_per_frame/median"},
-                                                                       {"mean_substeps", "/mean_substeps"},
-                                                                       {"worst_p99_overstretch", "/overstretch/worst_p99"},
-                                                                       {"worst_overstretch", "/overstretch/worst_largest"}};
+const std::vector<std::pair<std::string, std::string>> always_measured{
+    {"frames", "/frames"},
+    {"state_hash", "/state_hash"},
+    {"ms_per_frame", "/ms_per_frame/median"},
+    {"mean_substeps", "/mean_substeps"},
+    {"worst_p99_overstretch", "/overstretch/worst_p99"},
+    {"worst_overstretch", "/overstretch/worst_largest"}};
 
 /// What a variant gave.
 struct Outcome {
@@ -85,7 +86,8 @@ void check_measures(const StudyOptions& options) {
   for (const std::string& pointer : options.measures) try {
       (void)Json::json_pointer(pointer);
     } catch (const Json::exception&) {
-      throw Error({}, "'" + pointer + "' is no JSON pointer", "write a member of the report of a run, as /overstretch/p99");
+      throw Error({}, "'" + pointer + "' is no JSON pointer",
+                  "write a member of the report of a run, as /overstretch/p99");
     }
 }
 
@@ -96,8 +98,8 @@ SceneFile file_of(const StudyOptions& options, const Variant& variant, bool is_a
   return read_file_with(options.scene, overrides, true);
 }
 
-/// What decides the results of a variant, in 16 digits: the scene, its frames, and the version of Pliant. Empty if the scene
-/// cannot be read.
+/// What decides the results of a variant, in 16 digits: the scene, its frames, and the version of Pliant. Empty if the
+/// scene cannot be read.
 std::string fingerprint_of(const StudyOptions& options, const Variant& variant) {
   try {
     const Scene scene = file_of(options, variant, false).scene;
@@ -175,9 +177,10 @@ void run_side_by_side(std::size_t count, std::size_t jobs, const std::function<v
   if (first != nullptr) std::rethrow_exception(first);
 }
 
-/// Draws the last frame of each variant, from one camera, into one picture: as many to a row as the last member has values.
-/// Those that failed stay white.
-void draw_sheet(const StudyOptions& options, const std::vector<std::optional<RenderScene>>& pictures, std::size_t columns) {
+/// Draws the last frame of each variant, from one camera, into one picture: as many to a row as the last member has
+/// values. Those that failed stay white.
+void draw_sheet(const StudyOptions& options, const std::vector<std::optional<RenderScene>>& pictures,
+                std::size_t columns) {
   constexpr int width = 320, height = 240, gap = 4;
   const std::size_t rows = (pictures.size() + columns - 1) / columns;
   const auto whole = [](std::size_t count, int size) { return static_cast<int>(count) * (size + gap) - gap; };

@@ -16,22 +16,22 @@ struct Varied {
   std::vector<std::string> values;  ///< JSON, or text that stands for itself
 };
 
-/// Reads "POINTER=a,b,c". A comma within brackets, braces or quotes separates nothing. Throws an Error without a pointer or
-/// a value.
+/// Reads "POINTER=a,b,c". A comma within brackets, braces or quotes separates nothing. Throws an Error without a
+/// pointer or a value.
 Varied parse_varied(const std::string& text);
 
 /// A combination of values: "pointer=value" for each member that is varied.
 using Variant = std::vector<std::string>;
 
-/// All combinations; those of the last member change fastest. Throws an Error if there are more than 100 000, or if a member
-/// is varied twice.
+/// All combinations; those of the last member change fastest. Throws an Error if there are more than 100 000, or if a
+/// member is varied twice.
 std::vector<Variant> combinations(const std::vector<Varied>& varied);
 
 /// The fields of a line of CSV (RFC 4180).
 std::vector<std::string> csv_fields(const std::string& line);
 
-/// A table in CSV, whose file is complete at any time. Rows of an earlier table with the same columns are kept, so that a
-/// study goes on where it was stopped, and others of the same members stand in one table.
+/// A table in CSV, whose file is complete at any time. Rows of an earlier table with the same columns are kept, so that
+/// a study goes on where it was stopped, and others of the same members stand in one table.
 class StudyTable {
  public:
   /// The first `keys` columns are the values of a variant; the next two say what it was made of, and if it went well
@@ -50,8 +50,9 @@ class StudyTable {
   std::string path_;
   std::vector<std::string> columns_;
   std::size_t keys_;
-  std::vector<std::vector<std::string>> rows_;                 ///< empty: not there yet
-  std::map<std::string, std::vector<std::string>> earlier_{};  ///< rows of the file that no row replaces, by their values
+  std::vector<std::vector<std::string>> rows_;  ///< empty: not there yet
+  std::map<std::string, std::vector<std::string>>
+      earlier_{};  ///< rows of the file that no row replaces, by their values
   std::chrono::steady_clock::time_point written_{};
 };
 

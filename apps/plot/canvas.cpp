@@ -68,7 +68,8 @@ bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 Canvas::Canvas(int width, int height, Colour background) : width_(width), height_(height) {
   if (width < 1 || height < 1 || width > largest_side || height > largest_side)
-    throw Error({}, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels cannot be created",
+    throw Error({},
+                "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels cannot be created",
                 "use 1 to " + std::to_string(largest_side) + " on either side");
   pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
   for (std::size_t i = 0; i < pixels_.size(); i += 3) {

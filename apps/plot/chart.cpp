@@ -161,7 +161,9 @@ void draw_frame(Canvas& canvas, const Layout& layout, Point corner, int height) 
 double dashes(Canvas& canvas, Point from, Point to, double offset, Colour colour) {
   constexpr double on = 9, period = 16;
   const double length = std::hypot(to.x - from.x, to.y - from.y);
-  auto at = [&](double s) { return Point{from.x + (to.x - from.x) * s / length, from.y + (to.y - from.y) * s / length}; };
+  auto at = [&](double s) {
+    return Point{from.x + (to.x - from.x) * s / length, from.y + (to.y - from.y) * s / length};
+  };
   for (double start = -offset; length > 0 && start < length; start += period)
     if (start + on > 0) canvas.line(at(std::max(start, 0.0)), at(std::min(start + on, length)), 2, colour);
   return std::fmod(offset + length, period);
@@ -214,7 +216,8 @@ void draw_chart(Canvas& canvas, const Chart& chart, Point corner, int width, int
   draw_grid(canvas, layout);
   draw_frame(canvas, layout, corner, height);
   canvas.clip(layout.upper_left, layout.lower_right);
-  for (std::size_t i = 0; i < chart.series.size(); ++i) draw_series(canvas, layout, chart.series[i], colour_of(chart, i));
+  for (std::size_t i = 0; i < chart.series.size(); ++i)
+    draw_series(canvas, layout, chart.series[i], colour_of(chart, i));
   canvas.unclip();
   draw_legend(canvas, chart, corner, width);
 }
@@ -251,7 +254,8 @@ Ticks logarithmic_ticks(double low, double high, int wanted) {
       ticks.labels.push_back(number_of_power(place, factor, k));
     }
   }
-  // Within a decade there may be fewer than three ticks; then place ticks at round numbers, which are at uneven distances.
+  // Within a decade there may be fewer than three ticks; then place ticks at round numbers, which are at uneven
+  // distances.
   return ticks.places.size() < 3 ? linear_ticks(std::pow(10, low), std::pow(10, high), wanted) : ticks;
 }
 

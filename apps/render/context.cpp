@@ -83,7 +83,8 @@ Context::~Context() {
 }
 
 void Context::make_current() const {
-  if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) fail("the OpenGL context was lost", "try again");
+  if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+    fail("the OpenGL context was lost", "try again");
 }
 
 std::string Context::device() const {

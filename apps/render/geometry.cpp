@@ -121,7 +121,8 @@ void add_slab(Geometry& geometry, const RenderCollider& plane, const Vec3f& arou
 Geometry build_collider(const RenderCollider& collider, const Vec3f& around, float radius) {
   Geometry geometry{.vertices = {}, .indices = {}, .colour = collider.colour, .material = Material::solid};
   if (const auto* sphere = std::get_if<Sphere>(&collider.shape)) add_capsule(geometry, sphere->radius, 0, around_steps);
-  if (const auto* c = std::get_if<Capsule>(&collider.shape)) add_capsule(geometry, c->radius, c->half_length, around_steps);
+  if (const auto* c = std::get_if<Capsule>(&collider.shape))
+    add_capsule(geometry, c->radius, c->half_length, around_steps);
   if (const auto* box = std::get_if<Box>(&collider.shape)) add_box(geometry, -box->half_extents, box->half_extents);
   if (std::holds_alternative<Plane>(collider.shape)) add_slab(geometry, collider, around, radius);
   place(geometry, collider.position, collider.rotation);
@@ -132,7 +133,8 @@ Geometry build_collider(const RenderCollider& collider, const Vec3f& around, flo
 std::vector<Vec3f> face_normals(const std::vector<Vec3f>& positions, const std::vector<std::array<int, 3>>& triangles) {
   std::vector<Vec3f> faces;
   faces.reserve(triangles.size());
-  for (const auto& [a, b, c] : triangles) faces.push_back(cross(positions[b] - positions[a], positions[c] - positions[a]));
+  for (const auto& [a, b, c] : triangles)
+    faces.push_back(cross(positions[b] - positions[a], positions[c] - positions[a]));
   return faces;
 }
 
@@ -159,7 +161,8 @@ Geometry build_creased(const RenderMesh& mesh, Material material) {
       for (const std::size_t other : around[corner])
         if (dot(directions[other], directions[t]) > about) normal += faces[other];
       geometry.indices.push_back(static_cast<std::uint32_t>(geometry.vertices.size()));
-      geometry.vertices.push_back({mesh.positions[corner], unit(normal), shade_of(mesh, static_cast<std::size_t>(corner))});
+      geometry.vertices.push_back(
+          {mesh.positions[corner], unit(normal), shade_of(mesh, static_cast<std::size_t>(corner))});
     }
   }
   return geometry;
@@ -171,9 +174,11 @@ void add_bodies(const std::vector<RenderBody>& bodies, std::vector<Geometry>& re
   for (const RenderBody& body : bodies) {
     const auto [found, is_new] = made.try_emplace(body.mesh.get());
     if (is_new)
-      found->second = build_creased(
-          {.positions = body.mesh->positions, .triangles = body.mesh->triangles, .colour = body.colour, .is_solid = true},
-          Material::solid);
+      found->second = build_creased({.positions = body.mesh->positions,
+                                     .triangles = body.mesh->triangles,
+                                     .colour = body.colour,
+                                     .is_solid = true},
+                                    Material::solid);
     Geometry geometry = found->second;
     geometry.colour = body.colour;
     place(geometry, body.pose.position, body.pose.rotation);
@@ -261,7 +266,8 @@ Geometry build_mesh(const RenderMesh& mesh) {
   if (mesh.is_solid) return build_creased(mesh, Material::solid);
   if (!mesh.creased.empty()) return build_creased(mesh, Material::cloth);
   const Material material = mesh.is_liquid ? Material::liquid : Material::cloth;
-  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = material, .clarity = mesh.clarity};
+  Geometry geometry{
+      .vertices = {}, .indices = {}, .colour = mesh.colour, .material = material, .clarity = mesh.clarity};
   const std::vector<Vec3f> normals = output::vertex_normals(mesh.positions, mesh.triangles);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     geometry.vertices.push_back({mesh.positions[i], normals[i], shade_of(mesh, i)});
@@ -281,8 +287,9 @@ Vec3f half_size(const Shape& shape) {
 bool finite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 [[noreturn]] void refuse(const char* kind, std::size_t index, const std::string& problem) {
-  throw Error({.file = {}, .line = 0, .object = {}, .element = kind + (" " + std::to_string(index)) + " of the picture"},
-              problem);
+  throw Error(
+      {.file = {}, .line = 0, .object = {}, .element = kind + (" " + std::to_string(index)) + " of the picture"},
+      problem);
 }
 
 void check_triangles(const char* kind, std::size_t index, const std::vector<Vec3f>& positions,

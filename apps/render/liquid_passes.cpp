@@ -34,7 +34,8 @@ LiquidPasses::LiquidPasses(int width, int height) : width_(width), height_(heigh
   behind_ = colour_target(make_texture(GL_RGBA8, width, height, GL_RGBA, GL_UNSIGNED_BYTE, GL_LINEAR));
 }
 
-void LiquidPasses::draw_shadows(const SceneBuffers& scene, const Sun& sun, float size, const OpaquePicture& opaque) const {
+void LiquidPasses::draw_shadows(const SceneBuffers& scene, const Sun& sun, float size,
+                                const OpaquePicture& opaque) const {
   glBindFramebuffer(GL_FRAMEBUFFER, shadow_.framebuffer.get());
   glViewport(0, 0, liquid_shadow_size, liquid_shadow_size);
   begin_sums();

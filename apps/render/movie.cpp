@@ -60,7 +60,8 @@ struct MovieWriter::Implementation {
     const std::string name = make_beside(words);
     ::unlink(name.c_str());
     std::array<int, 2> ends{-1, -1};
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail("cannot create a socket to ffmpeg");
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+      fail("cannot create a socket to ffmpeg");
     socket = ends[0];
     const int code = spawn(ends[1], width, height, rate);
     ::close(ends[1]);
@@ -75,9 +76,9 @@ struct MovieWriter::Implementation {
         "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pixel_format", "rgb24",
         "-video_size", size, "-framerate", frames, "-i", "pipe:0", "-an", "-vf",
         // H.264 with fewer samples of colour needs even sizes, and players assume the colour space BT.709.
-        "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264", "-preset", "medium",
-        "-crf", "17", "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
-        "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4", "file:" + temporary};
+        "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264", "-preset",
+        "medium", "-crf", "17", "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709",
+        "-color_trc", "bt709", "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4", "file:" + temporary};
     std::vector<char*> arguments;
     for (const std::string& word : words_of_command) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);

@@ -25,10 +25,10 @@ struct RenderMesh {
   std::vector<std::array<int, 3>> triangles;
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< colour as linear RGB, 0..1
   bool is_solid = false;              ///< true: a collider, drawn with sharp edges
-  bool is_liquid = false;             ///< true: the closed surface of a liquid, drawn clear, deeper in colour where thick
-  float clarity = 0;                  ///< of a liquid, as Fluid::clarity [m]
-  std::vector<float> wetness{};       ///< of each vertex, 0 dry to 1 full of liquid, which darkens it; empty: dry
-  std::vector<Vec3f> creased{};       ///< positions in which sharp edges are those of the shape; empty: none is sharp
+  bool is_liquid = false;        ///< true: the closed surface of a liquid, drawn clear, deeper in colour where thick
+  float clarity = 0;             ///< of a liquid, as Fluid::clarity [m]
+  std::vector<float> wetness{};  ///< of each vertex, 0 dry to 1 full of liquid, which darkens it; empty: dry
+  std::vector<Vec3f> creased{};  ///< positions in which sharp edges are those of the shape; empty: none is sharp
 };
 
 /// A line drawn as a round tube, for ropes; a single point becomes a ball.
@@ -91,13 +91,13 @@ struct RenderScene {
   std::vector<Vec3f> unseen{};  ///< points that the camera frames, though nothing is drawn there
 };
 
-/// Makes what to draw of a World at present: objects with triangles as surfaces, ropes as tubes, free particles as balls, rigid
-/// bodies as their solids, tracers as smoke. Gases are not seen.
+/// Makes what to draw of a World at present: objects with triangles as surfaces, ropes as tubes, free particles as
+/// balls, rigid bodies as their solids, tracers as smoke. Gases are not seen.
 RenderScene make_render_scene(const Scene& scene, const World& world);
 
-/// A camera that shows every scene in `scenes` in a picture of this shape. Of liquids, free particles and bodies the few
-/// that lie far from the others (2.5 % on each side at most) may be outside. For a movie, give scenes between which the
-/// motion takes place (at least the first one), and keep the camera.
+/// A camera that shows every scene in `scenes` in a picture of this shape. Of liquids, free particles and bodies the
+/// few that lie far from the others (2.5 % on each side at most) may be outside. For a movie, give scenes between which
+/// the motion takes place (at least the first one), and keep the camera.
 Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, const CameraOptions& options = {});
 
 /// The extent of all scenes together. For a movie, give the same scenes as to frame_camera, and keep the extent.

@@ -1,5 +1,5 @@
-// Draws a picture in passes: shadow map, shadows of liquids, depth, ambient occlusion, the multisampled picture with its liquids, and the mean
-// of its samples.
+// Draws a picture in passes: shadow map, shadows of liquids, depth, ambient occlusion, the multisampled picture with
+// its liquids, and the mean of its samples.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -102,8 +102,8 @@ Renderer::Implementation::Implementation(int w, int h, Quality quality)
   GLuint name = 0;
   glGenVertexArrays(1, &name);
   nothing = VertexArray(name);
-  shadow.texture =
-      make_texture(GL_DEPTH_COMPONENT24, shadow_map_size, shadow_map_size, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_LINEAR);
+  shadow.texture = make_texture(GL_DEPTH_COMPONENT24, shadow_map_size, shadow_map_size, GL_DEPTH_COMPONENT,
+                                GL_UNSIGNED_INT, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   GLuint sampler = 0;
   glGenSamplers(1, &sampler);
@@ -249,7 +249,8 @@ std::vector<std::uint8_t> Renderer::Implementation::read_back() const {
   std::vector<std::uint8_t> upside_down(row * rows), result(row * rows);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
-  if (glGetError() != GL_NO_ERROR) throw Error({}, "the OpenGL driver failed while drawing", "choose a smaller picture");
+  if (glGetError() != GL_NO_ERROR)
+    throw Error({}, "the OpenGL driver failed while drawing", "choose a smaller picture");
   for (std::size_t y = 0; y < rows; ++y) std::memcpy(&result[y * row], &upside_down[(rows - 1 - y) * row], row);
   return result;
 }
@@ -259,7 +260,8 @@ std::vector<float> Renderer::Implementation::read_depths() const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, depth.framebuffer.get());
   glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
-  if (glGetError() != GL_NO_ERROR) throw Error({}, "the OpenGL driver failed while drawing", "choose a smaller picture");
+  if (glGetError() != GL_NO_ERROR)
+    throw Error({}, "the OpenGL driver failed while drawing", "choose a smaller picture");
   return depths;
 }
 
@@ -314,7 +316,8 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
 Renderer::Renderer(int width, int height, Quality quality) {
   constexpr int smallest = 16, largest = 8192;
   if (width < smallest || height < smallest || width > largest || height > largest)
-    throw Error({}, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels cannot be drawn",
+    throw Error({},
+                "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels cannot be drawn",
                 "choose 16 to 8192 pixels for width and height");
   self_ = std::make_unique<Implementation>(width, height, quality);
 }

@@ -22,7 +22,8 @@ SceneBuffers::SceneBuffers() {
     glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(i * sizeof(Vec3f)));
   }
   glEnableVertexAttribArray(3);
-  glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(offsetof(Vertex, shade)));
+  glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                        reinterpret_cast<const void*>(offsetof(Vertex, shade)));
   glVertexAttribDivisor(2, 1);
 }
 
@@ -52,7 +53,8 @@ void SceneBuffers::upload(const std::vector<Geometry>& geometries) {
 }
 
 bool SceneBuffers::has_liquid() const {
-  return std::any_of(ranges_.begin(), ranges_.end(), [](const Range& range) { return range.material == Material::liquid; });
+  return std::any_of(ranges_.begin(), ranges_.end(),
+                     [](const Range& range) { return range.material == Material::liquid; });
 }
 
 void SceneBuffers::draw(const Range& range) const {

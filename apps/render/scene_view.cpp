@@ -32,7 +32,8 @@ float lowest_body(const Object& object) {
   return std::isfinite(low) ? low : 0;
 }
 
-/// The lowest height that an object can reach: a hanging one can swing down by its size, a falling one lands on something.
+/// The lowest height that an object can reach: a hanging one can swing down by its size, a falling one lands on
+/// something.
 float lowest(const Object& object) {
   Bounds all, held;
   for (std::size_t i = 0; i < object.positions.size(); ++i) {
@@ -102,7 +103,8 @@ void add_bodies(RenderScene& result, const Object& object, const output::FrameOb
     const bool is_fixed = !std::isfinite(object.masses[static_cast<std::size_t>(object.bodies[b].particle)]);
     const Vec3f awake = body_colour(shape.colour, b);
     const Vec3f colour = view.body_is_asleep(static_cast<int>(b)) ? sleeping_colour(awake) : awake;
-    result.bodies.push_back({meshes[static_cast<std::size_t>(shape.bodies[b].solid)], motions[b].pose, colour, is_fixed});
+    result.bodies.push_back(
+        {meshes[static_cast<std::size_t>(shape.bodies[b].solid)], motions[b].pose, colour, is_fixed});
   }
 }
 
@@ -153,8 +155,9 @@ void add_weights(RenderScene& result, const Object& object, const std::vector<Ve
 /// Draws the surface of a liquid. Particles that are not finite, or far away, are left out.
 void add_liquid(RenderScene& result, const Object& object, std::vector<Vec3f> positions, const Vec3f& colour) {
   const float spacing = object.fluid->spacing, most = 1e6f * spacing;
-  std::erase_if(positions,
-                [&](const Vec3f& p) { return !(std::abs(p.x) < most && std::abs(p.y) < most && std::abs(p.z) < most); });
+  std::erase_if(positions, [&](const Vec3f& p) {
+    return !(std::abs(p.x) < most && std::abs(p.y) < most && std::abs(p.z) < most);
+  });
   TriangleMesh surface = liquid_surface(positions, {.spacing = spacing});
   result.meshes.push_back({.positions = std::move(surface.positions),
                            .triangles = std::move(surface.triangles),
@@ -241,8 +244,8 @@ RenderScene make_render_scene(const Scene& scene, const World& world) {
     const Collider& collider = scene.colliders[i];
     const int index = static_cast<int>(i);
     at_rest.push_back({collider.shape, collider.position, collider.rotation, collider.colour});
-    result.colliders.push_back(
-        {collider.shape, world.collider(index).pose().position, world.collider(index).pose().rotation, collider.colour});
+    result.colliders.push_back({collider.shape, world.collider(index).pose().position,
+                                world.collider(index).pose().rotation, collider.colour});
   }
   result.ground = ground_height(scene, at_rest);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)

@@ -169,7 +169,8 @@ float lit(vec3 normal) {
   for (int i = 0; i < taps; ++i) sum += texture(shadow, vec3(place.xy + spiral[i] * wide, place.z));
   return taps > 0 ? sum / 16.0 : float(found == 0.0);
 }
-/// The share of the sunlight that liquids leave: absorbed by the length of its way, and some turned away by their surfaces.
+/// The share of the sunlight that liquids leave: absorbed by the length of its way, and some turned away by their
+/// surfaces.
 vec3 left_by_liquid() {
   if (in_liquid == 0.0) return vec3(1.0);
   vec2 place = (light * vec4(at, 1.0)).xy;
@@ -221,8 +222,8 @@ void main() {
 }
 )";
 
-/// How much liquid a ray passes before it meets what is opaque: the distances at which it leaves the closed surface, less those at
-/// which it enters it. Distances are taken from `middle`, so that their sum keeps more digits.
+/// How much liquid a ray passes before it meets what is opaque: the distances at which it leaves the closed surface,
+/// less those at which it enters it. Distances are taken from `middle`, so that their sum keeps more digits.
 inline constexpr const char* thickness_fragment = R"(#version 330 core
 in vec3 at;
 out float length_within;
@@ -239,8 +240,8 @@ void main() {
 }
 )";
 
-/// What sunlight passes of a liquid before it meets what is opaque: the length [m] in the fourth component, and its product with the
-/// coefficients of absorption in the others.
+/// What sunlight passes of a liquid before it meets what is opaque: the length [m] in the fourth component, and its
+/// product with the coefficients of absorption in the others.
 inline constexpr const char* liquid_shadow_fragment = R"(#version 330 core
 out vec4 passed;
 uniform sampler2D opaque;
@@ -252,8 +253,8 @@ void main() {
 }
 )";
 
-/// Shades the surface of a liquid: what is behind it, shifted as a refracted ray is (Snell), absorbed by thickness (Beer and Lambert), and the
-/// sky's reflection by angle (Schlick 1994).
+/// Shades the surface of a liquid: what is behind it, shifted as a refracted ray is (Snell), absorbed by thickness
+/// (Beer and Lambert), and the sky's reflection by angle (Schlick 1994).
 inline constexpr const char* liquid_fragment = R"(
 in vec3 at, facing;
 out vec4 colour;

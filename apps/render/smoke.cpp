@@ -132,7 +132,8 @@ struct Span {
 
 Span span_in(const Grid& grid, const Vec3f& eye, const Vec3f& way) {
   Span span{0, 1e30f};
-  const std::array<float, 3> from{eye.x - grid.low.x, eye.y - grid.low.y, eye.z - grid.low.z}, along{way.x, way.y, way.z};
+  const std::array<float, 3> from{eye.x - grid.low.x, eye.y - grid.low.y, eye.z - grid.low.z},
+      along{way.x, way.y, way.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const float extent = static_cast<float>(grid.size[axis]) * grid.cell;
     const float inverse = 1 / (std::abs(along[axis]) > 1e-12f ? along[axis] : 1e-12f);

@@ -1,5 +1,5 @@
-// Smoke as a volume: puffs are summed on a grid, light from the sun is attenuated through the grid, and a ray for each pixel is marched
-// through it (Kajiya and Von Herzen 1984), up to what the picture shows so far.
+// Smoke as a volume: puffs are summed on a grid, light from the sun is attenuated through the grid, and a ray for each
+// pixel is marched through it (Kajiya and Von Herzen 1984), up to what the picture shows so far.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,8 @@ struct SmokeView {
   Vec3f sun{};  ///< direction to it
 };
 
-/// Draws the smoke of a scene over a picture: rows from the top, sRGB. `depths` has rows from the bottom, 0 to 1, as OpenGL has them.
+/// Draws the smoke of a scene over a picture: rows from the top, sRGB. `depths` has rows from the bottom, 0 to 1, as
+/// OpenGL has them.
 void draw_smoke(const std::vector<RenderSmoke>& smokes, const SmokeView& view, const std::vector<float>& depths,
                 std::vector<std::uint8_t>& rgb);
 

@@ -50,7 +50,8 @@ void add_prism(Geometry& geometry, const std::vector<Vec3f>& front, const Vec3f&
 /// True if a plane that faces down lies below `height`.
 bool has_ceiling(const std::vector<RenderCollider>& colliders, float height) {
   return std::any_of(colliders.begin(), colliders.end(), [&](const RenderCollider& collider) {
-    return std::holds_alternative<Plane>(collider.shape) && normal_of(collider).y < -0.5f && collider.position.y < height;
+    return std::holds_alternative<Plane>(collider.shape) && normal_of(collider).y < -0.5f &&
+           collider.position.y < height;
   });
 }
 

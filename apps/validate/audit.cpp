@@ -62,7 +62,8 @@ SurfaceBox path_of(const std::vector<Vec3f>& from, const std::vector<Vec3f>& to,
   return box;
 }
 
-/// Audits a rope: counts the pairs of links that meet while their particles move linearly, and finds the least distance.
+/// Audits a rope: counts the pairs of links that meet while their particles move linearly, and finds the least
+/// distance.
 class Links {
  public:
   explicit Links(std::vector<Vec3f> start) : from_(std::move(start)), paths_(from_.size() - 1) {}

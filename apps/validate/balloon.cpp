@@ -41,8 +41,8 @@ Balloon blow_up(double pressure, plot::Series& curve) {
 void balloon_rows(Result& result, bool) {
   plot::Chart chart{"Balloons fill to their pressure", "time [s]", "V / V0", false, false, {}};
   const double rest = World(scene_with(make_cloth(sphere_mesh(3)), 0, 1, 1)).object(0).enclosed_volume();
-  result.rows.push_back(
-      relative("balloon: engine, volume of the rest shape", 4 * pi / 3, rest, 0.02, "m^3", "a sphere of 1280 triangles"));
+  result.rows.push_back(relative("balloon: engine, volume of the rest shape", 4 * pi / 3, rest, 0.02, "m^3",
+                                 "a sphere of 1280 triangles"));
   for (double pressure : {0.5, 1.0, 1.5, 3.0}) {
     plot::Series curve;
     curve.name = "k = " + brief(pressure);
@@ -50,8 +50,8 @@ void balloon_rows(Result& result, bool) {
     const std::string name = "balloon: engine, V / V0 at k = " + brief(pressure);
     result.rows.push_back(relative(name, pressure, balloon.volume, 0.01, "", "rigid volume, elastic skin, after 3 s"));
     if (pressure >= 1)
-      result.rows.push_back(absolute("balloon: engine, roundness at k = " + brief(pressure), 1, balloon.roundness, 0.02, "",
-                                     "smallest over largest radius"));
+      result.rows.push_back(absolute("balloon: engine, roundness at k = " + brief(pressure), 1, balloon.roundness, 0.02,
+                                     "", "smallest over largest radius"));
     chart.series.push_back(curve);
   }
   result.charts.push_back(chart);

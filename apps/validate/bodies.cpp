@@ -1,4 +1,5 @@
-// Rigid bodies: a tumbling body, friction, impacts, stacks. All rows are of the engine, in float, with its default substeps.
+// Rigid bodies: a tumbling body, friction, impacts, stacks. All rows are of the engine, in float, with its default
+// substeps.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,8 +47,9 @@ void run(World& world, int frames) {
 
 // ------------------------------------------------------------------------------------------------ tumbling
 
-/// Half of the period of a body with principal moments of inertia 1, 2 and 3 that starts at w = (0.01, 1, 0): 2 K(k) / rate, with
-/// the complete elliptic integral by the arithmetic-geometric mean (Landau and Lifshitz, Mechanics, section 37).
+/// Half of the period of a body with principal moments of inertia 1, 2 and 3 that starts at w = (0.01, 1, 0): 2 K(k) /
+/// rate, with the complete elliptic integral by the arithmetic-geometric mean (Landau and Lifshitz, Mechanics, section
+/// 37).
 double tumbling_half_period() {
   const double twice_energy = 1e-4 + 2, squared = 1e-4 + 4;  // 2 E and L^2
   const double rate = std::sqrt((3 * twice_energy - squared) / 6),
@@ -134,8 +136,8 @@ Vec3f pushed(const SolidShape& shape, bool is_on_mesh) {
 void body_mesh_rows(Result& result) {
   const std::vector<std::pair<std::string, SolidShape>> solids{{"box", Box{}}, {"ball", Sphere{}}};
   for (const auto& [name, shape] : solids)
-    result.rows.push_back(at_most("bodies: engine, " + name + " on a flat mesh, from where it would be on a plane", 1e-3,
-                                  length_of(pushed(shape, true) - pushed(shape, false)), "m",
+    result.rows.push_back(at_most("bodies: engine, " + name + " on a flat mesh, from where it would be on a plane",
+                                  1e-3, length_of(pushed(shape, true) - pushed(shape, false)), "m",
                                   "3 m/s, friction 0.1, after 4 m, edges every 0.3 m"));
 }
 
@@ -144,8 +146,8 @@ void body_friction_rows(Result& result) {
   for (double degrees = 30; degrees < 32 && slips == 0; degrees += 0.05)
     if (std::fabs(static_cast<double>(slid(degrees, 0, 300).x)) > 0.02) slips = degrees;
   auto& rows = result.rows;
-  rows.push_back(absolute("bodies: engine, incline on which a box slips", std::atan(0.6) * 180 / pi, slips, 0.3, "degrees",
-                          "friction 0.6; moves by 2 cm within 5 s"));
+  rows.push_back(absolute("bodies: engine, incline on which a box slips", std::atan(0.6) * 180 / pi, slips, 0.3,
+                          "degrees", "friction 0.6; moves by 2 cm within 5 s"));
   rows.push_back(at_most("bodies: engine, creep of a box on an incline of 29 degrees", 1e-3,
                          std::fabs(static_cast<double>(slid(29, 0, 600).x)), "m", "friction 0.6, 10 s"));
   rows.push_back(at_most("bodies: engine, speed of a box that begins at rest on an incline of 40 degrees", 1e-3,
@@ -212,14 +214,14 @@ void body_impact_rows(Result& result) {
                             note + "default substeps"));
   }
   const std::vector<double> pair = after_impact({1000, 3000}, 0.5, 0.1);
-  rows.push_back(absolute("bodies: engine, impact on a ball of three times the mass, first", -0.125, pair[0], 0.005, "m/s",
-                          "1 m/s, restitution 0.5"));
-  rows.push_back(absolute("bodies: engine, impact on a ball of three times the mass, second", 0.375, pair[1], 0.005, "m/s",
-                          "1 m/s, restitution 0.5"));
+  rows.push_back(absolute("bodies: engine, impact on a ball of three times the mass, first", -0.125, pair[0], 0.005,
+                          "m/s", "1 m/s, restitution 0.5"));
+  rows.push_back(absolute("bodies: engine, impact on a ball of three times the mass, second", 0.375, pair[1], 0.005,
+                          "m/s", "1 m/s, restitution 0.5"));
   for (const double gap : {0., 0.001, 0.1}) {
     const std::vector<double> cradle = after_impact({1000, 1000, 1000, 1000, 1000}, 1, gap);
-    rows.push_back(absolute("bodies: engine, last ball of Newton's cradle, gaps of " + brief(gap) + " m", 1, cradle.back(),
-                            0.01, "m/s", "1 m/s; five balls of 1 m, restitution 1"));
+    rows.push_back(absolute("bodies: engine, last ball of Newton's cradle, gaps of " + brief(gap) + " m", 1,
+                            cradle.back(), 0.01, "m/s", "1 m/s; five balls of 1 m, restitution 1"));
     rows.push_back(absolute("bodies: engine, first ball of Newton's cradle, gaps of " + brief(gap) + " m", 0,
                             cradle.front(), 0.01, "m/s", "likewise"));
   }
@@ -268,8 +270,8 @@ double resting_force() {
   return force;
 }
 
-Row stack_row(const std::string& what, const std::vector<float>& sizes, const std::vector<float>& densities, int substeps,
-              double bound = 0.01) {
+Row stack_row(const std::string& what, const std::vector<float>& sizes, const std::vector<float>& densities,
+              int substeps, double bound = 0.01) {
   const Rest rest = stack(sizes, densities, substeps, 600);
   const std::string how = substeps == 0 ? "default substeps" : brief(substeps) + " substeps";
   return at_most("bodies: engine, " + what, bound, rest.sunk, "m",
@@ -278,8 +280,8 @@ Row stack_row(const std::string& what, const std::vector<float>& sizes, const st
 
 void rest_rows(Result& result) {
   auto& rows = result.rows;
-  rows.push_back(relative("bodies: engine, force under a box at rest", 1000 * standard_gravity, resting_force(), 1e-3, "N",
-                          "1000 kg, after 2 s"));
+  rows.push_back(relative("bodies: engine, force under a box at rest", 1000 * standard_gravity, resting_force(), 1e-3,
+                          "N", "1000 kg, after 2 s"));
   rows.push_back(stack_row("box on one a hundredth as heavy", {1, 1}, {1000, 1e5f}, 0));
   rows.push_back(stack_row("box on one a thousandth as heavy", {1, 1}, {1000, 1e6f}, 32));
   std::vector<float> ten(11, 1000.f);

@@ -46,7 +46,8 @@ double engine_force(int iterations) {
     world.step(static_cast<float>(chain_frame));
     if (i < 600) continue;
     const std::vector<float> multipliers = world.object(0).multipliers("distance");
-    forces.push_back(multipliers.empty() ? infinity : -static_cast<double>(multipliers[0]) / (chain_frame * chain_frame));
+    forces.push_back(multipliers.empty() ? infinity
+                                         : -static_cast<double>(multipliers[0]) / (chain_frame * chain_frame));
   }
   return farthest(10 * chain_links, forces);
 }
@@ -56,7 +57,8 @@ void force_rows(Result& result) {
     int iterations;
     double tolerance;
   } cases[] = {{50, 0.06}, {100, 0.02}, {1000, 0.005}};
-  const std::string note = "lambda/h^2, the farthest value in 300 frames after 600; alpha 1e-8 m/N, dt 1/60 s, 1 substep";
+  const std::string note =
+      "lambda/h^2, the farthest value in 300 frames after 600; alpha 1e-8 m/N, dt 1/60 s, 1 substep";
   for (const auto& [iterations, tolerance] : cases) {
     const std::string name = "force at the top of 20 particles, " + brief(iterations) + " iterations";
     result.rows.push_back(relative("chain: " + name, 190, reference_force(iterations), tolerance, "N", note));
@@ -209,7 +211,8 @@ std::vector<Vec3f> nails_engine() {
   }
   Object object = particles(positions, masses);
   object.damping = 20;
-  connect(object, pairs, std::vector<float>(nail_links, static_cast<float>(nail_length / nail_links)), Stiffness::rigid());
+  connect(object, pairs, std::vector<float>(nail_links, static_cast<float>(nail_length / nail_links)),
+          Stiffness::rigid());
   World world(scene_with(object, nail_g, 100, 1));
   for (int i = 0; i < 600; ++i) world.step(1.f / 60);
   return world.object(0).positions();
@@ -224,7 +227,8 @@ double farthest_slope_step(const std::vector<Vec3d>& x, double expected) {
 }
 
 void nail_rows(Result& result) {
-  const double step = exact_slope_step(nail_links, nail_length, nail_span), sag = exact_sag(step, nail_links, nail_length);
+  const double step = exact_slope_step(nail_links, nail_length, nail_span),
+               sag = exact_sag(step, nail_links, nail_length);
   const Solver solver = nails_reference();
   std::vector<Vec3d> exact, engine;
   for (const auto& p : solver.particles) exact.push_back(p.position);
@@ -234,8 +238,8 @@ void nail_rows(Result& result) {
   rows.push_back(relative("chain: funicular polygon, m g / H", step, farthest_slope_step(exact, step), 1e-6, "",
                           "tan(theta) increases by this per link; the farthest value; " + note));
   rows.push_back(relative("chain: funicular polygon, sag", sag, -exact[nail_links / 2].y, 1e-6, "m", note));
-  rows.push_back(relative("chain: engine, funicular polygon, m g / H", step, farthest_slope_step(engine, step), 1e-2, "",
-                          note + ", 100 substeps, float"));
+  rows.push_back(relative("chain: engine, funicular polygon, m g / H", step, farthest_slope_step(engine, step), 1e-2,
+                          "", note + ", 100 substeps, float"));
   rows.push_back(
       relative("chain: engine, funicular polygon, sag", sag, -engine[nail_links / 2].y, 1e-3, "m", note + ", float"));
   rows.push_back(relative("chain: catenary, sag in the limit", catenary_sag(nail_length, nail_span),

@@ -22,7 +22,8 @@ void impact_rows(Result& result) {
   int missed[2] = {0, 0}, false_alarms[2] = {0, 0};
   for (int i = 0; i < queries; ++i) {
     const bool edges = i % 2 == 1, hits = i % 4 < 2;
-    std::array<Vec3f, 4> at, from, to;  // `at`: corners at the contact, in the plane z = 0, which cross or are 0.1 apart
+    std::array<Vec3f, 4> at, from,
+        to;  // `at`: corners at the contact, in the plane z = 0, which cross or are 0.1 apart
     const float s = static_cast<float>(random.uniform(0.05, 0.95)), past = hits ? 0.f : 0.1f;
     if (edges) {
       at[0] = {-1, 0, past}, at[1] = {1, 0, past};
@@ -45,7 +46,8 @@ void impact_rows(Result& result) {
     false_alarms[edges] += !hits && found ? 1 : 0;
   }
   for (int edges = 0; edges < 2; ++edges) {
-    const std::string name = std::string("collision: continuous, ") + (edges == 1 ? "two edges" : "vertex and triangle");
+    const std::string name =
+        std::string("collision: continuous, ") + (edges == 1 ? "two edges" : "vertex and triangle");
     result.rows.push_back(at_most(name + ", missed", 0, missed[edges], "", "5000 that meet during the motion, float"));
     result.rows.push_back(at_most(name + ", false alarms", 0.01 * queries / 4, false_alarms[edges], "",
                                   "1 % of 5000 that pass at 0.1 m, float"));
@@ -107,8 +109,8 @@ void layer_rows(Result& result, bool filter) {
     apart += static_cast<double>(world.object(2).positions()[i].y - world.object(1).positions()[i].y) / 100;
   result.rows.push_back(at_most("collision: engine, three layers, edges through triangles" + with(filter), 0,
                                 static_cast<double>(most), "", "exact signs, 90 frames"));
-  result.rows.push_back(relative("collision: engine, distance of resting layers" + with(filter), 0.004, apart, 0.02, "m",
-                                 "the sum of both thicknesses"));
+  result.rows.push_back(relative("collision: engine, distance of resting layers" + with(filter), 0.004, apart, 0.02,
+                                 "m", "the sum of both thicknesses"));
 }
 
 /// How far a patch slides in a second down two oblique triangles [m].
@@ -185,9 +187,9 @@ void ball_rows(Result& result) {
       places.insert(places.end(), more.begin(), more.end());
       most = std::max(most, finder.find(places).size());
     }
-    result.rows.push_back(at_most(
-        "collision: engine, mesh ball at " + brief(double(speed)) + " m/s against a loose sheet, edges through triangles",
-        0, static_cast<double>(most), "", "exact signs, 10 frames"));
+    result.rows.push_back(at_most("collision: engine, mesh ball at " + brief(double(speed)) +
+                                      " m/s against a loose sheet, edges through triangles",
+                                  0, static_cast<double>(most), "", "exact signs, 10 frames"));
   }
 }
 
@@ -218,8 +220,8 @@ std::size_t thrown_sheets(bool filter) {
 void filter_rows(Result& result) {
   const std::string name = "collision: engine, sheets thrown at 20 m/s, edges through triangles";
   result.rows.push_back(at_most(name, 0, static_cast<double>(thrown_sheets(true)), "", "exact signs, 2 substeps"));
-  result.rows.push_back(
-      at_least(name + with(false), 1, static_cast<double>(thrown_sheets(false)), "", "shows that the filter is needed"));
+  result.rows.push_back(at_least(name + with(false), 1, static_cast<double>(thrown_sheets(false)), "",
+                                 "shows that the filter is needed"));
 }
 
 }  // namespace

@@ -96,8 +96,8 @@ void bounce_rows(Result& result) {
   plot::Chart chart{"A body bounces", "time [s]", "height [m]", false, false, {}};
   for (double e : {0.5, 0.8, 1.0}) {
     const Bounce bounce = drop(e);
-    result.rows.push_back(relative("contact: engine, height of the bounce, e = " + brief(e), e * e, bounce.apex, 0.01, "m",
-                                   "e^2 h, from 1 m, 100 substeps"));
+    result.rows.push_back(relative("contact: engine, height of the bounce, e = " + brief(e), e * e, bounce.apex, 0.01,
+                                   "m", "e^2 h, from 1 m, 100 substeps"));
     chart.series.push_back(bounce.curve);
   }
   result.charts.push_back(chart);

@@ -129,14 +129,14 @@ void reference_rows(Result& result) {
                     true,
                     {}};
   for (const auto& at : cases) {
-    result.rows.push_back(relative("convergence: " + std::string(at.name), at.expected, sweeps_in(at.curve), 0.1, "sweeps",
-                                   "to 1e-3 of the start; 100 links, free ends, in double"));
+    result.rows.push_back(relative("convergence: " + std::string(at.name), at.expected, sweeps_in(at.curve), 0.1,
+                                   "sweeps", "to 1e-3 of the start; 100 links, free ends, in double"));
     chart.series.push_back(series(at.name, at.curve));
   }
   result.charts.push_back(chart);
   const std::vector<double> refused = curve_of(natural, gauss_seidel_radius);
-  result.rows.push_back(relative("convergence: Chebyshev over natural order diverges", 1, refused.back() > 1e3 ? 1 : 0, 0,
-                                 "", "the reason why it is rejected; its residual grew more than a thousandfold"));
+  result.rows.push_back(relative("convergence: Chebyshev over natural order diverges", 1, refused.back() > 1e3 ? 1 : 0,
+                                 0, "", "the reason why it is rejected; its residual grew more than a thousandfold"));
 }
 
 // ---- the engine

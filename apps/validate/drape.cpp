@@ -1,8 +1,8 @@
 // The drape coefficient of the fabrics by Cusick's test: a disc of cloth of 30 cm, clamped between two discs of 18 cm,
 // hangs down all around. The coefficient is the share of the overhanging ring that its shadow covers.
 //
-// Measured: plain weave of 221 g/m^2 80.4 %, twill 3/1 79.8 %, with 5 to 8 folds. The bending stiffness of the presets that
-// are woven so is chosen by these numbers; what the rows test is that default settings reach them on every mesh.
+// Measured: plain weave of 221 g/m^2 80.4 %, twill 3/1 79.8 %, with 5 to 8 folds. The bending stiffness of the presets
+// that are woven so is chosen by these numbers; what the rows test is that default settings reach them on every mesh.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -138,8 +138,8 @@ void drape_rows(Result& result, bool slow) {
     double coefficient;
   };
   const TriangleMesh flat = disc_mesh(30, true);
-  result.rows.push_back(absolute("drape: coefficient of the flat disc", 100, coefficient_of(flat.positions, flat), 0.5, "%",
-                                 "shadow counted in squares of 0.5 mm"));
+  result.rows.push_back(absolute("drape: coefficient of the flat disc", 100, coefficient_of(flat.positions, flat), 0.5,
+                                 "%", "shadow counted in squares of 0.5 mm"));
   for (const Measured& known : {Measured{"cotton", "plain weave", 80.4}, Measured{"denim", "twill 3/1", 79.8}})
     for (int rings : slow ? std::vector<int>{20, 30, 40} : std::vector<int>{20, 30})
       for (bool irregular : {false, true}) {

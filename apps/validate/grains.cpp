@@ -112,15 +112,17 @@ void silo_rows(Result& result, float friction, float filled_widths, double toler
   result.rows.push_back(relative(name + "friction of walls", t, silo.friction(), 0.03, "",
                                  how + "weight that they bear over their pressure"));
   // Walls as rough as the bulk: the stress at the wall is at the bound of the bulk.
-  result.rows.push_back(relative(name + "pressure ratio K", (1 - sine_squared) / (1 + sine_squared), silo.pressure_ratio(),
-                                 tolerance, "", how + "Janssen, by the load of the floor; (1 - sin^2) / (1 + sin^2)"));
+  result.rows.push_back(relative(name + "pressure ratio K", (1 - sine_squared) / (1 + sine_squared),
+                                 silo.pressure_ratio(), tolerance, "",
+                                 how + "Janssen, by the load of the floor; (1 - sin^2) / (1 + sin^2)"));
 }
 
 // ------------------------------------------------------------------------------------------------ an hourglass
 
 /// Grains a second through a square hole in the floor of a bin, while from a tenth to three tenths of them flow out.
 double flow_through(float hole) {
-  constexpr float side = 18 * diameter_of_grain, filled = 60 * diameter_of_grain, thick = diameter_of_grain / 4, end = 0.2f;
+  constexpr float side = 18 * diameter_of_grain, filled = 60 * diameter_of_grain, thick = diameter_of_grain / 4,
+                  end = 0.2f;
   constexpr int settling = 50, most_frames = 300;
   Scene scene = loose_grains({side, filled, side}, 0.6f);
   add_rough_walls(scene, side, 2 * filled);
@@ -158,8 +160,8 @@ void hourglass_rows(Result& result) {
                through_wide = flow_through(wide * diameter_of_grain);
   const std::string how = "square holes in a bin 18 diameters wide, filled to 20; Beverloo, (D - 1.4 d)^2.5";
   result.rows.push_back(relative("grains: flow through holes of 10 and 6 diameters, ratio",
-                                 flow_by_beverloo(wide) / flow_by_beverloo(narrow), through_wide / through_narrow, 0.05, "",
-                                 how));
+                                 flow_by_beverloo(wide) / flow_by_beverloo(narrow), through_wide / through_narrow, 0.05,
+                                 "", how));
   result.rows.push_back(
       relative("grains: flow through a hole of 10 diameters", flow_by_beverloo(wide), through_wide, 0.15, "1/s", how));
 }

@@ -87,8 +87,8 @@ int lost(Scene scene, int frames) {
 }
 
 void passing_rows(Result& result) {
-  result.rows.push_back(at_most("bodies: engine, tumbling dice that pass a closed mesh", 0, lost(dice_on_mesh(), 100), "",
-                                "64 dice of 10 cm, falls by 2 m"));
+  result.rows.push_back(at_most("bodies: engine, tumbling dice that pass a closed mesh", 0, lost(dice_on_mesh(), 100),
+                                "", "64 dice of 10 cm, falls by 2 m"));
   result.rows.push_back(at_most("bodies: engine, cubes that pass a mesh edge first", 0, lost(cubes_on_mesh(), 30), "",
                                 "16 cubes of 10 cm at 9 m/s, in 16 phases of the frame"));
 }
@@ -162,8 +162,8 @@ void bounce_energy_rows(Result& result) {
                                      {"a tilted box", Box{{0.3f, 0.1f, 0.2f}}, rotation({1, 2, 3}, 35)}};
   for (const Bouncing& of : solids)
     result.rows.push_back(
-        at_most("bodies: engine, energy that " + of.name + " gains by bouncing", 1e-3, gained(of.shape, of.rotation), "",
-                "restitution 1, no friction, falls by 2 m; most at the tops in 10 s, as a share of the start"));
+        at_most("bodies: engine, energy that " + of.name + " gains by bouncing", 1e-3, gained(of.shape, of.rotation),
+                "", "restitution 1, no friction, falls by 2 m; most at the tops in 10 s, as a share of the start"));
 }
 
 // ------------------------------------------------------------------------------------------------ ropes
@@ -228,8 +228,8 @@ void overlapping_liquid_rows(Result& result) {
   std::vector<Vec3f> places;
   places.reserve(216);
   for (int i = 0; i < 216; ++i)
-    places.push_back(
-        {0.001f * static_cast<float>(i % 6), 0.001f * static_cast<float>(i / 6 % 6), 0.001f * static_cast<float>(i / 36)});
+    places.push_back({0.001f * static_cast<float>(i % 6), 0.001f * static_cast<float>(i / 6 % 6),
+                      0.001f * static_cast<float>(i / 36)});
   Scene scene = one_thread();
   scene.gravity = {};
   scene.add(make_liquid(places, {.name = "water", .fluid = {.spacing = spacing}}));

@@ -83,8 +83,9 @@ void dam_rows(Result& result, int across, plot::Chart& fronts, plot::Chart& heig
   const Scene scene = tank_scene({a, 2 * a, 6 * spacing}, spacing, 16 * a);
   World world(scene);
   const float cell = 2 * spacing;
-  Gauges gauges({{"front", FrontGauge{{1, 0, 0}, 0.99f}}, {"height", HeightGauge{{0, 0, 0}, {cell, 4 * a, 6 * spacing}}}},
-                scene, world);
+  Gauges gauges(
+      {{"front", FrontGauge{{1, 0, 0}, 0.99f}}, {"height", HeightGauge{{0, 0, 0}, {cell, 4 * a, 6 * spacing}}}}, scene,
+      world);
   std::vector<double> front, height;
   const double unit = std::sqrt(static_cast<double>(a) / (2 * static_cast<double>(gravity_in_float)));
   const int frames = static_cast<int>(measured_front.back().first * unit / static_cast<double>(frame_time)) + 2;
@@ -103,8 +104,9 @@ void dam_rows(Result& result, int across, plot::Chart& fronts, plot::Chart& heig
       at_most("liquids: dam break, front, largest error, " + size, 0.1, largest_of(of_front, of_front.size()), "",
               "mean " + percent(mean_of(of_front)) + "; 99 % of the liquid is behind the front; compressed by " +
                   percent(compression) + " at most; " + source));
-  result.rows.push_back(at_most("liquids: dam break, height at the wall down to h / (2 a) = 0.5, largest error, " + size,
-                                0.1, largest_of(of_height, thick_points), "", "by volume over two spacings"));
+  result.rows.push_back(
+      at_most("liquids: dam break, height at the wall down to h / (2 a) = 0.5, largest error, " + size, 0.1,
+              largest_of(of_height, thick_points), "", "by volume over two spacings"));
   // An exception: where the column is thin, the known answer is not reached.
   std::string missed;
   bool is_missed = true;
@@ -202,8 +204,8 @@ void momentum_rows_of_liquid(Result& result) {
   for (int i = 0; i < 60; ++i) world.step(frame_time);
   const LiquidMomentum after = momentum_of(world);
   const std::string how = "two blocks that meet at 4 m/s, 60 frames";
-  result.rows.push_back(absolute("liquids: linear momentum", 0, length(after.linear - before.linear) / before.size, 1e-6,
-                                 "", how + "; change over the sum of the magnitudes of m v"));
+  result.rows.push_back(absolute("liquids: linear momentum", 0, length(after.linear - before.linear) / before.size,
+                                 1e-6, "", how + "; change over the sum of the magnitudes of m v"));
   result.rows.push_back(absolute("liquids: angular momentum", 0,
                                  length(after.angular - before.angular) / before.angular_size, 0.01, "",
                                  how + "; change over that of arm times momentum, of the first order of the substep"));

@@ -75,7 +75,8 @@ Scene layered_scene(int side) {
     TriangleMesh mesh = square(side, edge);
     const double angle = layer * 9 * double(std::numbers::pi_v<float>) / 180;
     const float c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
-    for (Vec3f& p : mesh.positions) p = {c * p.x + s * p.z, 0.44f + 0.015f * static_cast<float>(layer), c * p.z - s * p.x};
+    for (Vec3f& p : mesh.positions)
+      p = {c * p.x + s * p.z, 0.44f + 0.015f * static_cast<float>(layer), c * p.z - s * p.x};
     scene.add(sheet_of(mesh, edge, "layer_" + std::to_string(layer + 1)));
   }
   Collider ball;
@@ -230,8 +231,8 @@ void long_contact_rows(Result& result) {
     const Audit audit = look(scene, frames);
     const bool rope = look == audit_rope;
     const double bad = audit.ok ? static_cast<double>(audit.most) : std::numeric_limits<double>::quiet_NaN();
-    result.rows.push_back(at_most(group + what + (rope ? ", links that meet" : ", edges that meet triangles"), 0, bad, "",
-                                  in_words(audit, rope ? "paths of every substep" : "exact signs")));
+    result.rows.push_back(at_most(group + what + (rope ? ", links that meet" : ", edges that meet triangles"), 0, bad,
+                                  "", in_words(audit, rope ? "paths of every substep" : "exact signs")));
     result.rows.push_back(
         at_most(group + what + ", unresolvable pairs", 0, static_cast<double>(audit.unresolvable), "", ""));
   }

@@ -1,5 +1,5 @@
-// Rigid bodies in joints against closed forms: a compound pendulum, a top, a four-bar linkage. All rows are of the engine, in float, in
-// frames of 1/60 s.
+// Rigid bodies in joints against closed forms: a compound pendulum, a top, a four-bar linkage. All rows are of the
+// engine, in float, in frames of 1/60 s.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -71,8 +71,9 @@ double pendulum_period(double amplitude) {
   return 2 * pi * std::sqrt(inertia / (standard_gravity * rod / 2)) / a;
 }
 
-/// What a pendulum does in 10 s: its mean period [s], and how its energy where it turns back differs at most from that of the start,
-/// as a share of what it had above hanging. Elsewhere an integrator of first order shows an energy that is off by h v F / 2.
+/// What a pendulum does in 10 s: its mean period [s], and how its energy where it turns back differs at most from that
+/// of the start, as a share of what it had above hanging. Elsewhere an integrator of first order shows an energy that
+/// is off by h v F / 2.
 struct Swing {
   double period = 0, energy = 0;
 };
@@ -105,9 +106,10 @@ void compound_rows(Result& result, int substeps) {
   for (const double degrees : {30., 90., 150.}) {
     const double amplitude = degrees * pi / 180;
     const Swing found = swing(amplitude, substeps);
-    const std::string what = " of a compound pendulum of " + brief(degrees) + " degrees, " + brief(substeps) + " substeps";
-    result.rows.push_back(relative("mechanisms: engine, period" + what, pendulum_period(amplitude), found.period, 5e-3, "s",
-                                   "rod of 1 m on a hinge; mean of 10 s; complete elliptic integral"));
+    const std::string what =
+        " of a compound pendulum of " + brief(degrees) + " degrees, " + brief(substeps) + " substeps";
+    result.rows.push_back(relative("mechanisms: engine, period" + what, pendulum_period(amplitude), found.period, 5e-3,
+                                   "s", "rod of 1 m on a hinge; mean of 10 s; complete elliptic integral"));
     result.rows.push_back(absolute("mechanisms: engine, change of energy" + what, 0, found.energy, 1e-3, "-",
                                    "of that above hanging; farthest at a turning point in 10 s"));
   }
@@ -119,10 +121,12 @@ void compound_rows(Result& result, int substeps) {
 struct Top {
   static constexpr double radius = 0.3, half_width = 0.05, arm = 0.5, mass = 1;
   static constexpr double axial = mass * radius * radius / 2,
-                          transverse = mass * (3 * radius * radius + 4 * half_width * half_width) / 12 + mass * arm * arm;
+                          transverse =
+                              mass * (3 * radius * radius + 4 * half_width * half_width) / 12 + mass * arm * arm;
   double tilt = 0, spin = 0;  ///< angle from upright [rad], angular velocity about the axle [rad/s]
 
-  /// The slower of both regular precessions [rad/s]: I3 w3 W - I1 W^2 cos(tilt) = m g l, of which m g l / (I3 w3) is the limit.
+  /// The slower of both regular precessions [rad/s]: I3 w3 W - I1 W^2 cos(tilt) = m g l, of which m g l / (I3 w3) is
+  /// the limit.
   double precession() const {
     const double l = axial * spin, c = transverse * std::cos(tilt), moment = mass * standard_gravity * arm;
     return 2 * moment / (l + std::sqrt(l * l - 4 * c * moment));
@@ -186,7 +190,8 @@ struct Pins {
 };
 
 Pins pins_at(double angle) {
-  const Vec3d pin{crank_link * std::cos(angle), crank_link * std::sin(angle), 0}, pivot{ground_link, 0, 0}, d = pivot - pin;
+  const Vec3d pin{crank_link * std::cos(angle), crank_link * std::sin(angle), 0}, pivot{ground_link, 0, 0},
+      d = pivot - pin;
   const double distance = length(d),
                along = (coupler_link * coupler_link - rocker_link * rocker_link + distance * distance) / (2 * distance);
   const Vec3d u = d * (1 / distance), across{-u.y, u.x, 0};
@@ -237,9 +242,10 @@ void mechanism_rows(Result& result, bool) {
   for (const int substeps : all_substeps) compound_rows(result, substeps);
   for (const int substeps : all_substeps) top_rows(result, substeps);
   for (const int substeps : all_substeps)
-    result.rows.push_back(absolute("mechanisms: engine, coupler of a four-bar linkage, " + brief(substeps) + " substeps", 0,
-                                   coupler_error(substeps), 1e-3 * ground_link, "m",
-                                   "farthest from Freudenstein's equation in 5 s; 1e-3 of the ground link of 2 m"));
+    result.rows.push_back(
+        absolute("mechanisms: engine, coupler of a four-bar linkage, " + brief(substeps) + " substeps", 0,
+                 coupler_error(substeps), 1e-3 * ground_link, "m",
+                 "farthest from Freudenstein's equation in 5 s; 1e-3 of the ground link of 2 m"));
 }
 
 }  // namespace pliant::validate

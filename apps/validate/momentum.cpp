@@ -128,7 +128,8 @@ Object flying_sheet() {
   Object object = make_cloth(crumpled_sheet(random), options);
   for (std::size_t i = 0; i < object.positions.size(); ++i) {
     const Vec3d v = random.vector(2);
-    object.velocities.push_back({static_cast<float>(v.x + 1), static_cast<float>(v.y - 0.5), static_cast<float>(v.z + 2)});
+    object.velocities.push_back(
+        {static_cast<float>(v.x + 1), static_cast<float>(v.y - 0.5), static_cast<float>(v.z + 2)});
   }
   return object;
 }
@@ -178,7 +179,9 @@ Momentum momentum_of(const World& world, const Object& object) {
   return sum;
 }
 
-double change(const Momentum& before, const Momentum& after) { return length(after.linear - before.linear) / before.scale; }
+double change(const Momentum& before, const Momentum& after) {
+  return length(after.linear - before.linear) / before.scale;
+}
 
 void sheet_rows(Result& result) {
   const Object object = flying_sheet();
@@ -192,9 +195,10 @@ void sheet_rows(Result& result) {
   }
   const std::string note =
       "a crumpled sheet with bending flies for 1 s, 1 step of 10 iterations a frame; relative to sum m |v|";
-  result.rows.push_back(absolute("momentum: flying sheet, linear", 0, change(exact, momentum_of(solver)), 1e-13, "", note));
-  result.rows.push_back(absolute("momentum: engine, flying sheet, linear", 0, change(before, momentum_of(world, object)),
-                                 1e-4, "", note + ", float"));
+  result.rows.push_back(
+      absolute("momentum: flying sheet, linear", 0, change(exact, momentum_of(solver)), 1e-13, "", note));
+  result.rows.push_back(absolute("momentum: engine, flying sheet, linear", 0,
+                                 change(before, momentum_of(world, object)), 1e-4, "", note + ", float"));
 }
 
 // ---- a spinning dumbbell
@@ -236,7 +240,8 @@ double engine_spin(int frames, int substeps) {
 void dumbbell_rows(Result& result) {
   const double expected = discrete_spin();
   const std::string note = "1 s at 6 rad/s, h = 1/200 s; tan D' = sin D / (2 - cos D)";
-  result.rows.push_back(relative("momentum: spinning dumbbell, angular", expected, reference_spin(), 1e-12, "rad/s", note));
+  result.rows.push_back(
+      relative("momentum: spinning dumbbell, angular", expected, reference_spin(), 1e-12, "rad/s", note));
   result.rows.push_back(relative("momentum: engine, spinning dumbbell, angular", expected, engine_spin(20, 10), 1e-4,
                                  "rad/s", note + ", float"));
   result.rows.push_back(relative("momentum: engine, spin kept", dumbbell_spin, engine_spin(60, 100), 1e-2, "rad/s",

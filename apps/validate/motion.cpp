@@ -166,8 +166,8 @@ void damped_rows(Result& result, const std::string& name, const ModeOf& mode, do
     const double omega = trace.omega(mode.omega);
     shares.push_back(std::log(trace.amplitude(0, omega) / trace.amplitude(1, omega)) / (omega * omega * tau / 2));
   }
-  result.rows.push_back(relative("motion: damping of " + name + ", its rate over omega^2 tau / 2", 1, farthest(1, shares),
-                                 tolerance, "", note + "; farthest of 20, 40, 80 substeps"));
+  result.rows.push_back(relative("motion: damping of " + name + ", its rate over omega^2 tau / 2", 1,
+                                 farthest(1, shares), tolerance, "", note + "; farthest of 20, 40, 80 substeps"));
 }
 
 /// What is left of a body's speed along x, or of its spin about z, after a quarter of a second, as a rate over that of
@@ -212,7 +212,8 @@ void motion_rows(Result& result, bool) {
   kept_rows(result, "rod", rod_mode(1e8, 0), "1 m, radius 1 cm, E = 1e8 Pa, 0.9 Hz");
   decay_rows(result);
   const double omega = 2 * pi, damping = 1;  // of 1 kg [N s/m]
-  damped_rows(result, "a spring joint", spring_mode(omega, damping), damping / (omega * omega), 0.02, "1 Hz, tau = b / k");
+  damped_rows(result, "a spring joint", spring_mode(omega, damping), damping / (omega * omega), 0.02,
+              "1 Hz, tau = b / k");
   damped_rows(result, "a solid", bar_mode(1e5, 0.02, false), 0.02, 0.05, "bar of E = 1e5 Pa, 20 ms");
   damped_rows(result, "a rod", rod_mode(1e8, 0.02), 0.02, 0.05, "E = 1e8 Pa, 20 ms");
 }

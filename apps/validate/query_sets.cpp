@@ -1,4 +1,5 @@
-// Continuous collision tests on sets of queries with exactly known answers: no misses, few false positives, and the speed.
+// Continuous collision tests on sets of queries with exactly known answers: no misses, few false positives, and the
+// speed.
 #include <ctime>
 
 #include "apps/validate/query_sets.h"
@@ -23,7 +24,8 @@ Answers ask(const std::vector<CollisionQuery>& queries, const Test& test) {
     answers.missed += query.hits && !found ? 1 : 0;
     answers.false_alarms += found && !query.hits ? 1 : 0;
   }
-  answers.per_second = static_cast<double>(queries.size()) * CLOCKS_PER_SEC / static_cast<double>(std::clock() - start + 1);
+  answers.per_second =
+      static_cast<double>(queries.size()) * CLOCKS_PER_SEC / static_cast<double>(std::clock() - start + 1);
   return answers;
 }
 
@@ -41,8 +43,8 @@ void add_rows(Result& result, const std::string& what, const std::vector<Collisi
   const auto rate = [](const Answers& answers) { return "; " + brief(answers.per_second / 1e6) + " million a second"; };
   const Answers answers = ask(queries, test), timed = ask(repeated(queries, 50), test);
   result.rows.push_back(at_most(name + ", missed", 0, answers.missed, "", of + rate(timed)));
-  result.rows.push_back(
-      at_most(name + ", false alarms", 0.01 * static_cast<double>(queries.size()), answers.false_alarms, "", "1 % " + of));
+  result.rows.push_back(at_most(name + ", false alarms", 0.01 * static_cast<double>(queries.size()),
+                                answers.false_alarms, "", "1 % " + of));
 }
 
 }  // namespace

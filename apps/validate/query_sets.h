@@ -48,7 +48,8 @@ inline std::vector<CollisionQuery> read_query_sets(const std::filesystem::path& 
   std::vector<std::filesystem::path> files;
   std::error_code none;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root, none))
-    if (entry.path().extension() == ".csv" && entry.path().parent_path().filename() == kind) files.push_back(entry.path());
+    if (entry.path().extension() == ".csv" && entry.path().parent_path().filename() == kind)
+      files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   std::vector<CollisionQuery> queries;
   for (const auto& file : files) {

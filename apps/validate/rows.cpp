@@ -60,7 +60,8 @@ Object particles(const std::vector<Vec3f>& positions, const std::vector<float>& 
   return object;
 }
 
-void connect(Object& object, const std::vector<int>& pairs, const std::vector<float>& lengths, const Stiffness& stiffness) {
+void connect(Object& object, const std::vector<int>& pairs, const std::vector<float>& lengths,
+             const Stiffness& stiffness) {
   ConstraintGroup group;
   group.type = "distance";
   group.particles = pairs;

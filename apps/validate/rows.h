@@ -54,8 +54,10 @@ void trusted_contact_rows(Result& result);
 void query_set_rows(Result& result, const std::string& folder);
 
 /// Makes a row with its verdict. A value that is not finite fails.
-Row relative(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
-Row absolute(std::string name, double expected, double measured, double tolerance, std::string unit, std::string note = {});
+Row relative(std::string name, double expected, double measured, double tolerance, std::string unit,
+             std::string note = {});
+Row absolute(std::string name, double expected, double measured, double tolerance, std::string unit,
+             std::string note = {});
 Row at_most(std::string name, double bound, double measured, std::string unit, std::string note = {});
 Row at_least(std::string name, double bound, double measured, std::string unit, std::string note = {});
 
@@ -69,7 +71,8 @@ double farthest(double expected, const std::vector<double>& measured);
 Object particles(const std::vector<Vec3f>& positions, const std::vector<float>& masses);
 
 /// Adds distance constraints between pairs of particles, with one stiffness and the given rest lengths.
-void connect(Object& object, const std::vector<int>& pairs, const std::vector<float>& lengths, const Stiffness& stiffness);
+void connect(Object& object, const std::vector<int>& pairs, const std::vector<float>& lengths,
+             const Stiffness& stiffness);
 
 /// A straight hanging line of `count` particles at distances `length`; the first is fixed at the origin.
 Object hanging_line(int count, float length, float mass, float last_mass, const Stiffness& stiffness);

@@ -54,7 +54,8 @@ double compression(int width, int height, double poisson_ratio) {
   options.material.poisson_ratio = static_cast<float>(poisson_ratio);
   options.material.static_friction = options.material.kinetic_friction = 0;
   const auto edge = [](int cells) { return static_cast<float>(block_cell * cells); };
-  Object object = make_soft_body(box_tetrahedra({edge(width), edge(height), edge(width)}, {width, height, width}), options);
+  Object object =
+      make_soft_body(box_tetrahedra({edge(width), edge(height), edge(width)}, {width, height, width}), options);
   for (Vec3f& p : object.positions) p.y += edge(height) / 2 + options.thickness;
   object.damping = 4;
   const std::vector<Vec3f> start = object.positions;
@@ -75,8 +76,10 @@ void standing_rows(Result& result) {
   for (const bool is_slab : {false, true})
     for (const double poisson_ratio : {0.3, 0.45, 0.49}) {
       const int height = is_slab ? 2 : 4;
-      const double size = block_cell * height, right = block_density * standard_gravity * size * size / (2 * block_modulus);
-      result.rows.push_back(relative(std::string("solids: engine, ") + (is_slab ? "slab of 2 cells" : "cube of 4 cells") +
+      const double size = block_cell * height,
+                   right = block_density * standard_gravity * size * size / (2 * block_modulus);
+      result.rows.push_back(relative(std::string("solids: engine, ") +
+                                         (is_slab ? "slab of 2 cells" : "cube of 4 cells") +
                                          " stands, Poisson's ratio " + brief(poisson_ratio),
                                      right, compression(is_slab ? 8 : 4, height, poisson_ratio), 0.03, "m",
                                      "E 300 kPa, default settings, no friction; expected: rho g H^2 / (2 E)"));

@@ -103,15 +103,16 @@ void backward_euler_rows(Result& result) {
   const Oscillation float_fit = fit(path_float, free.rest_length);
   const std::string note = "120 steps of 1/60 s, m = 2 kg, k = 300 N/m";
   auto& rows = result.rows;
+  rows.push_back(absolute("spring: XPBD against backward Euler", 0, largest_difference(path, backward_euler(free)),
+                          1e-12, "m", note));
   rows.push_back(
-      absolute("spring: XPBD against backward Euler", 0, largest_difference(path, backward_euler(free)), 1e-12, "m", note));
-  rows.push_back(relative("spring: amplitude kept per step", r, double_fit.amplitude, 1e-12, "", "1/sqrt(1 + h^2 w^2)"));
+      relative("spring: amplitude kept per step", r, double_fit.amplitude, 1e-12, "", "1/sqrt(1 + h^2 w^2)"));
   rows.push_back(relative("spring: phase per step", phi, double_fit.phase, 1e-12, "rad", "atan(h w)"));
   rows.push_back(absolute("spring: damped, against backward Euler", 0,
                           largest_difference(by_reference(damped), backward_euler(damped)), 1e-12, "m",
                           note + ", b = 6 N s/m"));
-  rows.push_back(absolute("spring: engine against backward Euler", 0, largest_difference(path_float, backward_euler(free)),
-                          1e-5, "m", note + ", float"));
+  rows.push_back(absolute("spring: engine against backward Euler", 0,
+                          largest_difference(path_float, backward_euler(free)), 1e-5, "m", note + ", float"));
   rows.push_back(relative("spring: engine, amplitude kept per step", r, float_fit.amplitude, 1e-6, "", "float"));
   rows.push_back(relative("spring: engine, phase per step", phi, float_fit.phase, 1e-5, "rad", "float"));
   rows.push_back(absolute("spring: engine, damped, against backward Euler", 0,
@@ -121,15 +122,15 @@ void backward_euler_rows(Result& result) {
                           largest_difference(by_engine(damped, 20), backward_euler(damped)), 1e-5, "m",
                           "multipliers persist over iterations"));
   using Style = plot::Series::Style;
-  result.charts.push_back(
-      {"A mass on a spring is backward Euler",
-       "time [s]",
-       "length [m]",
-       false,
-       false,
-       {series("backward Euler", backward_euler(free), h, Style::line, 1),
-        series("backward Euler, damped", backward_euler(damped), h, Style::line, 1),
-        series("engine", path_float, h, Style::points, 2), series("engine, damped", damped_float, h, Style::points, 2)}});
+  result.charts.push_back({"A mass on a spring is backward Euler",
+                           "time [s]",
+                           "length [m]",
+                           false,
+                           false,
+                           {series("backward Euler", backward_euler(free), h, Style::line, 1),
+                            series("backward Euler, damped", backward_euler(damped), h, Style::line, 1),
+                            series("engine", path_float, h, Style::points, 2),
+                            series("engine, damped", damped_float, h, Style::points, 2)}});
 }
 
 // A mass that hangs on a damped spring until it is at rest. Damping must not change the rest position.
@@ -195,7 +196,8 @@ void float_rows(Result& result) {
     result.rows.push_back(relative("spring: engine, free fall for 1 s, " + name, 9.81 * h * h * n * (n + 1) / 2,
                                    engine_fall(substeps, dt, 60), 1e-4, "m", "g h^2 n(n+1)/2, float"));
     const Hanging s{1, 0.01, 10, dt, substeps, 1};
-    result.rows.push_back(relative("spring: engine, hanging at rest, " + name, 0.1, engine_stretch(s), 1e-4, "m", "float"));
+    result.rows.push_back(
+        relative("spring: engine, hanging at rest, " + name, 0.1, engine_stretch(s), 1e-4, "m", "float"));
   }
 }
 

@@ -73,8 +73,8 @@ void steadiness_rows(Result& result, bool slow) {
     result.rows.push_back(
         absolute(name + "finite", 1, swung.finite ? 1 : 0, 0, "",
                  note + "; stretch mean " + brief(swung.mean_stretch) + ", largest " + brief(swung.largest_stretch)));
-    result.rows.push_back(at_most(name + "fastest particle", speed_limit, swung.finite ? swung.fastest : INFINITY, "m/s",
-                                  note + ", after the first 60"));
+    result.rows.push_back(at_most(name + "fastest particle", speed_limit, swung.finite ? swung.fastest : INFINITY,
+                                  "m/s", note + ", after the first 60"));
     result.rows.push_back(
         at_most(name + "energy above the start's", 0, swung.finite ? swung.energy_gain : INFINITY, "J", note));
     chart.series.push_back(swung.energy);

@@ -65,8 +65,12 @@ void iteration_rows(Result& result, double expected) {
     curve.y.push_back(1000 * measured);
   }
   plot::Series line{"converged", {1, 200}, {1000 * expected, 1000 * expected}, plot::Series::Style::dashed};
-  result.charts.push_back(
-      {"A hanging sheet sinks as far whatever the iterations", "iterations", "sinking [mm]", true, false, {line, curve}});
+  result.charts.push_back({"A hanging sheet sinks as far whatever the iterations",
+                           "iterations",
+                           "sinking [mm]",
+                           true,
+                           false,
+                           {line, curve}});
 }
 
 void time_step_rows(Result& result, double expected) {
@@ -74,8 +78,8 @@ void time_step_rows(Result& result, double expected) {
     Run run;
     run.dt = 1.0 / rate;
     run.iterations = 10;
-    result.rows.push_back(relative("stiffness: engine, sinking, dt 1/" + brief(rate) + " s", expected, sinking(run), 0.01,
-                                   "m", "20 substeps of 10 iterations, 9 x 9; expected: 50 substeps of 50"));
+    result.rows.push_back(relative("stiffness: engine, sinking, dt 1/" + brief(rate) + " s", expected, sinking(run),
+                                   0.01, "m", "20 substeps of 10 iterations, 9 x 9; expected: 50 substeps of 50"));
   }
 }
 
@@ -88,7 +92,8 @@ void mesh_rows(Result& result) {
     Run run = finest;
     run.side = side;
     result.rows.push_back(relative("stiffness: engine, sinking, mesh " + brief(side) + " x " + brief(side), expected,
-                                   sinking(run), 0.02, "m", "20 substeps of 30 iterations, dt 1/60 s; expected: 33 x 33"));
+                                   sinking(run), 0.02, "m",
+                                   "20 substeps of 30 iterations, dt 1/60 s; expected: 33 x 33"));
   }
 }
 

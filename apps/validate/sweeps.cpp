@@ -246,8 +246,10 @@ const Answer known_answers[] = {
 /// Why a variant cannot give an answer; null if it can.
 const char* excuse(const SweepWay& way, const Answer& answer) {
   if (answer.asks.pairs && way.lacks == Lacks::pairs) return "averaging violates Newton's third law between neighbours";
-  if (answer.asks.give && way.lacks == Lacks::give) return "tethers limit objects that are meant to stretch (tether_slack)";
-  if (answer.asks.force && way.lacks == Lacks::force) return "tethers carry part of the load, which no multiplier shows";
+  if (answer.asks.give && way.lacks == Lacks::give)
+    return "tethers limit objects that are meant to stretch (tether_slack)";
+  if (answer.asks.force && way.lacks == Lacks::force)
+    return "tethers carry part of the load, which no multiplier shows";
   if (answer.asks.speed && way.sweep == Sweep::jacobi)
     return "its steps are smaller than those of Gauss-Seidel, so it needs more";
   return nullptr;
@@ -256,8 +258,8 @@ const char* excuse(const SweepWay& way, const Answer& answer) {
 void add_row(const SweepWay& way, const Answer& answer, Result& result) {
   const double measured = answer.measure(way);
   const std::string name = "sweeps: " + way.name + ", " + answer.what;
-  const Row row =
-      answer.compare(name, answer.expected, measured, answer.tolerance, answer.unit, std::string(answer.how) + ", float");
+  const Row row = answer.compare(name, answer.expected, measured, answer.tolerance, answer.unit,
+                                 std::string(answer.how) + ", float");
   const char* why = excuse(way, answer);
   if (why == nullptr) {
     result.rows.push_back(row);

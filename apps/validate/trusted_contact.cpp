@@ -39,7 +39,8 @@ FreeMomentum momentum_of_both(const World& world, const Scene& scene) {
   for (int object = 0; object < 2; ++object) {
     const std::vector<Vec3f> x = world.object(object).positions(), v = world.object(object).velocities();
     const std::vector<float>& masses = scene.objects[static_cast<std::size_t>(object)].masses;
-    for (std::size_t i = 0; i < x.size(); ++i) sum.add(to_double(x[i]), to_double(v[i]), static_cast<double>(masses[i]));
+    for (std::size_t i = 0; i < x.size(); ++i)
+      sum.add(to_double(x[i]), to_double(v[i]), static_cast<double>(masses[i]));
   }
   return sum;
 }
@@ -64,11 +65,13 @@ void free_cloth_rows(Result& result) {
   after.angular += to_double(world.object(1).angular_velocities()[0]) * (0.4 * mass * radius * radius);
   const double taken = mass * length(to_double(world.object(1).velocities()[0] - Vec3f{0, -5, 0}));
   const std::string how = "0.5 kg at 5 m/s, half a second, self-collision; relative to what is exchanged";
-  result.rows.push_back(at_least("bodies: engine, momentum that a ball gives to free cloth", 0.5, taken, "kg m/s", how));
+  result.rows.push_back(
+      at_least("bodies: engine, momentum that a ball gives to free cloth", 0.5, taken, "kg m/s", how));
   result.rows.push_back(at_most("bodies: engine, linear momentum of a ball and free cloth, change", 1e-4,
                                 length(after.linear - before.linear) / taken, "", how));
   result.rows.push_back(at_most("bodies: engine, angular momentum of a ball and free cloth, change", 1e-2,
-                                length(after.angular - before.angular) / taken, "", how + " times 1 m, about the origin"));
+                                length(after.angular - before.angular) / taken, "",
+                                how + " times 1 m, about the origin"));
 }
 
 // ------------------------------------------------------------------------------------------------ a lift
@@ -118,7 +121,8 @@ std::vector<Vec3f> hung(bool beside_a_box) {
 void far_rows(Result& result) {
   const std::vector<Vec3f> alone = hung(false), beside = hung(true);
   double most = 0;
-  for (std::size_t i = 0; i < alone.size(); ++i) most = std::max(most, static_cast<double>(length(alone[i] - beside[i])));
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    most = std::max(most, static_cast<double>(length(alone[i] - beside[i])));
   result.rows.push_back(absolute("bodies: engine, what a box 50 m away changes of a hanging cloth", 0, most, 0, "m",
                                  "1 m of cotton by two corners, a second"));
 }
@@ -144,7 +148,8 @@ void seam_rows(Result& result) {
   cover.damping = 2;
   std::vector<std::array<int, 2>> pairs;
   for (int row = 0; row < rows; ++row)
-    for (const int column : {0, columns - 1}) pairs.push_back({row * columns + column, (rows + row) * columns + column});
+    for (const int column : {0, columns - 1})
+      pairs.push_back({row * columns + column, (rows + row) * columns + column});
   add_stitches(cover, pairs, {.closing_time = 0.5f});
   Scene scene = weightless();
   scene.add(cover);

@@ -14,10 +14,10 @@ namespace {
 
 using AddRows = void (*)(Result&, bool);
 
-const AddRows adders[] = {spring_rows,    chain_rows,      momentum_rows,    pendulum_rows,    contact_rows, body_rows,
-                          mechanism_rows, motion_rows,     collision_rows,   stiffness_rows,   bending_rows, balloon_rows,
-                          drape_rows,     steadiness_rows, convergence_rows, heavy_chain_rows, sweep_rows,   liquid_rows,
-                          solid_rows,     grain_rows,      woven_rows};
+const AddRows adders[] = {
+    spring_rows,      chain_rows,       momentum_rows,  pendulum_rows, contact_rows, body_rows,  mechanism_rows,
+    motion_rows,      collision_rows,   stiffness_rows, bending_rows,  balloon_rows, drape_rows, steadiness_rows,
+    convergence_rows, heavy_chain_rows, sweep_rows,     liquid_rows,   solid_rows,   grain_rows, woven_rows};
 
 const char* word(Comparison comparison) {
   switch (comparison) {

@@ -79,8 +79,8 @@ void plates_rows(Result& result, float viscosity, int substeps) {
   const double mean = mean_in_the_middle(flow, &Vec3f::y, down, [](const Vec3f&) { return true; });
   const double expected =
       liquid_density * standard_gravity * static_cast<double>(width * width) / (12 * static_cast<double>(viscosity));
-  result.rows.push_back(relative("liquids: falls between two plates, " + brief(static_cast<double>(viscosity)) + " Pa s, " +
-                                     std::to_string(substeps) + " substeps",
+  result.rows.push_back(relative("liquids: falls between two plates, " + brief(static_cast<double>(viscosity)) +
+                                     " Pa s, " + std::to_string(substeps) + " substeps",
                                  expected, mean, 0.15, "m/s",
                                  "12 particles across; mean velocity in the middle third, rho g d^2 / (12 mu)"));
 }

@@ -24,10 +24,11 @@ class WarningLog {
   std::vector<std::string> lines_;
 };
 
-/// A line for each kind of resistance that was not converged in its worst frame (is_tolerable): the object, by how much,
-/// and the substeps that should mend it. Density is left out, and so are objects of which a line of `said` tells that
-/// they yield too far.
-std::vector<std::string> unconverged(const World& world, const WorstEstimates& worst, const std::vector<std::string>& said);
+/// A line for each kind of resistance that was not converged in its worst frame (is_tolerable): the object, by how
+/// much, and the substeps that should mend it. Density is left out, and so are objects of which a line of `said` tells
+/// that they yield too far.
+std::vector<std::string> unconverged(const World& world, const WorstEstimates& worst,
+                                     const std::vector<std::string>& said);
 
 /// Limits of the trial runs.
 struct AdviseOptions {
@@ -36,8 +37,8 @@ struct AdviseOptions {
   std::function<bool()> stops{};  ///< called after every frame; if it returns true, trials end as if time were up
 };
 
-/// Settings, and the result of a trial run with them. Of other settings than the scene's own, `worst` is infinite if tetrahedra are
-/// inside out at the end.
+/// Settings, and the result of a trial run with them. Of other settings than the scene's own, `worst` is infinite if
+/// tetrahedra are inside out at the end.
 struct Trial {
   Settings settings;
   int frames = 0;           ///< number of frames that the trial completed
@@ -52,16 +53,17 @@ struct Trial {
 struct Advice {
   Trial own;       ///< trial with the scene's own settings
   int frames = 0;  ///< frames planned; if `own` completed fewer, the advice covers only those
-  /// Further trials in the order in which they ran; none if `own` is good, or if pins are farther apart than the object between
-  /// them is long, so that no settings help.
+  /// Further trials in the order in which they ran; none if `own` is good, or if pins are farther apart than the object
+  /// between them is long, so that no settings help.
   std::vector<Trial> others;
-  /// Index in `others` of the advised settings: the default (Settings{}) if the scene names others and it is good; else the
-  /// cheapest good trial; if none is good, the best one that is clearly better than `own`; -1: none.
+  /// Index in `others` of the advised settings: the default (Settings{}) if the scene names others and it is good; else
+  /// the cheapest good trial; if none is good, the best one that is clearly better than `own`; -1: none.
   int best = -1;
   bool cut_short = false;  ///< true if time ran out before all trials were done
-  /// Warnings of the frames of `own`, of each kind the first (WarningLog). One more for each object without self-collision
-  /// whose triangles pass through one another at the end of `own`, and did not at the start; and one if two objects that may
-  /// meet by groups and masks, but do not both have `collides`, pass through each other in one of the frames.
+  /// Warnings of the frames of `own`, of each kind the first (WarningLog). One more for each object without
+  /// self-collision whose triangles pass through one another at the end of `own`, and did not at the start; and one if
+  /// two objects that may meet by groups and masks, but do not both have `collides`, pass through each other in one of
+  /// the frames.
   std::vector<std::string> warnings;
   std::string words;       ///< what is wrong, in one sentence; empty if nothing was found in `own.frames` frames
   std::string what_to_do;  ///< what to do about the overstretch
@@ -70,11 +72,11 @@ struct Advice {
 /// True if a trial was complete and its overstretch never exceeded what is tolerable (is_tolerable).
 bool is_good(const Trial& trial);
 
-/// Runs the scene with its own settings. If the result is not good (is_good), runs it with the default sweep and substeps;
-/// if the scene has these or they are not good either, with more substeps, tethers, and other sweeps. Each trial starts at
-/// the scene's start, because a stretched state would only show how other settings repair it. The bits of a trial depend on
-/// its settings alone; how many trials there are depends on the machine's speed. Throws an Error for scenes that a World
-/// rejects.
+/// Runs the scene with its own settings. If the result is not good (is_good), runs it with the default sweep and
+/// substeps; if the scene has these or they are not good either, with more substeps, tethers, and other sweeps. Each
+/// trial starts at the scene's start, because a stretched state would only show how other settings repair it. The bits
+/// of a trial depend on its settings alone; how many trials there are depends on the machine's speed. Throws an Error
+/// for scenes that a World rejects.
 Advice advise(const Scene& scene, const AdviseOptions& options = {});
 
 }  // namespace pliant

@@ -11,16 +11,18 @@
 //   };
 //   pliant::register_constraint<RightAngle>();
 //
-// A type with `static constexpr bool is_bounded = true` also fills out.low and out.high, bounds of each row's force: a stop that
-// only pushes has low = 0, a motor has its greatest torque. With `acts_on_motion = true` a row does not bring C to zero, but
-// the speed of C to out.speed, within the bounds; its compliance is a speed over a force (a viscous damper's inverse rate).
+// A type with `static constexpr bool is_bounded = true` also fills out.low and out.high, bounds of each row's force: a
+// stop that only pushes has low = 0, a motor has its greatest torque. With `acts_on_motion = true` a row does not bring
+// C to zero, but the speed of C to out.speed, within the bounds; its compliance is a speed over a force (a viscous
+// damper's inverse rate).
 //
-// A type whose rest shape can yield (Plasticity) has `static bool flow(at, params, start, by)`: it changes the rest data `params`, which
-// were `start` in the beginning, by the PlasticFlow `by`, and returns true if it did. One whose rest field 0 is a size that keyframes may
-// multiply has `static constexpr bool rest_scales = true`.
+// A type whose rest shape can yield (Plasticity) has `static bool flow(at, params, start, by)`: it changes the rest
+// data `params`, which were `start` in the beginning, by the PlasticFlow `by`, and returns true if it did. One whose
+// rest field 0 is a size that keyframes may multiply has `static constexpr bool rest_scales = true`.
 //
-// The unit of compliance is the inverse unit of the energy C^2 / 2. PBD stiffness, damping, multipliers, Report and scene
-// files work as for the library's types. Your constraints are projected one at a time, in colours that all threads share.
+// The unit of compliance is the inverse unit of the energy C^2 / 2. PBD stiffness, damping, multipliers, Report and
+// scene files work as for the library's types. Your constraints are projected one at a time, in colours that all
+// threads share.
 //
 // To get the same bits on every machine, use the functions of pliant/formula.h and no others of the C or C++ library,
 // and compile with -ffp-contract=off and without -ffast-math.
@@ -57,8 +59,9 @@ struct ConstraintDefinition {
   /// As evaluate; also low, high and speed of each row. Null: rows are without bounds.
   void (*evaluate_bounded)(const float* slots, const float* rest, float* c, float* gradients, float* bounds) = nullptr;
   void (*evaluate_double)(const double* slots, const double* rest, double* c, double* gradients) = nullptr;
-  void (*measure)(const double* slots, double* rest) = nullptr;  ///< computes rest data from a rest shape; null: give them
-  void (*canonical)(int* stencil, float* rest) = nullptr;        ///< reorders slots that are symmetric; null: none are
+  void (*measure)(const double* slots,
+                  double* rest) = nullptr;                 ///< computes rest data from a rest shape; null: give them
+  void (*canonical)(int* stencil, float* rest) = nullptr;  ///< reorders slots that are symmetric; null: none are
   /// Lets rest data follow the present shape (Plasticity); false if they stay. Null: the type is always elastic.
   bool (*flow)(const float* slots, float* rest, const float* start, const PlasticFlow& by) = nullptr;
   bool rest_scales = false;  ///< true if rest field 0 is a size that ConstraintGroup::keyframes may multiply
@@ -220,7 +223,8 @@ ConstraintDefinition definition_of() {
   if constexpr (requires { T::is_length; }) made.is_length = T::is_length;
   if constexpr (requires { T::largest_change; }) made.largest_change = T::largest_change;
   static_assert(is_bounded<T> || !acts_on_motion<T>, "a type with acts_on_motion has is_bounded too");
-  static_assert(!is_bounded<T> || T::rows > 1 || T::slots::frames > 0, "a bounded row over points alone: not supported");
+  static_assert(!is_bounded<T> || T::rows > 1 || T::slots::frames > 0,
+                "a bounded row over points alone: not supported");
   made.acts_on_motion = acts_on_motion<T>;
   if constexpr (requires { T::is_joint; }) made.is_joint = T::is_joint;
   if constexpr (requires { T::is_tie; }) made.is_tie = T::is_tie;

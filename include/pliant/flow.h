@@ -10,9 +10,9 @@
 
 namespace pliant {
 
-/// Emits layers of particles through a flat opening. Layers are cubic lattices that follow one another at the distance of particles at
-/// rest, so that they neither overlap nor leave gaps. The opening holds two layers behind it, and those that pass it in the next frame: they
-/// move as it says, and cannot be pushed back. The space there must be free.
+/// Emits layers of particles through a flat opening. Layers are cubic lattices that follow one another at the distance
+/// of particles at rest, so that they neither overlap nor leave gaps. The opening holds two layers behind it, and those
+/// that pass it in the next frame: they move as it says, and cannot be pushed back. The space there must be free.
 struct Emitter {
   std::string name = "emitter";
   Vec3f position{};             ///< centre of the opening [m]
@@ -57,8 +57,9 @@ struct EmitterLayer {
 
 struct Object;
 
-/// The layers that an emitter makes of an object's particles. Particles are a spacing apart; grains 1.1 diameters, and each is up to 0.05
-/// diameters off its place, differently in each layer, because spheres that fall exactly on one another would stand.
+/// The layers that an emitter makes of an object's particles. Particles are a spacing apart; grains 1.1 diameters, and
+/// each is up to 0.05 diameters off its place, differently in each layer, because spheres that fall exactly on one
+/// another would stand.
 EmitterLayer layer_of(const Emitter& emitter, const Object& object);
 
 }  // namespace pliant

@@ -138,7 +138,8 @@ struct Rows {
   /// Gradients by row and slot. For a point: dC/dx. For a frame: dC/dtheta for a small rotation vector theta in world
   /// axes. A point at r from the frame's point moves by theta x r, so a gradient g with respect to it adds r x g.
   Vec3<R> gradient[static_cast<std::size_t>(rows)][static_cast<std::size_t>(S::count)];
-  /// Bounds of the force of each row, in the direction in which C grows [J / unit of C]. Types with `is_bounded` fill them.
+  /// Bounds of the force of each row, in the direction in which C grows [J / unit of C]. Types with `is_bounded` fill
+  /// them.
   R low[static_cast<std::size_t>(rows)], high[static_cast<std::size_t>(rows)];
   /// The speed that a row imposes on C [unit of C / s]. Types with `acts_on_motion` fill it.
   R speed[static_cast<std::size_t>(rows)];

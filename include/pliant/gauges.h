@@ -1,4 +1,5 @@
-// Gauges measure liquids as an experiment does: the height at a place, the flow through an opening, the front of a wave, a force.
+// Gauges measure liquids as an experiment does: the height at a place, the flow through an opening, the front of a
+// wave, a force.
 #pragma once
 
 #include <string>
@@ -29,8 +30,8 @@ struct FrontGauge {
   float share = 0.99f;       ///< of the volume, 0 < share < 1 [-]
 };
 
-/// The force with which liquids press on an object or a collider, averaged over the last frame [N]: by their pressure and by the contact
-/// of their particles, without friction. An object is measured as a whole, with all its bodies.
+/// The force with which liquids press on an object or a collider, averaged over the last frame [N]: by their pressure
+/// and by the contact of their particles, without friction. An object is measured as a whole, with all its bodies.
 struct ForceGauge {
   std::string on;             ///< name of an object that is no liquid, or of a collider or mesh collider
   Vec3f direction{0, -1, 0};  ///< of any length but zero; a force along it is positive
@@ -46,19 +47,19 @@ struct Gauge {
 /// The unit of a gauge: "m", "m^3/s" or "N".
 std::string unit_of(const Gauge& gauge);
 
-/// Reads the gauges of a World. A particle counts as a cube that is parallel to the axes, and whose side is the spacing of its liquid; for
-/// a front or a flow as an interval of that length.
+/// Reads the gauges of a World. A particle counts as a cube that is parallel to the axes, and whose side is the spacing
+/// of its liquid; for a front or a flow as an interval of that length.
 class Gauges {
  public:
-  /// Gauges of a World that was just made from the scene. Turns the recording of contact events on if there is a force to measure. Throws
-  /// an Error that names the gauge if a value is out of range, a name is empty or taken, or the scene has no liquid, object or collider of
-  /// a name that it uses.
+  /// Gauges of a World that was just made from the scene. Turns the recording of contact events on if there is a force
+  /// to measure. Throws an Error that names the gauge if a value is out of range, a name is empty or taken, or the
+  /// scene has no liquid, object or collider of a name that it uses.
   Gauges(std::vector<Gauge> gauges, const Scene& scene, World& world);
 
   const std::vector<Gauge>& gauges() const { return gauges_; }
 
-  /// Returns the value of each gauge. Call it once for the initial state and once after each step. A value is NaN where there is none: flow
-  /// and force in the first call. Liquids that were removed from the World count no longer.
+  /// Returns the value of each gauge. Call it once for the initial state and once after each step. A value is NaN where
+  /// there is none: flow and force in the first call. Liquids that were removed from the World count no longer.
   std::vector<double> read(const World& world);
 
  private:

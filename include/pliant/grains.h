@@ -18,7 +18,8 @@ struct GrainKind {
   std::string source;     ///< where the numbers come from
 };
 
-/// Returns a built-in material: "dry sand", "wet sand" or "gravel". For any other name throws an Error that lists the names.
+/// Returns a built-in material: "dry sand", "wet sand" or "gravel". For any other name throws an Error that lists the
+/// names.
 const GrainKind& grain_kind(std::string_view name);
 
 /// All built-in materials of grains.
@@ -33,8 +34,9 @@ struct GrainsOptions {
   int capacity = 0;  ///< most particles that are there at a time, up to 2^26; 0: those at the start
 };
 
-/// Makes grains with centres at given places, a diameter or more apart: fill_box of pliant/liquid.h gives such places. Each has the mass of
-/// a solid sphere, and meets colliders at its radius, with the friction of the grains. Throws an Error that names an option that is out of range.
+/// Makes grains with centres at given places, a diameter or more apart: fill_box of pliant/liquid.h gives such places.
+/// Each has the mass of a solid sphere, and meets colliders at its radius, with the friction of the grains. Throws an
+/// Error that names an option that is out of range.
 Object make_grains(const std::vector<Vec3f>& positions, const GrainsOptions& options = {});
 
 }  // namespace pliant

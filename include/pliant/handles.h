@@ -1,8 +1,8 @@
 // Handles of what is in a World, to read and control it between steps: World::object(id).positions().
 //
-// A view reads, a handle reads and controls. Both are small values: an id and a pointer to the World's data. They stay valid
-// if the World is moved to another, and end when it is destroyed or another is assigned to it. All functions throw an Error
-// if the thing was removed.
+// A view reads, a handle reads and controls. Both are small values: an id and a pointer to the World's data. They stay
+// valid if the World is moved to another, and end when it is destroyed or another is assigned to it. All functions
+// throw an Error if the thing was removed.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,10 @@ struct WorldData;
 struct ObjectInfo {
   std::string name;
   int particles = 0;
-  std::vector<std::pair<std::string, std::int64_t>> constraints;  ///< number of constraints of each type, "volume" included
-  int substeps = 0;  ///< substeps per frame; 0: they follow the State. Fast colliders may increase them (Report::substeps)
+  std::vector<std::pair<std::string, std::int64_t>>
+      constraints;  ///< number of constraints of each type, "volume" included
+  int substeps =
+      0;  ///< substeps per frame; 0: they follow the State. Fast colliders may increase them (Report::substeps)
 };
 
 /// What a joint does to its body b, in world axes.
@@ -34,9 +36,9 @@ struct JointLoad {
   Vec3f torque{};  ///< about the joint's anchor [N m]
 };
 
-/// Where the two bodies of a joint are to one another. Axes are those of the joint, fixed in body a: x along the axis of a
-/// hinge, slider or cylindrical joint, along `axis` of a ball joint, `axis_a` of a universal joint, and the normal of a
-/// planar joint. Everything is 0 at time 0.
+/// Where the two bodies of a joint are to one another. Axes are those of the joint, fixed in body a: x along the axis
+/// of a hinge, slider or cylindrical joint, along `axis` of a ball joint, `axis_a` of a universal joint, and the normal
+/// of a planar joint. Everything is 0 at time 0.
 struct JointState {
   Vec3f displacement{};      ///< of b's anchor from its place in a [m]
   Vec3f rotation{};          ///< of b, as a vector along its axis whose length is the angle, up to half a turn [rad]
@@ -61,17 +63,19 @@ class ObjectView {
   /// Of info(), without allocation. The name is valid until something is added, removed or edited.
   const std::string& name() const;
   int particle_count() const;
-  /// The present description of an object with Object::tearing or cuts, which the World changes as it tears; the scene to
-  /// save the World with needs it. Throws an Error for other objects, unless the World was made with KeepDescription.
+  /// The present description of an object with Object::tearing or cuts, which the World changes as it tears; the scene
+  /// to save the World with needs it. Throws an Error for other objects, unless the World was made with
+  /// KeepDescription.
   const Object& description() const;
 
   /// The positions of the particles in the user's order [m].
   std::vector<Vec3f> positions() const;
   std::vector<Vec3f> velocities() const;  ///< in the user's order [m/s]
-  /// A channel of the State, as "temperature" of a gas: the values of the particles in the user's order. Empty if there is none.
+  /// A channel of the State, as "temperature" of a gas: the values of the particles in the user's order. Empty if there
+  /// is none.
   std::vector<float> channel(const std::string& name) const;
-  /// The particles that are there, ascending: all, unless particles of the object come and go (Flow). Others have the place at which they
-  /// went, or will not be seen before they are emitted.
+  /// The particles that are there, ascending: all, unless particles of the object come and go (Flow). Others have the
+  /// place at which they went, or will not be seen before they are emitted.
   std::vector<int> present() const;
   std::vector<Vec3f> present_positions() const;  ///< of these [m]
   bool flows() const;                            ///< true if particles of the object come and go
@@ -87,8 +91,8 @@ class ObjectView {
   void read_positions(std::span<Vec3f> into) const;
   void read_velocities(std::span<Vec3f> into) const;
 
-  /// Spans of the particles in storage order: positions with the inverse mass as w, and velocities with w zero. They are
-  /// valid until the next step or change. Record i is particle storage_order()[i]; indices beyond the object's own
+  /// Spans of the particles in storage order: positions with the inverse mass as w, and velocities with w zero. They
+  /// are valid until the next step or change. Record i is particle storage_order()[i]; indices beyond the object's own
   /// particles are targets of attachments.
   std::span<const Record> positions_in_storage_order() const;
   std::span<const Record> velocities_in_storage_order() const;
@@ -99,20 +103,22 @@ class ObjectView {
   /// The force is lambda / h^2 along the gradient (XPBD, eq. 17).
   std::vector<float> multipliers(const std::string& type) const;
 
-  /// The load that a joint carried in the last substep; zero before the first step and for a broken joint. `joint` is an index in
-  /// Object::joints.
+  /// The load that a joint carried in the last substep; zero before the first step and for a broken joint. `joint` is
+  /// an index in Object::joints.
   JointLoad joint_load(int joint) const;
   bool joint_is_broken(int joint) const;
-  /// The mean of the load that a joint carried in the last frame in which it was solved, over the frame's substeps: that of
-  /// one substep oscillates. Throws an Error unless World::record_joint_loads is on. Zero before the first step, and after
-  /// the object was edited, torn or cut.
+  /// The mean of the load that a joint carried in the last frame in which it was solved, over the frame's substeps:
+  /// that of one substep oscillates. Throws an Error unless World::record_joint_loads is on. Zero before the first
+  /// step, and after the object was edited, torn or cut.
   JointLoad mean_joint_load(int joint) const;
   /// Angles, displacements and speeds of a joint, as they are now; of a broken one, too.
   JointState joint_state(int joint) const;
-  /// The index in Object::joints of the only joint of that name. Throws an Error if there is none, or if there are several.
+  /// The index in Object::joints of the only joint of that name. Throws an Error if there is none, or if there are
+  /// several.
   int joint_index(const std::string& name) const;
-  /// The present pose of a rigid body: of the frame in which it was described (BodyOptions::position, rotation), in the world. `body`
-  /// is an index in Object::bodies, or a name that only one of these has. Throws an Error if there is no such body.
+  /// The present pose of a rigid body: of the frame in which it was described (BodyOptions::position, rotation), in the
+  /// world. `body` is an index in Object::bodies, or a name that only one of these has. Throws an Error if there is no
+  /// such body.
   RigidPose pose(int body) const;
   RigidPose pose(const std::string& body) const;
   /// True if a rigid body sleeps (SleepOptions). `body` is an index in Object::bodies.
@@ -123,8 +129,9 @@ class ObjectView {
   ObjectId id_;
 };
 
-/// Reads and controls an object, between steps. Calls with wrong sizes or values that are not finite throw an Error that
-/// names object and element, and change nothing; so do targets and poses of bodies more than 1e9 m from the origin.
+/// Reads and controls an object, between steps. Calls with wrong sizes or values that are not finite throw an Error
+/// that names object and element, and change nothing; so do targets and poses of bodies more than 1e9 m from the
+/// origin.
 class ObjectHandle : public ObjectView {
  public:
   ObjectHandle(WorldData& world, ObjectId id) : ObjectView(world, id), world_(&world) {}
@@ -158,12 +165,13 @@ class ObjectHandle : public ObjectView {
   void add_impulses(std::span<const Vec3f> impulses);
   /// Applies a constant force to each particle during the next step [N]. Replaces the forces of an earlier call.
   void set_forces(std::span<const Vec3f> forces);
-  /// Gives a motor of the joint of that name a new target, which it keeps until the next call, restore() or edit. The kind of the
-  /// motor stays. Throws an Error if the object has no such joint, or the joint no such motor.
+  /// Gives a motor of the joint of that name a new target, which it keeps until the next call, restore() or edit. The
+  /// kind of the motor stays. Throws an Error if the object has no such joint, or the joint no such motor.
   void set_motor(const std::string& joint, const MotorCommand& command);
-  /// Multiplies the rest data of a group of constraints by a factor >= 0 instead of its keyframes, until the next call, restore() or
-  /// edit: rest lengths of "distance", rest volumes of "tetrahedron_volume", the rest stretch of "fibre" (a muscle's activation). `group`
-  /// is an index in Object::constraints. Throws an Error if there is no such group, or its type has no size at rest.
+  /// Multiplies the rest data of a group of constraints by a factor >= 0 instead of its keyframes, until the next call,
+  /// restore() or edit: rest lengths of "distance", rest volumes of "tetrahedron_volume", the rest stretch of "fibre"
+  /// (a muscle's activation). `group` is an index in Object::constraints. Throws an Error if there is no such group, or
+  /// its type has no size at rest.
   void set_rest_factor(int group, float factor);
 
  private:

@@ -1,4 +1,5 @@
-// Reads and writes meshes, scenes and animations. It is part of the library pliant_io; the core library accesses no files.
+// Reads and writes meshes, scenes and animations. It is part of the library pliant_io; the core library accesses no
+// files.
 #pragma once
 
 #include <cstddef>
@@ -46,17 +47,19 @@ struct TetrahedralMeshFile {
   std::vector<std::string> repairs;
 };
 
-/// Reads a mesh of linear tetrahedra: TetGen .node and .ele (either is given, both are read), Gmsh .msh 2.2 and 4.1 as text or binary,
-/// VTK .vtk (legacy) and .vtu (XML), Medit .mesh (text) and .meshb (binary), and .t with lines "Vertex" and "Tet". Points, lines and polygons
-/// are passed over. Tetrahedra that are inside out are turned, nodes that none uses are left out, and equal points of several pieces of a .vtu
-/// file are merged. Throws an Error with file and line (or byte) if the file cannot be read, is damaged or cut off, has other elements, or
-/// is so far from the origin that floats lose its shape.
+/// Reads a mesh of linear tetrahedra: TetGen .node and .ele (either is given, both are read), Gmsh .msh 2.2 and 4.1 as
+/// text or binary, VTK .vtk (legacy) and .vtu (XML), Medit .mesh (text) and .meshb (binary), and .t with lines "Vertex"
+/// and "Tet". Points, lines and polygons are passed over. Tetrahedra that are inside out are turned, nodes that none
+/// uses are left out, and equal points of several pieces of a .vtu file are merged. Throws an Error with file and line
+/// (or byte) if the file cannot be read, is damaged or cut off, has other elements, or is so far from the origin that
+/// floats lose its shape.
 TetrahedralMeshFile read_tetrahedral_mesh(const std::string& path);
 
 /// Writes a mesh as .obj or .ply. If writing fails, an existing file stays unchanged, and the Error names the path.
 void write_mesh(const std::string& path, const TriangleMesh& mesh);
 
-/// A scene that was read, and the repairs of its meshes and the doubts about its robots ("robot 'NAME', FILE:LINE: ...").
+/// A scene that was read, and the repairs of its meshes and the doubts about its robots ("robot 'NAME', FILE:LINE:
+/// ...").
 struct SceneFile {
   Scene scene;
   std::string description;  ///< the file's "description"; may be empty
@@ -85,45 +88,49 @@ struct SceneReadOptions {
   /// Mesh files that replace those of the scene, by name of object or mesh collider; relative to the working directory.
   std::map<std::string, std::string> meshes{};
   SceneArrays arrays{};
-  /// Members to set before the scene is checked: JSON pointers (RFC 6901) such as "/settings/substeps", "/objects/0/name"
-  /// or "/colliders/-", which appends; and values, as JSON, or as text that is no JSON and stands for itself.
+  /// Members to set before the scene is checked: JSON pointers (RFC 6901) such as "/settings/substeps",
+  /// "/objects/0/name" or "/colliders/-", which appends; and values, as JSON, or as text that is no JSON and stands for
+  /// itself.
   std::vector<std::pair<std::string, std::string>> values{};
 };
 
-/// Reads a scene with options. Also throws an Error if `meshes` names no object or mesh collider that has a mesh, if the
-/// scene refers to an array that is not there, or if an array has an index out of range or a value that is not finite.
+/// Reads a scene with options. Also throws an Error if `meshes` names no object or mesh collider that has a mesh, if
+/// the scene refers to an array that is not there, or if an array has an index out of range or a value that is not
+/// finite.
 SceneFile read_scene_file(const std::string& path, const SceneReadOptions& options);
 
 /// Reads a scene as read_scene_file does, and returns the scene alone.
 Scene read_scene(const std::string& path, bool allow_outside = true);
 
 /// Reads a scene from JSON text. `name` stands for the file in errors; mesh paths are relative to `folder`.
-Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder, bool allow_outside = true);
+Scene parse_scene(const std::string& text, const std::string& name, const std::string& folder,
+                  bool allow_outside = true);
 
 /// Reads a scene from JSON text with options, such as arrays in memory.
 SceneFile parse_scene_file(const std::string& text, const std::string& name, const std::string& folder,
                            const SceneReadOptions& options = {});
 
 /// Reads one object or collider from JSON text: an item of "objects" or of "colliders" of the scene format, for
-/// World::add or Scene::add. `name`, `folder` and `options` as of parse_scene_file. An object's `fill` leaves out nothing,
-/// since nothing is known of what is around it. `repairs`, if not null, receives those of its meshes. Throws an Error as
-/// parse_scene_file does.
+/// World::add or Scene::add. `name`, `folder` and `options` as of parse_scene_file. An object's `fill` leaves out
+/// nothing, since nothing is known of what is around it. `repairs`, if not null, receives those of its meshes. Throws
+/// an Error as parse_scene_file does.
 Object parse_object(const std::string& text, const std::string& name = "object", const std::string& folder = ".",
                     const SceneReadOptions& options = {}, std::vector<std::string>* repairs = nullptr);
 std::variant<Collider, MeshCollider> parse_collider(const std::string& text, const std::string& name = "collider",
-                                                    const std::string& folder = ".", const SceneReadOptions& options = {},
+                                                    const std::string& folder = ".",
+                                                    const SceneReadOptions& options = {},
                                                     std::vector<std::string>* repairs = nullptr);
 
-/// Writes a whole Scene as JSON: every particle and constraint, by the names of the members of these headers (bodies `a` and
-/// `b` of a joint are `joint_a` and `joint_b`), to print, to compare line by line, to change and to send. It is no scene
-/// file: those describe, this lists. Throws an Error if the scene has force fields, which are functions, or a name that is
-/// not UTF-8.
+/// Writes a whole Scene as JSON: every particle and constraint, by the names of the members of these headers (bodies
+/// `a` and `b` of a joint are `joint_a` and `joint_b`), to print, to compare line by line, to change and to send. It is
+/// no scene file: those describe, this lists. Throws an Error if the scene has force fields, which are functions, or a
+/// name that is not UTF-8.
 std::string scene_json(const Scene& scene);
 
-/// Reads what scene_json wrote: a Scene of the same fingerprint. Members that were taken out have their defaults. Throws an
-/// Error with line, column and JSON path if the text is not JSON, was written by another version of the format, or has a
-/// member or value that does not belong there. Texts of up to 64 MiB are read, which is some 200 000 particles of cloth; save
-/// larger ones. `name` stands for the file.
+/// Reads what scene_json wrote: a Scene of the same fingerprint. Members that were taken out have their defaults.
+/// Throws an Error with line, column and JSON path if the text is not JSON, was written by another version of the
+/// format, or has a member or value that does not belong there. Texts of up to 64 MiB are read, which is some 200 000
+/// particles of cloth; save larger ones. `name` stands for the file.
 Scene scene_from_json(const std::string& text, const std::string& name = "scene");
 
 /// Returns the JSON Schema (2020-12) of the scene format as text.
@@ -144,20 +151,22 @@ struct UrdfOptions {
   bool motors = false;                   ///< revolute and prismatic joints with an effort limit hold their position
   std::map<std::string, float> targets;  ///< positions to which motors move joints, by name [rad or m]
   bool allow_outside = true;             ///< false: meshes outside the file's folder are refused
-  std::string packages;                  ///< folder of the packages of "package://" paths; empty: searched above the file
+  std::string packages;  ///< folder of the packages of "package://" paths; empty: searched above the file
   /// Meshes in memory by the `filename` that the file gives for them. They are taken instead of files.
   std::map<std::string, TriangleMesh> meshes{};
 };
 
-/// Reads a robot description in URDF as one object: links become rigid bodies, joints joints. Collision shapes, or else visual
-/// ones, become solids; meshes (.obj, .ply, .stl) their convex hulls. What is not supported is named in `warnings` with its
-/// line. Throws an Error with file and line if the file is no URDF or its links form no tree.
-Object read_urdf(const std::string& path, const UrdfOptions& options = {}, std::vector<std::string>* warnings = nullptr);
+/// Reads a robot description in URDF as one object: links become rigid bodies, joints joints. Collision shapes, or else
+/// visual ones, become solids; meshes (.obj, .ply, .stl) their convex hulls. What is not supported is named in
+/// `warnings` with its line. Throws an Error with file and line if the file is no URDF or its links form no tree.
+Object read_urdf(const std::string& path, const UrdfOptions& options = {},
+                 std::vector<std::string>* warnings = nullptr);
 
 /// Returns measure_distances(mesh, spacing) from a cache: reads it from `folder`, or measures it and writes it there.
 /// Makes the folder. The file name is a hash of mesh and spacing; a damaged file is replaced. Throws as
 /// measure_distances does, and an Error with the path if the folder cannot be made, read or written.
-std::shared_ptr<const DistanceField> cached_distances(const TriangleMesh& mesh, float spacing, const std::string& folder);
+std::shared_ptr<const DistanceField> cached_distances(const TriangleMesh& mesh, float spacing,
+                                                      const std::string& folder);
 
 /// Calls cached_distances for each distance grid of a scene that has no field yet.
 void use_cached_distances(Scene& scene, const std::string& folder);
@@ -177,24 +186,24 @@ class FrameWriter {
   virtual std::vector<WrittenFile> written() const = 0;  ///< files written so far, in order; after finish() all
 };
 
-/// Makes a writer by suffix: .obj, .ply (a file per frame: NAME_0000.obj for State::frame 0, ...), .glb (morph targets),
-/// .usda (time samples), .pc2 (and NAME.obj), .pvd (a .vtp file per frame and object). Rigid bodies are nodes that move in
-/// .glb and .usda, and surfaces in the others. Throws an Error for other suffixes.
+/// Makes a writer by suffix: .obj, .ply (a file per frame: NAME_0000.obj for State::frame 0, ...), .glb (morph
+/// targets), .usda (time samples), .pc2 (and NAME.obj), .pvd (a .vtp file per frame and object). Rigid bodies are nodes
+/// that move in .glb and .usda, and surfaces in the others. Throws an Error for other suffixes.
 std::unique_ptr<FrameWriter> make_frame_writer(const std::string& path, const Scene& scene, const World& world);
 
-/// Receives a file of a frame writer in memory, as soon as it is complete: its path, as it would be on disk, and its bytes.
-/// What it throws comes out of the writer's add() or finish().
+/// Receives a file of a frame writer in memory, as soon as it is complete: its path, as it would be on disk, and its
+/// bytes. What it throws comes out of the writer's add() or finish().
 using FileSink = std::function<void(const std::string& path, std::vector<std::byte> bytes)>;
 
 /// How a frame writer shows liquids, and where its files go.
 struct FrameWriterOptions {
-  /// True: the surface of each liquid (liquid_surface), a new mesh in each frame, instead of its particles as points. Only .obj, .ply,
-  /// .usda and .pvd can have it; other suffixes throw an Error if the scene has a liquid.
+  /// True: the surface of each liquid (liquid_surface), a new mesh in each frame, instead of its particles as points.
+  /// Only .obj, .ply, .usda and .pvd can have it; other suffixes throw an Error if the scene has a liquid.
   bool liquid_surfaces = false;
-  /// Where files go instead of to disk, with the bytes that they would have there; empty: to disk. No file or folder is then
-  /// made, and the path of the writer names the format and the files alone: "run.glb" gives one file at finish(); "run.pc2" also
-  /// "run.obj"; "run.obj" gives "run_0000.obj", ... at each add(); "run.pvd" gives "run/OBJECT_0000.vtp", ... at each add(), and
-  /// itself at finish().
+  /// Where files go instead of to disk, with the bytes that they would have there; empty: to disk. No file or folder is
+  /// then made, and the path of the writer names the format and the files alone: "run.glb" gives one file at finish();
+  /// "run.pc2" also "run.obj"; "run.obj" gives "run_0000.obj", ... at each add(); "run.pvd" gives
+  /// "run/OBJECT_0000.vtp", ... at each add(), and itself at finish().
   FileSink sink{};
 };
 

@@ -1,12 +1,14 @@
-// Joints between the rigid bodies of one object: ball, hinge, slider and others, with limits, motors, friction and breaking.
+// Joints between the rigid bodies of one object: ball, hinge, slider and others, with limits, motors, friction and
+// breaking.
 //
 //   const int door = add_body(object, {{.shape = Box{{0.4f, 1, 0.02f}}}}, {.position = {0.4f, 1, 0}});
 //   add_joint(object, HingeJoint{.b = door, .anchor = {0, 1, 0}, .axis = {0, 1, 0}, .limit = JointRange{0, 1.5f}});
 //
-// Anchors and axes are in world coordinates at time 0. A body is an index in Object::bodies; -1 is the world, for which the
-// first such joint adds a fixed body. An angle or displacement is that of body b relative to body a; it is 0 at time 0 and
-// positive as a rotation about the axis, or along it. A joint becomes constraints of the object (Object::constraints),
-// listed in Object::joints. All functions throw an Error that names the joint if a number is wrong, and then change nothing.
+// Anchors and axes are in world coordinates at time 0. A body is an index in Object::bodies; -1 is the world, for which
+// the first such joint adds a fixed body. An angle or displacement is that of body b relative to body a; it is 0 at
+// time 0 and positive as a rotation about the axis, or along it. A joint becomes constraints of the object
+// (Object::constraints), listed in Object::joints. All functions throw an Error that names the joint if a number is
+// wrong, and then change nothing.
 #pragma once
 
 #include <array>
@@ -37,8 +39,9 @@ struct JointRange {
   float compliance = 0;  ///< of the stops, 0: rigid [rad/(N m) or m/N]
 };
 
-/// Drives an angle or a displacement. `speed`: at the speed `target` [rad/s or m/s]. `position`: towards `target` [rad or m],
-/// at the remaining distance times `rate`, at most `most_speed`. `torque`: by the torque or force `target` [N m or N].
+/// Drives an angle or a displacement. `speed`: at the speed `target` [rad/s or m/s]. `position`: towards `target` [rad
+/// or m], at the remaining distance times `rate`, at most `most_speed`. `torque`: by the torque or force `target` [N m
+/// or N].
 struct JointMotor {
   enum class Kind { speed, position, torque };
   Kind kind = Kind::speed;
@@ -46,8 +49,8 @@ struct JointMotor {
   float most = 1;                ///< greatest torque [N m] or force [N], > 0; no meaning for `torque`
   float rate = 10;               ///< of `position`, > 0 [1/s]
   float most_speed = unlimited;  ///< of `position`, > 0 [rad/s or m/s]
-  /// The target by time instead of `target`: linear between keyframes, constant outside, until set_motor gives another. A
-  /// frame has the target of its end.
+  /// The target by time instead of `target`: linear between keyframes, constant outside, until set_motor gives another.
+  /// A frame has the target of its end.
   std::vector<MotorKeyframe> keyframes{};
 };
 
@@ -58,7 +61,8 @@ struct JointSpring {
   float damping = 0;    ///< torque over angular velocity [N m s/rad] or force over speed [N s/m], >= 0
 };
 
-/// The two bodies share a point. `axis` is fixed in both: its angle between them is the swing, the turn about it the twist.
+/// The two bodies share a point. `axis` is fixed in both: its angle between them is the swing, the turn about it the
+/// twist.
 struct BallJoint {
   int a = -1, b = 0;
   Vec3f anchor{};
@@ -114,8 +118,8 @@ struct CylindricalJoint {
   std::optional<JointSpring> slide_spring{}, turn_spring{};
 };
 
-/// Two axes that stay perpendicular and cross at the anchor: one fixed in a, one in b. The angle about each is that of the cross
-/// against a, and of b against the cross. Where one is half a turn, the other is not measured well.
+/// Two axes that stay perpendicular and cross at the anchor: one fixed in a, one in b. The angle about each is that of
+/// the cross against a, and of b against the cross. Where one is half a turn, the other is not measured well.
 struct UniversalJoint {
   int a = -1, b = 0;
   Vec3f anchor{};
@@ -170,8 +174,8 @@ struct PulleyJoint {
   JointOptions options{};
 };
 
-/// Two bodies rotate about axes fixed in a third: teeth_a times a's angle plus teeth_b times b's stays the same. Add the hinges
-/// as joints of their own.
+/// Two bodies rotate about axes fixed in a third: teeth_a times a's angle plus teeth_b times b's stays the same. Add
+/// the hinges as joints of their own.
 struct GearJoint {
   int a = 0, b = 1;
   Vec3f axis_a{0, 0, 1}, axis_b{0, 0, 1};
@@ -180,8 +184,8 @@ struct GearJoint {
   JointOptions options{};
 };
 
-/// A pinion that rotates about an axis moves a rack by its radius times its angle. Add the hinge of the pinion and the slider
-/// of the rack as joints of their own.
+/// A pinion that rotates about an axis moves a rack by its radius times its angle. Add the hinge of the pinion and the
+/// slider of the rack as joints of their own.
 struct RackJoint {
   int pinion = 0, rack = 1;
   Vec3f axis{0, 0, 1};       ///< of the pinion

@@ -6,9 +6,9 @@
 
 namespace pliant {
 
-/// In which order the constraints of an object are projected, and where its particles are stored. Whoever adds an object need not know:
-/// it follows from the description. After an edit of a large object it also follows from the schedule before, because only what the edit
-/// reached is scheduled again. So WorldLayout has it.
+/// In which order the constraints of an object are projected, and where its particles are stored. Whoever adds an
+/// object need not know: it follows from the description. After an edit of a large object it also follows from the
+/// schedule before, because only what the edit reached is scheduled again. So WorldLayout has it.
 struct KeptSchedule {
   /// Constraints that share no particle and are projected together.
   struct Colour {
@@ -18,8 +18,8 @@ struct KeptSchedule {
     bool is_added = false;         ///< of constraints that were changed or added by edits; without runs
     std::vector<int> constraints;  ///< number of each among the constraints of the type
   };
-  /// Tetrahedra around an edge that keep their volume together (constraint type volume_around_edge). Tetrahedron i has the corners a, b,
-  /// ring[i] and the next of the ring.
+  /// Tetrahedra around an edge that keep their volume together (constraint type volume_around_edge). Tetrahedron i has
+  /// the corners a, b, ring[i] and the next of the ring.
   struct Fan {
     int a = 0, b = 0;  ///< ends of the edge
     int ring_size = 0, count = 0;

@@ -19,7 +19,8 @@ struct TetrahedraMeasure {
   double least_ratio = 1;       ///< smallest volume over that at rest; negative for an inverted one [-]
   double volume_ratio = 1;      ///< volume of all over that at rest [-]
   ObjectId object;              ///< the object of the smallest
-  std::array<int, 4> particles{{-1, -1, -1, -1}};  ///< its corners, in the object's own order; -1: there is no tetrahedron
+  std::array<int, 4> particles{
+      {-1, -1, -1, -1}};  ///< its corners, in the object's own order; -1: there is no tetrahedron
 };
 
 /// Measures a World between steps. A small value that is valid as long as a handle (handles.h).
@@ -37,8 +38,8 @@ class Measurements {
   Overstretch overstretch() const;
   TetrahedraMeasure tetrahedra() const;
 
-  /// Describes it: "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more". Of an
-  /// object that was removed, or edited so that it lacks these particles, only the figures.
+  /// Describes it: "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more". Of
+  /// an object that was removed, or edited so that it lacks these particles, only the figures.
   std::string describe(const Overstretch& found) const;
   /// Says where the solve fell short, by how much, and what to do; empty if is_tolerable(found). `found` is that of a
   /// frame of this World, or the worst of all. pliant::advise tries remedies.

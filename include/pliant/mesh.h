@@ -23,8 +23,8 @@ struct Finding {
 };
 
 /// A flat rectangle of `columns` x `rows` vertices, `width` x `depth` metres, in the xz-plane, centred at the origin,
-/// facing +y. Vertex (row r, column c) has index r * columns + c; each cell's diagonal runs from (r, c) to (r + 1, c + 1).
-/// Throws an Error unless columns, rows >= 2 and the sizes are positive and finite.
+/// facing +y. Vertex (row r, column c) has index r * columns + c; each cell's diagonal runs from (r, c) to (r + 1, c +
+/// 1). Throws an Error unless columns, rows >= 2 and the sizes are positive and finite.
 TriangleMesh grid_mesh(int columns, int rows, float width, float depth);
 
 /// A closed unit sphere about the origin: an icosahedron whose faces are split into four `subdivisions` (0..7) times.

@@ -15,7 +15,8 @@ struct Keyframe {
 };
 
 /// A rigid motion p -> R(t) (p - pivot) + pivot + position(t). Between keyframes it is linear, with rotations on the
-/// shorter arc. It is constant before the first keyframe and, unless `repeat`, after the last; static without keyframes.
+/// shorter arc. It is constant before the first keyframe and, unless `repeat`, after the last; static without
+/// keyframes.
 struct Motion {
   std::vector<Keyframe> keyframes;
   Vec3f pivot{};        ///< centre of rotation [m]

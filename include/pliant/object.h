@@ -16,13 +16,13 @@
 
 namespace pliant {
 
-/// How a deformation becomes permanent: what is beyond `yield` flows away, in all up to `most`. Of what a constraint measures: of tetrahedra
-/// ("tetrahedron_shear") and clusters the strain, of hinges ("dihedral_bending") the angle [rad], of rods ("rod_joint") the strain at their
-/// surface.
+/// How a deformation becomes permanent: what is beyond `yield` flows away, in all up to `most`. Of what a constraint
+/// measures: of tetrahedra ("tetrahedron_shear") and clusters the strain, of hinges ("dihedral_bending") the angle
+/// [rad], of rods ("rod_joint") the strain at their surface.
 struct Plasticity {
   float yield = 0;  ///< elastic deformation that does not become permanent, >= 0 [-, or rad of hinges]
-  /// How fast the rest flows: exp(-rate t) of what is beyond `yield` is left after t seconds. 0: all of it flows at once, as in metal;
-  /// with a `yield` of 0 it creeps, as dough does. >= 0 [1/s]
+  /// How fast the rest flows: exp(-rate t) of what is beyond `yield` is left after t seconds. 0: all of it flows at
+  /// once, as in metal; with a `yield` of 0 it creeps, as dough does. >= 0 [1/s]
   float rate = 0;
   float most = 1e30f;  ///< greatest permanent deformation; beyond it the matter is elastic again [-, or rad of hinges]
 };
@@ -35,15 +35,15 @@ struct RestKeyframe {
 
 /// A group of constraints of one type among the particles of one object. `type` is a name in constraint_types().
 struct ConstraintGroup {
-  std::string type;                        ///< "distance", "dihedral_bending", "isometric_bending", ...
-  std::vector<int> particles;              ///< indices, stencil after stencil; for a frame slot the index of a frame
-  std::vector<float> rest;                 ///< rest data by constraint; empty: measured from the positions
-  Stiffness stiffness{};                   ///< stiffness of every constraint of the group
-  std::vector<float> compliances;          ///< compliance of each constraint, instead of stiffness.value; empty: all equal
+  std::string type;                ///< "distance", "dihedral_bending", "isometric_bending", ...
+  std::vector<int> particles;      ///< indices, stencil after stencil; for a frame slot the index of a frame
+  std::vector<float> rest;         ///< rest data by constraint; empty: measured from the positions
+  Stiffness stiffness{};           ///< stiffness of every constraint of the group
+  std::vector<float> compliances;  ///< compliance of each constraint, instead of stiffness.value; empty: all equal
   std::optional<Plasticity> plasticity{};  ///< for types that have it; none: elastic
-  /// By what the rest length of "distance", the longest one of "distance_limit", the rest volume of "tetrahedron_volume" or the rest stretch
-  /// of "fibre" is multiplied: linear between keyframes, constant before the first and after the last. Their times increase. It changes
-  /// in each substep.
+  /// By what the rest length of "distance", the longest one of "distance_limit", the rest volume of
+  /// "tetrahedron_volume" or the rest stretch of "fibre" is multiplied: linear between keyframes, constant before the
+  /// first and after the last. Their times increase. It changes in each substep.
   std::vector<RestKeyframe> keyframes{};
   /// Force at which one of them breaks, of links in a row in a step only the most loaded: World::step removes it, see
   /// Report::torn. Of "distance", "distance_limit", "point_on_triangle" and "point_in_tetrahedron" with a compliance,
@@ -74,20 +74,22 @@ struct PressureKeyframe {
 struct Volume {
   float pressure = 1;     ///< target volume over rest volume, k_pressure >= 0 [-]
   Stiffness stiffness{};  ///< its compliance is in m^5/N, for C as written above, which is six volumes
-  /// By how much the air outside is denser than the gas inside [kg/m^3]. The difference of their pressures grows with height and bears the
-  /// surface up, in all by this times g V. The gas has no inertia. filled_with of pliant/gas.h sets it.
+  /// By how much the air outside is denser than the gas inside [kg/m^3]. The difference of their pressures grows with
+  /// height and bears the surface up, in all by this times g V. The gas has no inertia. filled_with of pliant/gas.h
+  /// sets it.
   float lift = 0;
-  /// If there are any, the pressure follows them instead of `pressure`: linear between, constant before the first and after the last. Their
-  /// times increase. It changes in each substep.
+  /// If there are any, the pressure follows them instead of `pressure`: linear between, constant before the first and
+  /// after the last. Their times increase. It changes in each substep.
   std::vector<PressureKeyframe> keyframes{};
-  /// The share of what the pressure is above 1 that leaks out in a second: exp(-leak t) of it is left at the World's time t, 0..1000 [1/s].
+  /// The share of what the pressure is above 1 that leaks out in a second: exp(-leak t) of it is left at the World's
+  /// time t, 0..1000 [1/s].
   float leak = 0;
 
   bool changes() const { return !keyframes.empty() || leak > 0; }
 };
 
-/// Particles that keep their shape (Mueller, Heidelberger, Teschner, Gross 2005): each is pulled to its place in the rest shape, moved,
-/// turned and perhaps deformed to where the particles are. pliant/cluster.h makes clusters.
+/// Particles that keep their shape (Mueller, Heidelberger, Teschner, Gross 2005): each is pulled to its place in the
+/// rest shape, moved, turned and perhaps deformed to where the particles are. pliant/cluster.h makes clusters.
 struct Cluster {
   /// What the rest shape may do to fit: move and turn; also stretch and shear at constant volume; also bend and twist.
   enum class Mode { rigid, linear, quadratic };
@@ -95,16 +97,19 @@ struct Cluster {
   std::vector<int> particles;  ///< two or more, none of them twice
   std::vector<Vec3f> rest;     ///< their rest shape [m]; empty: their initial positions
   Mode mode = Mode::rigid;
-  float share = 0.8f;  ///< of the deformation that `linear` and `quadratic` keep, 0..1; the rest of it is pulled back [-]
-  /// Its compliance is per mass, alpha in s^2: particles swing about their places at 1 / (2 pi sqrt(alpha)) Hz, whatever
-  /// their masses. Its damping is per mass too, in 1/s.
+  float share =
+      0.8f;  ///< of the deformation that `linear` and `quadratic` keep, 0..1; the rest of it is pulled back [-]
+  /// Its compliance is per mass, alpha in s^2: particles swing about their places at 1 / (2 pi sqrt(alpha)) Hz,
+  /// whatever their masses. Its damping is per mass too, in 1/s.
   Stiffness stiffness{};
-  /// The rest shape takes on what it is stretched and sheared by, at constant volume; none: it springs back. Flat clusters stay elastic.
+  /// The rest shape takes on what it is stretched and sheared by, at constant volume; none: it springs back. Flat
+  /// clusters stay elastic.
   std::optional<Plasticity> plasticity{};
 };
 
-/// How far the edges of cloth or of tetrahedra may become shorter or longer (Provot 1995, section 4): an elastic object yields freely until
-/// there, and hardly beyond, as cloth does whose yarns are straight. Constraint type "distance_limit".
+/// How far the edges of cloth or of tetrahedra may become shorter or longer (Provot 1995, section 4): an elastic object
+/// yields freely until there, and hardly beyond, as cloth does whose yarns are straight. Constraint type
+/// "distance_limit".
 struct StrainLimit {
   float least = 0;    ///< least length over that at rest, 0..1 [-]
   float most = 1.1f;  ///< greatest length over that at rest, >= 1 [-]
@@ -136,8 +141,8 @@ enum class Sweep {
   natural,     ///< Gauss-Seidel in the user's order, one constraint at a time: slow, for comparisons
   chains,      ///< direct solves along paths of distance constraints; all other constraints as in `tiled`
   multigrid,   ///< a multigrid correction of all distances, then `tiled` twice; for fine meshes
-  /// `chains`, and no particle farther from the pins than along the mesh, while the pins keep their distances: for cloth
-  /// and rope that hang
+  /// `chains`, and no particle farther from the pins than along the mesh, while the pins keep their distances: for
+  /// cloth and rope that hang
   tethered_chains,
 };
 
@@ -172,14 +177,15 @@ struct MotorKeyframe {
 
 /// A motor of a joint: one of its constraints, which ObjectHandle::set_motor can give another target.
 struct ObjectJointMotor {
-  std::string name;    ///< the member of the joint that describes it, as "motor" or "turn_motor"; of six axes "linear_x"
-  int constraint = 0;  ///< index in ObjectJoint::constraints
+  std::string name;  ///< the member of the joint that describes it, as "motor" or "turn_motor"; of six axes "linear_x"
+  int constraint = 0;        ///< index in ObjectJoint::constraints
   bool to_position = false;  ///< its target is an angle or a displacement; false: a speed, or a torque or force
   bool is_torque = false;    ///< its target is a torque or a force
   std::vector<MotorKeyframe> keyframes{};  ///< the target by time: linear between them, constant outside
 };
 
-/// A joint between two bodies of an object: a name for some of its constraints (add_joint of pliant/joint.h makes both).
+/// A joint between two bodies of an object: a name for some of its constraints (add_joint of pliant/joint.h makes
+/// both).
 struct ObjectJoint {
   std::string name;
   std::string kind;                             ///< "ball", "hinge", ...
@@ -192,13 +198,15 @@ struct ObjectJoint {
   Quatf axes_a{}, axes_b{};  ///< axes of the joint at time 0, in the frames of a's and of b's principal axes
 };
 
-/// Where an object tears: at edges and tetrahedra that become too long. World::step splits one of their particles, across the direction of
-/// the greatest stretch (Mueller et al. 2007, section 4.6), and tells in Report::torn. Of a rod a joint breaks (Report::broken_joints).
+/// Where an object tears: at edges and tetrahedra that become too long. World::step splits one of their particles,
+/// across the direction of the greatest stretch (Mueller et al. 2007, section 4.6), and tells in Report::torn. Of a rod
+/// a joint breaks (Report::broken_joints).
 struct Tearing {
   float stretch = 1.5f;  ///< greatest length over that at rest, > 1 [-]
 };
 
-/// A cut along a plane of the rest shape, along edges, faces and joints. Once World::step has made it, description() has infinite times, but of rods.
+/// A cut along a plane of the rest shape, along edges, faces and joints. Once World::step has made it, description()
+/// has infinite times, but of rods.
 struct PlaneCut {
   float start = 0, end = 0;  ///< when the blade enters the object, and when it has passed; equal: at once [s]
   Vec3f point{};             ///< of the plane [m]
@@ -212,14 +220,15 @@ struct SkinVertex {
   std::array<float, 4> weights{};  ///< their sum is 1; a vertex outside of its tetrahedron has negative ones
 };
 
-/// A surface that moves with an object's particles, finer than its own. Files and pictures show it instead; nothing touches it.
-/// make_skin of pliant/soft_body.h makes one.
+/// A surface that moves with an object's particles, finer than its own. Files and pictures show it instead; nothing
+/// touches it. make_skin of pliant/soft_body.h makes one.
 struct Skin {
   std::vector<SkinVertex> vertices;
   std::vector<std::array<int, 3>> triangles;  ///< indices of vertices
 };
 
-/// An object: particles and constraints. make_cloth and make_rope make one. Over fifteen members: its whole description.
+/// An object: particles and constraints. make_cloth and make_rope make one. Over fifteen members: its whole
+/// description.
 struct Object {
   std::string name;
   std::vector<Vec3f> positions;     ///< initial positions, which are also the rest shape [m]

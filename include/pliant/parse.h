@@ -1,5 +1,6 @@
 // Reads meshes and robots from the bytes of a file: of databases, networks, archives and other languages. Scenes have
-// parse_scene_file (io.h), States and Worlds load_state_bytes and load_world_bytes (save.h). Part of the library pliant_io.
+// parse_scene_file (io.h), States and Worlds load_state_bytes and load_world_bytes (save.h). Part of the library
+// pliant_io.
 #pragma once
 
 #include <string>
@@ -15,12 +16,12 @@ namespace pliant {
 /// read_mesh_file does.
 MeshFile parse_mesh(std::string_view bytes, const std::string& name, const MeshReadOptions& options = {});
 
-/// Reads a tetrahedral mesh from the bytes of a file, as read_tetrahedral_mesh does. The suffix of `name` says the format:
-/// .msh, .vtk, .vtu, .mesh, .meshb or .t. Throws an Error as read_tetrahedral_mesh does.
+/// Reads a tetrahedral mesh from the bytes of a file, as read_tetrahedral_mesh does. The suffix of `name` says the
+/// format: .msh, .vtk, .vtu, .mesh, .meshb or .t. Throws an Error as read_tetrahedral_mesh does.
 TetrahedralMeshFile parse_tetrahedral_mesh(std::string_view bytes, const std::string& name);
 
-/// Reads a tetrahedral mesh of TetGen from the bytes of its .node file and of its .ele file. In errors they are `name` with
-/// these suffixes.
+/// Reads a tetrahedral mesh of TetGen from the bytes of its .node file and of its .ele file. In errors they are `name`
+/// with these suffixes.
 TetrahedralMeshFile parse_tetgen(std::string_view nodes, std::string_view elements, const std::string& name = "tetgen");
 
 /// Reads a robot description from the text of a URDF file, as read_urdf does. `name` stands for the file in errors and

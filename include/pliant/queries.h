@@ -22,7 +22,8 @@ struct Crossing {
   }
 };
 
-/// Finds a mesh's intersections at changing positions without new allocations. Signs are exact: rounding changes nothing.
+/// Finds a mesh's intersections at changing positions without new allocations. Signs are exact: rounding changes
+/// nothing.
 class CrossingFinder {
  public:
   /// Throws an Error if a triangle has a corner outside 0..vertex_count - 1.
@@ -55,7 +56,8 @@ double segment_distance(const std::array<Vec3d, 4>& ends);
 /// precision is exact; the one in float misses no contact, but can report a false one.
 std::optional<double> vertex_triangle_impact(const std::array<Vec3d, 4>& from, const std::array<Vec3d, 4>& to,
                                              double within);
-std::optional<float> vertex_triangle_impact(const std::array<Vec3f, 4>& from, const std::array<Vec3f, 4>& to, float within);
+std::optional<float> vertex_triangle_impact(const std::array<Vec3f, 4>& from, const std::array<Vec3f, 4>& to,
+                                            float within);
 
 /// The time at which the edges (0, 1) and (2, 3) first come within a distance, as in vertex_triangle_impact.
 std::optional<double> edge_edge_impact(const std::array<Vec3d, 4>& from, const std::array<Vec3d, 4>& to, double within);

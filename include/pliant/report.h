@@ -82,9 +82,9 @@ struct ConvergenceEstimate {
   /// tetrahedra (root mean square), of the size of the bodies at a joint (root mean square), of the density at rest
   /// (Compression::mean) [-].
   double excess = 0;
-  double strain = 0;             ///< of bending and shear: the same as an angle or a strain, weighted by force [rad or -]
-  ObjectId object;               ///< empty if there is no estimate, and of density
-  int substeps = 0;              ///< of that object in the frame
+  double strain = 0;  ///< of bending and shear: the same as an angle or a strain, weighted by force [rad or -]
+  ObjectId object;    ///< empty if there is no estimate, and of density
+  int substeps = 0;   ///< of that object in the frame
   std::int64_t constraints = 0;  ///< sampled in this frame and those before, which count less and less; 0: no estimate
 };
 
@@ -94,12 +94,12 @@ using ConvergenceEstimates = std::array<ConvergenceEstimate, resistance_count>;
 /// The name of a Resistance: "stretching".
 const char* name_of(Resistance kind);
 
-/// True if an estimate is so small that it need not be told: bending within a quarter or 0.001 rad, shear within a tenth
-/// or 0.002, stretching as Overstretch::p99, volume within a twentieth, joints and density within a hundredth.
+/// True if an estimate is so small that it need not be told: bending within a quarter or 0.001 rad, shear within a
+/// tenth or 0.002, stretching as Overstretch::p99, volume within a twentieth, joints and density within a hundredth.
 bool is_tolerable(Resistance kind, const ConvergenceEstimate& estimate);
 
-/// The estimates that were farthest from converged since the World was made or a State was restored. They follow those of
-/// the frames up by a twentieth of the way each and down at once, so that an impact of a few frames does not count.
+/// The estimates that were farthest from converged since the World was made or a State was restored. They follow those
+/// of the frames up by a twentieth of the way each and down at once, so that an impact of a few frames does not count.
 struct WorstEstimates {
   ConvergenceEstimates estimates;
   std::array<std::int64_t, resistance_count> frames{};  ///< Report::frame of each; 0: none
@@ -107,9 +107,10 @@ struct WorstEstimates {
 
 /// Where the first value that is not finite arose.
 struct NonFinite {
-  std::string object, element;  ///< "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step
-  std::int64_t frame = 0;       ///< number of complete frames before the error
-  int substep = 0;              ///< index of the substep within the frame, from 0
+  std::string object,
+      element;             ///< "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step
+  std::int64_t frame = 0;  ///< number of complete frames before the error
+  int substep = 0;         ///< index of the substep within the frame, from 0
 };
 
 /// Iterations per substep in a step. They differ only if Settings::tolerance ends some substeps early.
@@ -146,10 +147,10 @@ struct FlowReport {
 
 /// Statistics of contact between surfaces, including mesh colliders and, in `contacts`, rigid bodies.
 struct PairReport {
-  std::int64_t candidates = 0;              ///< pairs of primitives in lists: mesh neighbours, and pairs found near
-  std::int64_t contacts = 0;                ///< active in the last substep, also of points and surfaces with rigid bodies
-  std::int64_t truncated = 0;               ///< steps of vertices that the filter truncated, over all substeps
-  std::int64_t unresolvable = 0;            ///< pairs that no step limit keeps apart, as in cloth pinched by colliders
+  std::int64_t candidates = 0;    ///< pairs of primitives in lists: mesh neighbours, and pairs found near
+  std::int64_t contacts = 0;      ///< active in the last substep, also of points and surfaces with rigid bodies
+  std::int64_t truncated = 0;     ///< steps of vertices that the filter truncated, over all substeps
+  std::int64_t unresolvable = 0;  ///< pairs that no step limit keeps apart, as in cloth pinched by colliders
   std::int64_t initially_intersecting = 0;  ///< edges that intersect a triangle since the start; no contact until apart
   std::int64_t rebuilds = 0;                ///< number of broad-phase rebuilds
   std::int64_t inside = 0;                  ///< vertices inside a closed mesh collider, which are being moved out
@@ -172,16 +173,18 @@ struct Thing {
   friend auto operator<=>(const Thing&, const Thing&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The contacts between two things in a frame. Only active contacts count. A liquid also presses on what is near it without touching it.
+/// The contacts between two things in a frame. Only active contacts count. A liquid also presses on what is near it
+/// without touching it.
 struct ContactEvent {
   enum class Change { begin, persist, end };
   Change change = Change::begin;
   Thing first, second;  ///< first < second; equal for self-contact
   int contacts = 0;     ///< largest number of active contacts in a substep; can be 0 for a liquid
-  double impulse = 0;   ///< sum of the magnitudes of their normal impulses over the frame, with those of restitution [N s]
-  Vec3f position{};     ///< mean position of the contacts, weighted by impulse [m]
-  Vec3f normal{};       ///< unit vector: mean direction of the push on `first`; zero if pushes cancel
-  Vec3d push{};         ///< sum of their normal impulses on `first` over the frame [N s]
+  double impulse =
+      0;             ///< sum of the magnitudes of their normal impulses over the frame, with those of restitution [N s]
+  Vec3f position{};  ///< mean position of the contacts, weighted by impulse [m]
+  Vec3f normal{};    ///< unit vector: mean direction of the push on `first`; zero if pushes cancel
+  Vec3d push{};      ///< sum of their normal impulses on `first` over the frame [N s]
 };
 
 /// A side of a BodyTouch.
@@ -192,8 +195,8 @@ struct TouchSide {
   friend auto operator<=>(const TouchSide&, const TouchSide&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The contacts between a rigid body and another one, a collider or particles in a frame. `push` over the duration of the
-/// frame is the mean force between them. The pressure of liquids is in it; friction is not.
+/// The contacts between a rigid body and another one, a collider or particles in a frame. `push` over the duration of
+/// the frame is the mean force between them. The pressure of liquids is in it; friction is not.
 struct BodyTouch {
   TouchSide first, second;  ///< first < second
   int contacts = 0;         ///< largest number of active contacts in a substep; can be 0 for a liquid
@@ -209,27 +212,30 @@ struct JointBreak {
   std::string name;  ///< of the joint
 };
 
-/// An object that tore or was cut at the end of a step (Object::tearing, Object::cuts). Its particles keep their indices; new ones follow.
+/// An object that tore or was cut at the end of a step (Object::tearing, Object::cuts). Its particles keep their
+/// indices; new ones follow.
 struct Torn {
   ObjectId object;
   int new_particles = 0;     ///< particles that were split off
   int lost_constraints = 0;  ///< links of ropes and hinges of cloth that are gone
 };
 
-/// The rigid tie of a particle to a body (attach()) that is open farthest: the error that a step leaves. Ties with compliance or PBD
-/// stiffness are left out, because these open by design.
+/// The rigid tie of a particle to a body (attach()) that is open farthest: the error that a step leaves. Ties with
+/// compliance or PBD stiffness are left out, because these open by design.
 struct TieGap {
   double gap = 0;  ///< distance of the particle from its place on the body [m]
   double length =
       0;  ///< mean length of the edges at the particle, or without edges its distance from the centre of mass [m]
   ObjectId object;
-  int particle = -1, body = -1;  ///< in the object's own order, and an index in Object::bodies; -1: no rigid tie is open
+  int particle = -1,
+      body = -1;  ///< in the object's own order, and an index in Object::bodies; -1: no rigid tie is open
 };
 
 /// True if a tie is open by no more than an edge may be too long.
 inline bool is_tolerable(const TieGap& tie) { return tie.gap <= tolerated_overstretch * tie.length; }
 
-/// How much denser than at rest liquids are, in the last substep: density over that at rest, minus 1, where that is above 0 [-].
+/// How much denser than at rest liquids are, in the last substep: density over that at rest, minus 1, where that is
+/// above 0 [-].
 struct Compression {
   double mean = 0, largest = 0;  ///< over all particles of liquids
   int crowded = 0;               ///< particles with over 256 neighbours, of which the rest was left out
@@ -249,9 +255,11 @@ struct ViscositySolves {
   }
 };
 
-/// How much of the surface tension of liquids acts, as the least of any liquid and substep of a frame (docs/guide/liquids.md).
+/// How much of the surface tension of liquids acts, as the least of any liquid and substep of a frame
+/// (docs/guide/liquids.md).
 struct TensionActs {
-  float share = 1;  ///< of Fluid::surface_tension; below 1 where substeps are too long for it, and a warning says so [-]
+  float share =
+      1;  ///< of Fluid::surface_tension; below 1 where substeps are too long for it, and a warning says so [-]
 
   TensionActs& operator+=(const TensionActs& other) {
     share = other.share < share ? other.share : share;
@@ -279,16 +287,17 @@ struct Report {
   std::int64_t frame = 0;
   double time = 0;
   double milliseconds = 0;
-  int substeps = 0;  ///< substeps of this frame, with those that Settings::most_substeps permits; the most of any object
+  int substeps =
+      0;  ///< substeps of this frame, with those that Settings::most_substeps permits; the most of any object
   std::vector<PhaseTime> phases;  ///< of sets that ran side by side the sum, which can exceed `milliseconds`
   std::int64_t contacts = 0;      ///< contacts with colliders and rigid bodies that were active in the last substep
   PairReport pairs;
-  std::vector<Residual> residuals;             ///< filled if Settings::measure is set
-  std::optional<Stretch> stretch;              ///< filled if Settings::measure is set
-  IterationCount iterations;                   ///< iterations per substep
-  std::optional<Overstretch> overstretch;      ///< of this frame; empty if it was not completed; see Measurements::advice
-  WorstOverstretch worst_overstretch;          ///< of this and earlier frames
-  TieGap widest_tie;                           ///< of this frame, by gap / length; a warning says so if not tolerable
+  std::vector<Residual> residuals;         ///< filled if Settings::measure is set
+  std::optional<Stretch> stretch;          ///< filled if Settings::measure is set
+  IterationCount iterations;               ///< iterations per substep
+  std::optional<Overstretch> overstretch;  ///< of this frame; empty if it was not completed; see Measurements::advice
+  WorstOverstretch worst_overstretch;      ///< of this and earlier frames
+  TieGap widest_tie;                       ///< of this frame, by gap / length; a warning says so if not tolerable
   std::vector<IterationResidual> convergence;  ///< last substep by iteration, if Settings::record_residuals is set
   Compression compression;                     ///< of liquids
   ViscositySolves viscosity;                   ///< of liquids

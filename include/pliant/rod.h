@@ -4,9 +4,10 @@
 //   for (int i = 0; i <= 20; ++i) points.push_back({0.05f * i, 1, 0});
 //   scene.objects.push_back(make_rod(points, {.material = rod_material("steel wire"), .radius = 0.001f, .start = {.kind = RodEnd::Kind::clamped}}));
 //
-// Between each two points is a rigid body, a segment, which is a capsule; a joint joins each two neighbours. This is the Cosserat rod in
-// the form of Deul, Kugelstadt, Weiler and Bender 2018: joints whose stiffness follows from the material, all of them solved
-// directly along the rod, so a stiff rod costs as much as a soft one. Segments touch whatever bodies touch.
+// Between each two points is a rigid body, a segment, which is a capsule; a joint joins each two neighbours. This is
+// the Cosserat rod in the form of Deul, Kugelstadt, Weiler and Bender 2018: joints whose stiffness follows from the
+// material, all of them solved directly along the rod, so a stiff rod costs as much as a soft one. Segments touch
+// whatever bodies touch.
 #pragma once
 
 #include <optional>
@@ -30,12 +31,13 @@ struct RodMaterial {
   std::string source;             ///< where the numbers come from
   /// Strain at the surface of a bent or twisted rod beyond which it stays so, and how fast that flows; none: elastic.
   std::optional<Plasticity> plasticity{};
-  /// Its resistance to bending and twisting over that of a solid rod: less in a rope or cable, whose strands slide on each other, 0..1 [-]
+  /// Its resistance to bending and twisting over that of a solid rod: less in a rope or cable, whose strands slide on
+  /// each other, 0..1 [-]
   float bending_share = 1;
 };
 
-/// Returns a built-in material: "steel wire", "copper wire", "nylon line", "hair", "rubber cord", "bamboo" or "rope". For any other
-/// name throws an Error that lists the names.
+/// Returns a built-in material: "steel wire", "copper wire", "nylon line", "hair", "rubber cord", "bamboo" or "rope".
+/// For any other name throws an Error that lists the names.
 const RodMaterial& rod_material(std::string_view name);
 
 /// All built-in materials of rods.
@@ -50,8 +52,8 @@ struct RodStiffness {
   float twist = 0;      ///< G J: torque per rate of twist [N m^2]
 };
 
-/// Returns the stiffness of a round cross-section: E pi r^2, 0.9 G pi r^2, and bending_share times E pi r^4 / 4 and G pi r^4 / 2. The factor
-/// of shear is Timoshenko's.
+/// Returns the stiffness of a round cross-section: E pi r^2, 0.9 G pi r^2, and bending_share times E pi r^4 / 4 and G
+/// pi r^4 / 2. The factor of shear is Timoshenko's.
 RodStiffness stiffness_of(const RodMaterial& material, float radius);
 
 /// How an end of a rod is held.
@@ -70,10 +72,11 @@ struct RodOptions {
   RodMaterial material{};
   float radius = 0.005f;  ///< > 0 [m]
   float end_radius = 0;   ///< at the last point, if the rod tapers from `radius` at the first one; 0: it does not [m]
-  /// Instead of that of the material and the radius: of a flat, hollow or stranded cross-section. Not for a rod that tapers.
+  /// Instead of that of the material and the radius: of a flat, hollow or stranded cross-section. Not for a rod that
+  /// tapers.
   std::optional<RodStiffness> stiffness{};
-  /// Direction across the rod about which `bending` acts at its start; from there it follows the rod without twisting. Any, if bending is the
-  /// same about both.
+  /// Direction across the rod about which `bending` acts at its start; from there it follows the rod without twisting.
+  /// Any, if bending is the same about both.
   std::optional<Vec3f> across{};
   /// True: the rest shape is straight, whatever the points. False: the points are the rest shape.
   bool straight = false;
@@ -83,9 +86,9 @@ struct RodOptions {
   float break_torque = 0;  ///< or a greater torque; 0: never [N m]
 };
 
-/// Adds a rod through three points or more to an object, and returns the index of its first segment in Object::bodies; the others
-/// follow. Throws an Error that names a point or an option that is out of range. Points that are nearer to each other than 2.25 radii are
-/// refused, since segments would touch where they do not meet.
+/// Adds a rod through three points or more to an object, and returns the index of its first segment in Object::bodies;
+/// the others follow. Throws an Error that names a point or an option that is out of range. Points that are nearer to
+/// each other than 2.25 radii are refused, since segments would touch where they do not meet.
 int add_rod(Object& object, const std::vector<Vec3f>& points, const RodOptions& options = {});
 
 /// Makes an object of one rod.

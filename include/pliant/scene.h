@@ -34,10 +34,11 @@ struct ClothOptions {
   std::optional<Stiffness> stretch{};  ///< replaces the stretch stiffness of the material
   std::optional<Stiffness> bending{};  ///< replaces the bending stiffness of the material
   enum class Bending { none, dihedral, isometric } bending_model = Bending::dihedral;
-  /// What resists stretching. `springs`: the edges, alike in all directions. `woven`: each triangle, by the warp, weft and shear stiffness of
-  /// the material (constraint types triangle_stretch and triangle_shear).
+  /// What resists stretching. `springs`: the edges, alike in all directions. `woven`: each triangle, by the warp, weft
+  /// and shear stiffness of the material (constraint types triangle_stretch and triangle_shear).
   enum class Stretching { springs, woven } stretch_model = Stretching::springs;
-  /// Of `woven`: direction of the warp in the rest shape, of any length but 0. Each triangle has its projection, or that of y or z if none.
+  /// Of `woven`: direction of the warp in the rest shape, of any length but 0. Each triangle has its projection, or
+  /// that of y or z if none.
   Vec3f warp{0, 0, 1};
   std::optional<Volume> volume{};  ///< makes a balloon; needs a closed mesh
   Vec3f velocity{};                ///< initial velocity [m/s]
@@ -57,7 +58,8 @@ struct RopeOptions {
   std::string name = "rope";
   float linear_density = 0.05f;  ///< mass per length [kg/m]
   Stiffness stretch{};
-  Stiffness bending = Stiffness::compliance(1);  ///< stiffness between particles two links apart; used if `bends` is set
+  Stiffness bending =
+      Stiffness::compliance(1);  ///< stiffness between particles two links apart; used if `bends` is set
   bool bends = false;
   float thickness = 0.005f;  ///< radius [m]; two ropes keep the sum of their radii
 };
@@ -77,8 +79,9 @@ struct Collider {
   float thickness = 0;           ///< distance that it adds to the thickness of objects [m]
   float static_friction = 0.4f;  ///< a contact uses the geometric mean of both sides
   float kinetic_friction = 0.3f;
-  float restitution = 0;                              ///< a contact uses the larger value of both sides
-  float rolling_friction = 0, spinning_friction = 0;  ///< as in Object; a contact uses the larger value of both sides [m]
+  float restitution = 0;  ///< a contact uses the larger value of both sides
+  float rolling_friction = 0,
+        spinning_friction = 0;  ///< as in Object; a contact uses the larger value of both sides [m]
   /// Velocity in the collider's frame with which its surface moves along itself while its shape stays, as that of a
   /// conveyor belt: friction takes bodies and particles along. Its part along a contact's normal has no effect [m/s].
   Vec3f surface_velocity{};
@@ -120,25 +123,29 @@ struct MeshCollider {
   float thickness = 0;                           ///< distance that it adds to the thickness of objects [m]
   float static_friction = 0.4f;                  ///< a contact uses the geometric mean of both sides
   float kinetic_friction = 0.3f;
-  float restitution = 0;                              ///< a contact uses the larger value of both sides
-  float rolling_friction = 0, spinning_friction = 0;  ///< as in Object; a contact uses the larger value of both sides [m]
-  std::uint32_t groups = 1, mask = ~0u;               ///< bit masks, as in Object
+  float restitution = 0;  ///< a contact uses the larger value of both sides
+  float rolling_friction = 0,
+        spinning_friction = 0;           ///< as in Object; a contact uses the larger value of both sides [m]
+  std::uint32_t groups = 1, mask = ~0u;  ///< bit masks, as in Object
   Vec3f surface_velocity{};  ///< as that of a Collider, in axes that turn with `motion` or the pose that is set [m/s]
   Vec3f colour{0.45f, 0.48f, 0.52f};
 };
 
-/// Measures the distances to a closed mesh at nodes `spacing` apart [m] (0: a 48th of its longest side), in its box grown
-/// by two nodes. Throws an Error if an edge does not have two triangles, or if there would be more than 2^27 nodes.
+/// Measures the distances to a closed mesh at nodes `spacing` apart [m] (0: a 48th of its longest side), in its box
+/// grown by two nodes. Throws an Error if an edge does not have two triangles, or if there would be more than 2^27
+/// nodes.
 std::shared_ptr<const DistanceField> measure_distances(const TriangleMesh& mesh, float spacing = 0);
 
 /// Contact properties of one pair of objects or mesh colliders (as triangles), instead of those that follow from each.
 struct PairProperties {
   std::string first, second;       ///< names of both; twice the same name: self-collision of that object
   std::optional<float> thickness;  ///< distance that the two keep [m]
-  std::optional<float> static_friction, kinetic_friction, restitution;  ///< coefficients of friction and restitution [-]
+  std::optional<float> static_friction, kinetic_friction,
+      restitution;  ///< coefficients of friction and restitution [-]
 };
 
-/// Moving air: a uniform wind whose speed varies periodically in gusts. It blows on triangles, and on bodies that are one capsule, as rods are.
+/// Moving air: a uniform wind whose speed varies periodically in gusts. It blows on triangles, and on bodies that are
+/// one capsule, as rods are.
 struct Wind {
   Vec3f velocity{};       ///< mean velocity [m/s]
   float gust = 0;         ///< amplitude of gusts as a share of the wind, 0..1 [-]
@@ -216,22 +223,23 @@ struct SweepOptions {
   float relaxation = 1;  ///< omega in (0, 2), a factor of every multiplier change [-]
   Sharing sharing = Sharing::split;
   Acceleration acceleration = Acceleration::none;
-  int plain_iterations = 10;  ///< iterations of a substep before Chebyshev starts, 1..10000; at least 2 if rho is estimated
+  int plain_iterations =
+      10;  ///< iterations of a substep before Chebyshev starts, 1..10000; at least 2 if rho is estimated
   float spectral_radius = 0;  ///< spectral radius rho of the sweep in (0, 1); 0: estimated in each substep [-]
-  bool tethers = false;       ///< limit the distance of particles from pins to that along the mesh (long-range attachments)
+  bool tethers = false;  ///< limit the distance of particles from pins to that along the mesh (long-range attachments)
   float tether_slack =
       0;  ///< share by which tether lengths may be exceeded, 0..1000, for cloth that is meant to stretch [-]
   /// For `chains`, 0..1000: regularisation of the solve of a straight path between two pins, as a share of the inverse
   /// of its mass. A link stretches by about this times g h^2 [-].
   float chain_softness = 0.1f;
-  /// For `chains` and `multigrid`, 0..1000: no distance stays longer than its force explains by more than this share of its
-  /// rest length, unless contact or the filter demands it; 0: no limit. Does not apply to PBD stiffness [-].
+  /// For `chains` and `multigrid`, 0..1000: no distance stays longer than its force explains by more than this share of
+  /// its rest length, unless contact or the filter demands it; 0: no limit. Does not apply to PBD stiffness [-].
   float most_overstretch = 0.05f;
   int multigrid_cycles = 2;  ///< for `multigrid`: conjugate gradient steps per substep, each with a W-cycle, 1..100
 };
 
-/// When rigid bodies and grains sleep. An island of bodies that touch or are jointed, all of which have been slow for some time, rests until
-/// something acts on it (docs/guide/bodies.md, grains.md).
+/// When rigid bodies and grains sleep. An island of bodies that touch or are jointed, all of which have been slow for
+/// some time, rests until something acts on it (docs/guide/bodies.md, grains.md).
 struct SleepOptions {
   bool on = false;
   float speed = 0.02f;  ///< slow: the centre of mass moves by less than this, > 0 [m/s]
@@ -275,9 +283,10 @@ struct Settings {
   /// Times update, predict and the search for non-finite values separately in Report::phases. By default they run
   /// together with sweeps, tile by tile. Bits are the same; speed is lower.
   bool separate_phases = false;
-  bool measure = false;             ///< fill Report::residuals and stretch; costs about one more iteration a frame
-  bool record_residuals = false;    ///< fill Report::convergence; slow: measures each iteration of the last substep
-  bool record_multipliers = false;  ///< keep multipliers for ObjectView::multipliers even if the solver does not need them
+  bool measure = false;           ///< fill Report::residuals and stretch; costs about one more iteration a frame
+  bool record_residuals = false;  ///< fill Report::convergence; slow: measures each iteration of the last substep
+  bool record_multipliers =
+      false;  ///< keep multipliers for ObjectView::multipliers even if the solver does not need them
   /// "" for the fastest, or one that the build holds: "x86-64-v2", "-v3", "-v4", "generic"; or "sequential". The bits
   /// are the same.
   std::string isa;
@@ -321,9 +330,10 @@ Sweep chosen_sweep(const Scene& scene, int object, std::string* reason = nullptr
 /// what an object gets). An object that touches nothing is a set of its own. 0 stands for substeps that follow
 /// the State: they are decided in each quarter of a frame by strain and motion. They do so if an object of the set is
 /// solved by chains and not meant to stretch,
-/// and none has PBD stiffness between 0 and 1. Other sets have 80 to 160 with a volume; 5 if all use `multigrid`, 10 if one
-/// can touch, is in wind or a force field, or has pins that move or lie together; up to 160 with a sheet that is meant to
-/// stretch and hangs from few of its particles; woven cloth up to 160; rigid bodies 8, 40 with what deforms; else 20. A tolerance makes one set.
+/// and none has PBD stiffness between 0 and 1. Other sets have 80 to 160 with a volume; 5 if all use `multigrid`, 10 if
+/// one can touch, is in wind or a force field, or has pins that move or lie together; up to 160 with a sheet that is
+/// meant to stretch and hangs from few of its particles; woven cloth up to 160; rigid bodies 8, 40 with what deforms;
+/// else 20. A tolerance makes one set.
 std::vector<int> chosen_substeps(const Scene& scene);
 
 /// Returns the settings of a World of this scene; what the scene leaves open is chosen by its content.

@@ -12,14 +12,15 @@
 
 namespace pliant {
 
-/// A mesh of tetrahedra. Seen from its fourth corner, the first three corners run counter-clockwise, so that its volume is
-/// positive; make_soft_body turns those that are not.
+/// A mesh of tetrahedra. Seen from its fourth corner, the first three corners run counter-clockwise, so that its volume
+/// is positive; make_soft_body turns those that are not.
 struct TetrahedralMesh {
   std::vector<Vec3f> positions;                ///< [m]
   std::vector<std::array<int, 4>> tetrahedra;  ///< indices of positions
 };
 
-/// How the energy of an elastic solid grows with its strain. All agree with Hooke's law at small strain, however much it turns.
+/// How the energy of an elastic solid grows with its strain. All agree with Hooke's law at small strain, however much
+/// it turns.
 enum class SolidModel {
   neo_hookean,   ///< rubber and flesh; holds at any strain (Smith, de Goes and Kim 2018)
   corotational,  ///< stress grows with the strain in the nearest rotation (Stomakhin, Howes, Schroeder and Teran 2012)
@@ -36,13 +37,14 @@ struct ElasticSolid {
   float static_friction = 0.6f;   ///< coefficient of friction at rest [-]
   float kinetic_friction = 0.5f;  ///< coefficient of friction while sliding [-]
   std::string source;             ///< where the numbers come from
-  /// Strain beyond which it keeps the new shape, and how fast that flows; none: elastic. Only its shape flows, its volume does not.
+  /// Strain beyond which it keeps the new shape, and how fast that flows; none: elastic. Only its shape flows, its
+  /// volume does not.
   std::optional<Plasticity> plasticity{};
   SolidModel model{};
 };
 
-/// Returns a built-in elastic solid: "gelatine", "rubber", "foam" or "muscle". For any other name throws an Error that lists
-/// the names.
+/// Returns a built-in elastic solid: "gelatine", "rubber", "foam" or "muscle". For any other name throws an Error that
+/// lists the names.
 const ElasticSolid& elastic_solid(std::string_view name);
 
 /// All built-in elastic solids.
@@ -53,8 +55,8 @@ struct Fibres {
   Vec3f direction{1, 0, 0};         ///< of all fibres, in the rest shape; of any length but 0
   std::vector<Vec3f> directions{};  ///< instead: one for each tetrahedron of the mesh; (0, 0, 0): it has none
   float modulus = 1e5f;             ///< stress per strain along the fibre, besides that of the solid, > 0 [Pa]
-  /// The length that fibres want over their length at rest: 0.6 where a muscle contracts by 40 %. At times, as ConstraintGroup::keyframes;
-  /// ObjectHandle::set_rest_factor sets it by call. None: always 1.
+  /// The length that fibres want over their length at rest: 0.6 where a muscle contracts by 40 %. At times, as
+  /// ConstraintGroup::keyframes; ObjectHandle::set_rest_factor sets it by call. None: always 1.
   std::vector<RestKeyframe> stretch{};
 };
 
@@ -65,25 +67,27 @@ struct SoftBodyOptions {
   Vec3f velocity{};          ///< at the start [m/s]
   float thickness = 0.001f;  ///< Object::thickness: distance that its surface keeps [m]
   std::optional<Fibres> fibres{};
-  std::optional<StrainLimit> strain_limit{};  ///< of the edges of its tetrahedra; none: it stretches as far as it is pulled
+  std::optional<StrainLimit>
+      strain_limit{};  ///< of the edges of its tetrahedra; none: it stretches as far as it is pulled
 };
 
-/// Makes an elastic body of a tetrahedral mesh, which becomes its rest shape: of each tetrahedron a quarter of the mass at each
-/// corner, and two constraints, on its shape and on its volume, which together are the solid of its model and its Lame
-/// coefficients (as a pair of constraints: Macklin and Mueller 2021). Its border is its surface, and collides with other
-/// objects; with itself only if Object::self_collision is set. Corners that no tetrahedron uses are dropped. Throws an Error that
-/// names a tetrahedron that cannot be used, or an option that is out of range.
+/// Makes an elastic body of a tetrahedral mesh, which becomes its rest shape: of each tetrahedron a quarter of the mass
+/// at each corner, and two constraints, on its shape and on its volume, which together are the solid of its model and
+/// its Lame coefficients (as a pair of constraints: Macklin and Mueller 2021). Its border is its surface, and collides
+/// with other objects; with itself only if Object::self_collision is set. Corners that no tetrahedron uses are dropped.
+/// Throws an Error that names a tetrahedron that cannot be used, or an option that is out of range.
 Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& options = {});
 
-/// The tetrahedra of a soft body: particles of the Object, in the order of its constraints on shape. Empty for other objects.
+/// The tetrahedra of a soft body: particles of the Object, in the order of its constraints on shape. Empty for other
+/// objects.
 std::vector<std::array<int, 4>> tetrahedra_of(const Object& object);
 
-/// The triangles that belong to one tetrahedron alone, counter-clockwise seen from outside. Throws an Error that names a
-/// tetrahedron that shares a face with two others.
+/// The triangles that belong to one tetrahedron alone, counter-clockwise seen from outside. Throws an Error that names
+/// a tetrahedron that shares a face with two others.
 std::vector<std::array<int, 3>> border_triangles(const TetrahedralMesh& mesh);
 
-/// A box about the origin of `cells` cubes along each axis, each cut into six tetrahedra about one diagonal (Kuhn 1960), so that
-/// faces match. Throws an Error unless the sizes are positive and there are 1 to 2^24 cells.
+/// A box about the origin of `cells` cubes along each axis, each cut into six tetrahedra about one diagonal (Kuhn
+/// 1960), so that faces match. Throws an Error unless the sizes are positive and there are 1 to 2^24 cells.
 TetrahedralMesh box_tetrahedra(const Vec3f& size, const std::array<int, 3>& cells);
 
 /// A tetrahedral mesh that was made of a surface, and what there is to say about it.
@@ -92,14 +96,14 @@ struct FilledMesh {
   std::vector<std::string> notes;
 };
 
-/// Fills what a closed mesh encloses with tetrahedra whose edges are about `size` long [m], cut from a body-centred cubic
-/// lattice; its border is moved onto the mesh where no tetrahedron becomes flat. Parts thinner than `size` may be lost, and a
-/// note says so. A surface that passes through itself encloses where it winds around. Throws an Error if the mesh has an edge
-/// without two triangles, encloses nothing at that size, or there would be more than 2^22 nodes.
+/// Fills what a closed mesh encloses with tetrahedra whose edges are about `size` long [m], cut from a body-centred
+/// cubic lattice; its border is moved onto the mesh where no tetrahedron becomes flat. Parts thinner than `size` may be
+/// lost, and a note says so. A surface that passes through itself encloses where it winds around. Throws an Error if
+/// the mesh has an edge without two triangles, encloses nothing at that size, or there would be more than 2^22 nodes.
 FilledMesh fill_with_tetrahedra(const TriangleMesh& mesh, float size);
 
-/// Makes a Skin of a mesh in the rest shape of a soft body: each vertex follows the tetrahedron that it lies in, or the nearest one. Throws
-/// an Error if the object has no tetrahedra, or a vertex is not finite.
+/// Makes a Skin of a mesh in the rest shape of a soft body: each vertex follows the tetrahedron that it lies in, or the
+/// nearest one. Throws an Error if the object has no tetrahedra, or a vertex is not finite.
 Skin make_skin(const Object& soft_body, const TriangleMesh& mesh);
 
 /// The vertices of a skin where an object's particles have these positions (or velocities, and the like).

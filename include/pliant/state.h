@@ -93,9 +93,9 @@ struct ContactPart {
   friend auto operator<=>(const ContactPart&, const ContactPart&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// Contact of rigid bodies a and b in up to four points that share a normal. What the next step needs to know of it: arms and
-/// normal stay as they were when it began, as long as the bodies hardly move against each other; impulses are where the
-/// solver starts. Over fifteen members, without padding, because it is saved and hashed as it is.
+/// Contact of rigid bodies a and b in up to four points that share a normal. What the next step needs to know of it:
+/// arms and normal stay as they were when it began, as long as the bodies hardly move against each other; impulses are
+/// where the solver starts. Over fifteen members, without padding, because it is saved and hashed as it is.
 struct BodyContact {
   ContactPart a, b;                             ///< a < b
   std::array<std::uint32_t, 4> feature{};       ///< what makes each point: corners and edges
@@ -147,7 +147,7 @@ struct RestFactor {
 struct SurfaceVelocity {
   enum class Of : std::int32_t { body, collider, mesh_collider };
   Of of = Of::body;
-  std::int32_t slot = 0;        ///< of a body: the index of its object in State::blocks; else the slot of the collider's id
+  std::int32_t slot = 0;  ///< of a body: the index of its object in State::blocks; else the slot of the collider's id
   std::int32_t generation = 0;  ///< of the collider's id; 0 for a body
   std::int32_t body = 0;        ///< index in Object::bodies; 0 for a collider
   Vec3f velocity{};             ///< in its own frame [m/s]
@@ -163,7 +163,8 @@ struct GrainContact {
 };
 static_assert(sizeof(GrainContact) == 20);
 
-/// A value of State::births: the particle is not there. It has the inverse mass 0, meets nothing, and waits to be emitted.
+/// A value of State::births: the particle is not there. It has the inverse mass 0, meets nothing, and waits to be
+/// emitted.
 inline constexpr double not_there = 1e300;
 
 /// How many layers an emitter has emitted.
@@ -184,8 +185,8 @@ inline bool in_order_of_emitters(const EmittedLayers& a, const EmittedLayers& b)
 inline constexpr float asleep = -1;
 
 /// All data of a World that change with time, as a plain value: copy, hash or restore it, and the next step gives the
-/// same bits. Each object has a block of particles in storage order, which ObjectView::storage_order relates to the user's
-/// order. Blocks of removed objects are filled with zeros.
+/// same bits. Each object has a block of particles in storage order, which ObjectView::storage_order relates to the
+/// user's order. Blocks of removed objects are filled with zeros.
 struct State {
   double time = 0;                 ///< simulated time [s]
   std::int64_t frame = 0;          ///< number of complete steps
@@ -196,21 +197,23 @@ struct State {
   FrameRecords frames;             ///< orientations, object after object; usually none
   std::vector<Channel> channels;   ///< channels of all objects; usually none
   std::vector<HeldPose> held_poses;
-  /// For each block, the substeps per frame that its object demanded for the last quarter of a frame, if they follow the
-  /// State (chosen_substeps), else 0, as before the first frame. Empty if all are 0.
+  /// For each block, the substeps per frame that its object demanded for the last quarter of a frame, if they follow
+  /// the State (chosen_substeps), else 0, as before the first frame. Empty if all are 0.
   std::vector<float> substeps;
   std::vector<BrokenJoint> broken_joints;  ///< ascending; usually none
   std::vector<MotorSetting> motors;        ///< ascending by block, joint and motor; usually none
   std::vector<BodyContact> body_contacts;  ///< of rigid bodies, by owners and solids, then by pieces; usually none
-  /// For each frame in `frames`, for how long its body has been slow [s], or `asleep`; 0 if it is of no body. Empty if bodies never
-  /// sleep (SleepOptions), and after something was added, removed or edited: then all are awake.
+  /// For each frame in `frames`, for how long its body has been slow [s], or `asleep`; 0 if it is of no body. Empty if
+  /// bodies never sleep (SleepOptions), and after something was added, removed or edited: then all are awake.
   std::vector<float> rest_times;
   std::vector<GrainContact> grain_contacts;  ///< those that press, ascending by a, then b; usually none
-  /// For each particle, the time at which it came [s], or `not_there`. Empty if the particles of no object come or go (Flow).
+  /// For each particle, the time at which it came [s], or `not_there`. Empty if the particles of no object come or go
+  /// (Flow).
   std::vector<double> births;
   std::vector<EmittedLayers> emitted;    ///< of each emitter, by block and emitter; usually none
   std::vector<RestFactor> rest_factors;  ///< ascending by block and group; usually none
-  /// The rest data of all constraints that are plastic (Plasticity), object after object, in the order of its pools; usually none.
+  /// The rest data of all constraints that are plastic (Plasticity), object after object, in the order of its pools;
+  /// usually none.
   std::vector<float> flowed;
   std::vector<SurfaceVelocity> surface_velocities;  ///< ascending by kind, slot and body; usually none
 };

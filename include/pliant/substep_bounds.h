@@ -8,8 +8,8 @@
 
 namespace pliant {
 
-/// The error of `least_substeps` and `most_substeps` that leave no number of substeps; empty if they leave one. Substeps that
-/// follow the State are multiples of four, as many in each quarter of a frame.
+/// The error of `least_substeps` and `most_substeps` that leave no number of substeps; empty if they leave one.
+/// Substeps that follow the State are multiples of four, as many in each quarter of a frame.
 std::optional<Error> error_of_bounds(const Settings& settings);
 
 }  // namespace pliant

@@ -18,10 +18,10 @@ struct SurfaceOptions {
 
 /// The surface of the liquid that these particles represent, one spacing^3 of volume each.
 ///
-/// The mesh is closed and two-manifold: each edge has two triangles, and the triangles at a vertex form one fan. Triangles are
-/// counter-clockwise seen from outside. Without particles it is empty. Time and memory grow with the number of particles, not with
-/// the space between them; a particle far from the others becomes a small ball. Throws an Error if an option is out of range, or a
-/// position is not finite or farther from the origin than a million spacings.
+/// The mesh is closed and two-manifold: each edge has two triangles, and the triangles at a vertex form one fan.
+/// Triangles are counter-clockwise seen from outside. Without particles it is empty. Time and memory grow with the
+/// number of particles, not with the space between them; a particle far from the others becomes a small ball. Throws an
+/// Error if an option is out of range, or a position is not finite or farther from the origin than a million spacings.
 TriangleMesh liquid_surface(std::span<const Vec3f> positions, const SurfaceOptions& options);
 
 }  // namespace pliant

@@ -37,21 +37,22 @@ struct WorldLayout {
 /// Asks a World to keep the descriptions of all that is in it (World::description).
 struct KeepDescription {};
 
-/// A simulation to step, change and read. Over thirty members, because what can be added, removed and found is overloaded
-/// for objects, colliders and mesh colliders, and because it can be made in five ways.
+/// A simulation to step, change and read. Over thirty members, because what can be added, removed and found is
+/// overloaded for objects, colliders and mesh colliders, and because it can be made in five ways.
 class World {
  public:
   /// Compiles a scene. If it cannot be simulated, throws an Error that names object, element and remedy.
   explicit World(const Scene& scene);
   World(const Scene& scene, const Settings& settings);
-  /// Does the same with less memory: frees each object's description when compiled. Keep a copy to save or edit objects.
+  /// Does the same with less memory: frees each object's description when compiled. Keep a copy to save or edit
+  /// objects.
   explicit World(Scene&& scene);
   World(Scene&& scene, const Settings& settings);
   /// Makes a World as it was after additions and removals. The scene describes its objects in the order of objects(),
   /// colliders() and mesh_colliders(), with its settings. Also throws an Error if scene and layout do not fit together.
   World(const Scene& scene, const WorldLayout& layout);
-  /// Do the same, and keep the descriptions of all objects and colliders, so that description() returns them at any time.
-  /// They take as much memory as the scene.
+  /// Do the same, and keep the descriptions of all objects and colliders, so that description() returns them at any
+  /// time. They take as much memory as the scene.
   World(const Scene& scene, KeepDescription keep);
   World(const Scene& scene, const WorldLayout& layout, KeepDescription keep);
   ~World();
@@ -94,10 +95,12 @@ class World {
   void remove(MeshColliderId collider);
 
   /// Changes an object that moves: its id stays valid, and every particle with an origin keeps position and velocity
-  /// exactly; so do targets of attachments that go on: with the same particle and target, or else the same target. Pass a changed copy of the description with which it was added, or of description() if it tears. Returns for
-  /// each old particle the first new index, or -1. If the old particles of an object of more than 2048 are the first of the new ones, as after tears and cuts, and
-  /// most constraints have the particles that they had, only the others are scheduled again; otherwise the cost is that of compiling it.
-  /// Throws an Error if the description cannot be simulated or `from` does not fit.
+  /// exactly; so do targets of attachments that go on: with the same particle and target, or else the same target. Pass
+  /// a changed copy of the description with which it was added, or of description() if it tears. Returns for each old
+  /// particle the first new index, or -1. If the old particles of an object of more than 2048 are the first of the new
+  /// ones, as after tears and cuts, and most constraints have the particles that they had, only the others are
+  /// scheduled again; otherwise the cost is that of compiling it. Throws an Error if the description cannot be
+  /// simulated or `from` does not fit.
   std::vector<int> edit(ObjectId object, const Edit& edit);
 
   /// True if the id refers to an existing object or collider.
@@ -110,9 +113,9 @@ class World {
   /// True if the World was made with KeepDescription.
   bool keeps_description() const;
   /// A scene of the present contents: as given, added and edited, in the order of objects(), colliders() and
-  /// mesh_colliders(), and objects that come apart as they are now. It has the settings of the scene that the World was made
-  /// from, and the pairs, also those of what is removed, which a World of layout() keeps. Together with layout() and state() it makes the same World again. Throws an Error if the World was not made with
-  /// KeepDescription.
+  /// mesh_colliders(), and objects that come apart as they are now. It has the settings of the scene that the World was
+  /// made from, and the pairs, also those of what is removed, which a World of layout() keeps. Together with layout()
+  /// and state() it makes the same World again. Throws an Error if the World was not made with KeepDescription.
   Scene description() const;
 
   /// The ids of the existing objects, ordered by slot. If none was removed, they are 0, 1, ...
@@ -138,18 +141,19 @@ class World {
   /// Energies, stretch and residuals of the present State, and advice.
   Measurements measure() const { return Measurements(*data_); }
 
-  /// Starts or ends the recording of mean loads of joints (ObjectView::mean_joint_load; initially off). It costs what an
-  /// evaluation of all joints does, in each substep.
+  /// Starts or ends the recording of mean loads of joints (ObjectView::mean_joint_load; initially off). It costs what
+  /// an evaluation of all joints does, in each substep.
   void record_joint_loads(bool on);
 
   // ---- Contact events.
 
-  /// Starts or ends the recording of contact events (initially off). It costs one more pass over the contacts of a step.
+  /// Starts or ends the recording of contact events (initially off). It costs one more pass over the contacts of a
+  /// step.
   void record_contact_events(bool on);
   /// The contact events of the last step, ordered by participants: contacts that began, persisted or ended.
   const std::vector<ContactEvent>& contact_events() const;
-  /// The same of the last step for each rigid body and what it touched, if contact events are recorded. Those of what is
-  /// removed go with it.
+  /// The same of the last step for each rigid body and what it touched, if contact events are recorded. Those of what
+  /// is removed go with it.
   const std::vector<BodyTouch>& body_touches() const;
 
   /// The settings in use. A sweep or substeps that were left open are those chosen for the first objects; 0 substeps or

@@ -1,7 +1,7 @@
 // Trial runs: simulates a scene with more and more expensive settings until its overstretch is tolerable.
 //
-// If the scene names a sweep, substeps or bounds of these, the default is tried first, and advised if it is good. If it is
-// not, the search for other settings follows.
+// If the scene names a sweep, substeps or bounds of these, the default is tried first, and advised if it is good. If it
+// is not, the search for other settings follows.
 //
 // A family is a sweep with or without tethers. First come sweeps that may do better than the scene's own, the most
 // promising first, then the scene's own sweep. Each family doubles its substeps until it is good or too expensive; then
@@ -49,9 +49,9 @@ int default_substeps_of_soft_bodies(const Scene& scene) {
   return most;
 }
 
-/// The fewest substeps that are tried. Multigrid keeps lengths with any number, so overstretch alone would advise one. But
-/// long substeps damp motion: cloth of 32 x 32 that swings down from two pins reaches 60 % of the kinetic energy of 20
-/// substeps with 1 substep, 85 % with 2, and 92 % with 4. Soft bodies and woven cloth become softer with fewer than
+/// The fewest substeps that are tried. Multigrid keeps lengths with any number, so overstretch alone would advise one.
+/// But long substeps damp motion: cloth of 32 x 32 that swings down from two pins reaches 60 % of the kinetic energy of
+/// 20 substeps with 1 substep, 85 % with 2, and 92 % with 4. Soft bodies and woven cloth become softer with fewer than
 /// `of_soft_bodies`.
 int least_substeps_of(const Settings& settings, int of_soft_bodies) {
   return std::max(of_soft_bodies, settings.sweep == Sweep::multigrid ? 4 : 1);
@@ -61,7 +61,8 @@ int least_substeps_of(const Settings& settings, int of_soft_bodies) {
 constexpr int frames_between_looks = 4;
 
 Clock::time_point after(double seconds) {
-  const std::chrono::duration<double> limited(seconds > 0 ? std::min(seconds, 1e6) : 0.0);  // within the range of the clock
+  const std::chrono::duration<double> limited(seconds > 0 ? std::min(seconds, 1e6)
+                                                          : 0.0);  // within the range of the clock
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(limited);
 }
 
@@ -94,8 +95,8 @@ class Trials {
         own_end_(after(own_share * options.seconds)),
         stops_(options.stops) {}
 
-  /// Tries the scene's own settings. If its time runs out, all later trials run only as many frames as this one. Its share
-  /// of the time is limited only where something was found: else no other trial follows.
+  /// Tries the scene's own settings. If its time runs out, all later trials run only as many frames as this one. Its
+  /// share of the time is limited only where something was found: else no other trial follows.
   Trial run_own(Advice& found) {
     Trial trial = run(scene_.settings, std::numeric_limits<double>::infinity(), &found);
     if (std::isfinite(trial.worst.largest)) frames_ = trial.frames;

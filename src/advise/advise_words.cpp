@@ -21,7 +21,8 @@ std::string setting_in_words(const Trial& trial, const Settings& own) {
   if (is_default(trial)) return "the default";
   const bool by_state = trial.settings.substeps == 0;
   const int substeps = by_state ? trial.settings.least_substeps : trial.settings.substeps;
-  std::string text = (by_state ? "at least " : "") + std::to_string(substeps) + (substeps == 1 ? " substep" : " substeps");
+  std::string text =
+      (by_state ? "at least " : "") + std::to_string(substeps) + (substeps == 1 ? " substep" : " substeps");
   if (trial.settings.sweep != own.sweep) text += " of the sweep '" + sweep_name(trial.settings.sweep) + "'";
   if (trial.settings.sweep_options.tethers && !own.sweep_options.tethers) text += " with tethers";
   return text;

@@ -82,8 +82,8 @@ std::string describe(const World& world) {
                      count_of(static_cast<std::size_t>(world.threads()), "thread", "threads") + ", " + world.isa();
   for (const ObjectId id : world.objects()) {
     const ObjectInfo info = world.object(id).info();
-    text +=
-        "\n  object '" + info.name + "': " + count_of(static_cast<std::size_t>(info.particles), "particle", "particles");
+    text += "\n  object '" + info.name +
+            "': " + count_of(static_cast<std::size_t>(info.particles), "particle", "particles");
     for (const auto& [type, count] : info.constraints) text += ", " + std::to_string(count) + " " + type;
   }
   for (const ColliderId id : world.colliders()) text += "\n  collider '" + world.collider(id).name() + "'";

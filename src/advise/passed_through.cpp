@@ -53,7 +53,8 @@ void add_triangles(const Object& object, const std::vector<Vec3f>& positions, co
 }
 
 /// The number of edges of one surface that pass through triangles of the other.
-std::size_t crossings_of(const Object& a, const std::vector<Vec3f>& of_a, const Object& b, const std::vector<Vec3f>& of_b) {
+std::size_t crossings_of(const Object& a, const std::vector<Vec3f>& of_a, const Object& b,
+                         const std::vector<Vec3f>& of_b) {
   const BoxBounds box_of_a = box_of(of_a), box_of_b = box_of(of_b);
   if (!overlap(box_of_a, box_of_b)) return 0;
   const auto offset = static_cast<int>(of_a.size());
@@ -88,10 +89,11 @@ std::vector<std::string> passed_through_themselves(const Scene& scene, const Wor
     const std::vector<Crossing> crossings = finder.find(world.object(static_cast<int>(o)).positions());
     if (crossings.empty()) continue;
     const Crossing& first = crossings.front();
-    found.push_back(at_frame(world) + "object '" + object.name + "': edge " + std::to_string(first.a) + "-" +
-                    std::to_string(first.b) + " passes through triangle " + std::to_string(first.triangle) +
-                    " of the same object, one of " + count_of(crossings.size()) +
-                    ", because it has no contact with itself; set its \"self_collision\" to true and give it a thickness");
+    found.push_back(
+        at_frame(world) + "object '" + object.name + "': edge " + std::to_string(first.a) + "-" +
+        std::to_string(first.b) + " passes through triangle " + std::to_string(first.triangle) +
+        " of the same object, one of " + count_of(crossings.size()) +
+        ", because it has no contact with itself; set its \"self_collision\" to true and give it a thickness");
   }
   return found;
 }
@@ -120,7 +122,8 @@ void PassingObjects::look(const World& world, const std::function<bool()>& stops
 
 std::string PassingObjects::warning() const {
   if (found_ < 2) return first_;
-  return first_ + "; so do " + std::to_string(found_ - 1) + (found_ == 2 ? " more pair" : " more pairs") + " of objects";
+  return first_ + "; so do " + std::to_string(found_ - 1) + (found_ == 2 ? " more pair" : " more pairs") +
+         " of objects";
 }
 
 }  // namespace pliant

@@ -11,11 +11,12 @@
 
 namespace pliant {
 
-/// A warning for each object without self-collision whose triangles pass through one another now, and did not at the start.
+/// A warning for each object without self-collision whose triangles pass through one another now, and did not at the
+/// start.
 std::vector<std::string> passed_through_themselves(const Scene& scene, const World& world);
 
-/// Watches objects that groups and masks let meet, of which one at least has no `collides`. Objects that cross at the start, and
-/// pairs in which nothing is free to move, are left out.
+/// Watches objects that groups and masks let meet, of which one at least has no `collides`. Objects that cross at the
+/// start, and pairs in which nothing is free to move, are left out.
 class PassingObjects {
  public:
   explicit PassingObjects(const Scene& scene) : scene_(scene) {}

@@ -33,7 +33,8 @@ int wanted_substeps(Resistance kind, const ConvergenceEstimate& estimate) {
                         : kind == Resistance::stretching ? tolerated_p99 / 2
                         : kind == Resistance::volume     ? wanted_of_volume
                                                          : wanted_of_joints;
-  return static_cast<int>(std::ceil(std::min(most, std::max(1, estimate.substeps) * std::sqrt(estimate.excess / wanted))));
+  return static_cast<int>(
+      std::ceil(std::min(most, std::max(1, estimate.substeps) * std::sqrt(estimate.excess / wanted))));
 }
 
 bool has(const std::string& line, const std::string& words) { return line.find(words) != std::string::npos; }

@@ -21,7 +21,9 @@ std::size_t end_of_number(const std::string& text, std::size_t place) {
     while (is_digit(at(text, from))) ++from;
     return from;
   };
-  const auto after_sign = [&](std::size_t from) { return from + (at(text, from) == '-' || at(text, from) == '+' ? 1 : 0); };
+  const auto after_sign = [&](std::size_t from) {
+    return from + (at(text, from) == '-' || at(text, from) == '+' ? 1 : 0);
+  };
   const std::size_t digits = after_sign(place);
   std::size_t end = after_digits(digits);
   if (end == digits) return place;

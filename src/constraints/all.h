@@ -1,5 +1,6 @@
-// All constraint types of the library with a fixed stencil. To add one, write its header, include it here and add it to the list,
-// or both in in_lanes.h if it has one row over points alone: pools, sweeps, files, tests and docs follow (docs/internals/architecture.md, "Adding a constraint").
+// All constraint types of the library with a fixed stencil. To add one, write its header, include it here and add it to
+// the list, or both in in_lanes.h if it has one row over points alone: pools, sweeps, files, tests and docs follow
+// (docs/internals/architecture.md, "Adding a constraint").
 #pragma once
 
 #include "constraints/ball_joint.h"
@@ -26,12 +27,13 @@
 
 namespace pliant {
 
-/// The types that are projected one at a time: those with frames, or with more rows than one. Of joints, motors and friction come first,
-/// then limits, so that what holds parts together has the last word.
+/// The types that are projected one at a time: those with frames, or with more rows than one. Of joints, motors and
+/// friction come first, then limits, so that what holds parts together has the last word.
 using StencilConstraints =
     TypeList<JointAngleMotor, JointOffsetMotor, JointAngle, JointOffset, JointSwing, JointDistance, PulleyJointRows,
              GearJointRows, RackJointRows, PlanarJointRows, CylindricalJointRows, UniversalJointRows, SliderJointRows,
-             BallJointRows, HingeJointRows, RodJointRows, FixedJointRows, BodyAnchor, PointOnTriangle, PointInTetrahedron>;
+             BallJointRows, HingeJointRows, RodJointRows, FixedJointRows, BodyAnchor, PointOnTriangle,
+             PointInTetrahedron>;
 
 namespace detail {
 template <class... Types>
@@ -39,7 +41,8 @@ constexpr bool any_in_lanes(TypeList<Types...>) {
   return (in_lanes<Types> || ...);
 }
 }  // namespace detail
-static_assert(!detail::any_in_lanes(StencilConstraints{}), "add a type of one row over points to the list of in_lanes.h");
+static_assert(!detail::any_in_lanes(StencilConstraints{}),
+              "add a type of one row over points to the list of in_lanes.h");
 
 /// The types in the order in which a sweep visits them.
 using AllConstraints = Joined<LaneConstraints, StencilConstraints>;

@@ -8,7 +8,8 @@
 // carried by a frame needs only its own weight and generalised inverse mass.
 //
 // Unilateral constraints: Mueller et al. 2007, section 3.4. Friction: a Coulomb cone on the sum of a contact's normal
-// corrections in the substep. Inside the static cone the contact sticks; outside it slides with the kinetic coefficient.
+// corrections in the substep. Inside the static cone the contact sticks; outside it slides with the kinetic
+// coefficient.
 #pragma once
 
 #include <array>
@@ -25,16 +26,16 @@ struct alignas(64) Contact {
   float gap = 0;    ///< value of C at the substep's start: distance minus `thickness` [m]
   Vec3f carried{};  ///< part of the relative displacement that is no motion: the points' rounding residues [m]
   float approach =
-      0;             ///< relative normal velocity at the beginning of the substep; negative where the sides approach [m/s]
+      0;  ///< relative normal velocity at the beginning of the substep; negative where the sides approach [m/s]
   Vec3f friction{};  ///< sum of this substep's tangential corrections [m]
   float push = 0;    ///< sum of this substep's normal corrections [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;
   float thickness = 0;                  ///< distance to maintain [m]
   std::array<std::int32_t, 4> point{};  ///< indices into the arrays of the contact's owner
   std::array<float, 4> weight{};        ///< weight of each point in r; 0 in unused slots
-  std::array<float, 4> share{};         ///< displacement of a point per change of r: weight_i w_i / sum_j w_j weight_j^2
-  Vec3f surface_motion{};               ///< displacement of the static or kinematic side in the substep [m]
-  std::int32_t collider = -1;           ///< index of the static or kinematic side; -1 if the second side has points
+  std::array<float, 4> share{};  ///< displacement of a point per change of r: weight_i w_i / sum_j w_j weight_j^2
+  Vec3f surface_motion{};        ///< displacement of the static or kinematic side in the substep [m]
+  std::int32_t collider = -1;    ///< index of the static or kinematic side; -1 if the second side has points
 };
 static_assert(sizeof(Contact) == 128 && alignof(Contact) == 64);
 

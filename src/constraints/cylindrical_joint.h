@@ -1,5 +1,5 @@
-// A cylindrical joint: body b slides along the joint's x-axis and rotates about it. Displacements along y and z, and x of b
-// perpendicular to y and z of a (joint_rows.h). Compliance in m/N and rad/(N m).
+// A cylindrical joint: body b slides along the joint's x-axis and rotates about it. Displacements along y and z, and x
+// of b perpendicular to y and z of a (joint_rows.h). Compliance in m/N and rad/(N m).
 #pragma once
 
 #include <array>

@@ -6,10 +6,11 @@
 //       /          theta is 0 for a flat hinge; its sign tells to which side the hinge folds.
 //         3
 //
-// Mueller et al. 2007, section 4.4.1 and appendix A, use C = acos(n1 . n2) - phi0 with one normal reversed. acos loses the
-// sign of the fold and has no derivative at the flat hinge, the usual state of cloth; atan2 has both. The gradients are
-// those of the angle (Bridson et al. 2003): |e| n / |n|^2 at each tip, and at the edge's ends what makes force and torque
-// vanish. (n1 x n2) . e/|e| equals -|e| n1 . (x3 - x0), which saves a cross product. Compliance in 1/(N m) (rad^2/J).
+// Mueller et al. 2007, section 4.4.1 and appendix A, use C = acos(n1 . n2) - phi0 with one normal reversed. acos loses
+// the sign of the fold and has no derivative at the flat hinge, the usual state of cloth; atan2 has both. The gradients
+// are those of the angle (Bridson et al. 2003): |e| n / |n|^2 at each tip, and at the edge's ends what makes force and
+// torque vanish. (n1 x n2) . e/|e| equals -|e| n1 . (x3 - x0), which saves a cross product. Compliance in 1/(N m)
+// (rad^2/J).
 #pragma once
 
 #include <array>

@@ -6,8 +6,8 @@
 //         \|/          f = F d: where the deformation takes a unit vector d of the rest shape, so |f| is the stretch
 //          1
 //
-// With alpha = 1 / (E V0), C^2 / (2 alpha) is the energy of a volume V0 of fibres of modulus E whose rest stretch is s: 1 when passive,
-// less when a muscle contracts. f = 0 has no direction: nothing moves then. Compliance in 1/J.
+// With alpha = 1 / (E V0), C^2 / (2 alpha) is the energy of a volume V0 of fibres of modulus E whose rest stretch is s:
+// 1 when passive, less when a muscle contracts. f = 0 has no direction: nothing moves then. Compliance in 1/J.
 #pragma once
 
 #include <array>

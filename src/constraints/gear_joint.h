@@ -2,8 +2,8 @@
 //
 //   C = wrap(teeth_a angle_a + teeth_b angle_b) / teeth_a      angles: twists against the third body (joint_rows.h)
 //
-// With whole numbers of teeth, angles that grow by full turns change C by full turns, so C needs no memory. A gear that is
-// forced by more than half a tooth slips to the next. Compliance in rad/(N m), of gear a.
+// With whole numbers of teeth, angles that grow by full turns change C by full turns, so C needs no memory. A gear that
+// is forced by more than half a tooth slips to the next. Compliance in rad/(N m), of gear a.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct GearJointRows {
 
   template <class R>
   struct Params {
-    Quat<R> axes_a, axes_b;              ///< from the gear's frame, which rotates about its x-axis, to the principal axes
+    Quat<R> axes_a, axes_b;  ///< from the gear's frame, which rotates about its x-axis, to the principal axes
     Quat<R> carrier_of_a, carrier_of_b;  ///< the same in the third body
     R teeth_a, teeth_b;                  ///< whole numbers, not 0 [-]
   };

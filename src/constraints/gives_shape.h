@@ -7,7 +7,8 @@
 
 namespace pliant {
 
-/// True if the type opposes any change of shape of a tetrahedron: tetrahedron_shear and its like, one for each of a solid.
+/// True if the type opposes any change of shape of a tetrahedron: tetrahedron_shear and its like, one for each of a
+/// solid.
 bool gives_shape(const std::string& name);
 inline bool gives_shape(int type) { return gives_shape(constraint_type(type).name); }
 

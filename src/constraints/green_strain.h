@@ -6,9 +6,10 @@
 //         \|/          F as in tetrahedron_strain.h
 //          1
 //
-// With alpha = 1 / (mu V0) for the first and alpha = 1 / (lambda V0) for the second, C^2 / (2 alpha) together are the energy
-// V0 (mu |E|^2 + lambda / 2 (tr E)^2). Strains as in Hooke's law, for any rotation. A bar that is pressed below 1 / sqrt(3) = 0.58 of its
-// length gets softer, and what is inverted or pressed flat may stay so: E is the same for it. Compliance in 1/J.
+// With alpha = 1 / (mu V0) for the first and alpha = 1 / (lambda V0) for the second, C^2 / (2 alpha) together are the
+// energy V0 (mu |E|^2 + lambda / 2 (tr E)^2). Strains as in Hooke's law, for any rotation. A bar that is pressed below
+// 1 / sqrt(3) = 0.58 of its length gets softer, and what is inverted or pressed flat may stay so: E is the same for it.
+// Compliance in 1/J.
 #pragma once
 
 #include "constraints/tetrahedron_strain.h"
@@ -19,8 +20,9 @@ struct GreenStrain : TetrahedronStrain {
   static constexpr const char* name = "green_strain";
   static constexpr bool is_of_solid = true;
   static constexpr bool is_arithmetic = true;
-  /// Largest change of F in one projection, as a share of |F| or of 1, by which C is held. It matters alone where a tetrahedron that is not
-  /// stretched is pressed nearly flat, to a twentieth: the gradient vanishes there, and C does not.
+  /// Largest change of F in one projection, as a share of |F| or of 1, by which C is held. It matters alone where a
+  /// tetrahedron that is not stretched is pressed nearly flat, to a twentieth: the gradient vanishes there, and C does
+  /// not.
   static constexpr float most_step = 8;
 
   /// C is zero without a direction at rest; the gradients are then zero.

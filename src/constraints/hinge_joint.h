@@ -1,5 +1,5 @@
-// A hinge: two bodies share a point and the joint's x-axis. Three displacements, and x of b perpendicular to y and z of a
-// (joint_rows.h). Compliance in m/N and rad/(N m).
+// A hinge: two bodies share a point and the joint's x-axis. Three displacements, and x of b perpendicular to y and z of
+// a (joint_rows.h). Compliance in m/N and rad/(N m).
 #pragma once
 
 #include <array>

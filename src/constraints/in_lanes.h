@@ -1,5 +1,5 @@
-// The constraint types that are swept in lanes: one row over points. They come first of all types (all.h), so that their numbers are their
-// places in this list, and what sweeps them need not know the others.
+// The constraint types that are swept in lanes: one row over points. They come first of all types (all.h), so that
+// their numbers are their places in this list, and what sweeps them need not know the others.
 #pragma once
 
 #include "constraints/corotational_strain.h"

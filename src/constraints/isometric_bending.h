@@ -6,9 +6,9 @@
 //       \   /          k from the cotangents of the rest angles, times sqrt(3 / (A1 + A2))
 //         3
 //
-// Bergou et al. 2006, "A quadratic bending model for inextensible surfaces", eq. 4, with alpha = 1 / B. A developable sheet
-// has flexural rigidity B for alpha = 3 / B (matter/cloth.cpp). The norm is over the discrete mean curvature normal, which
-// vanishes for any flat hinge; so this type cannot hold a fold. Compliance in 1/(N m).
+// Bergou et al. 2006, "A quadratic bending model for inextensible surfaces", eq. 4, with alpha = 1 / B. A developable
+// sheet has flexural rigidity B for alpha = 3 / B (matter/cloth.cpp). The norm is over the discrete mean curvature
+// normal, which vanishes for any flat hinge; so this type cannot hold a fold. Compliance in 1/(N m).
 #pragma once
 
 #include <array>
@@ -42,7 +42,8 @@ struct IsometricBending {
     return c;
   }
 
-  /// The cotangent of an angle, clamped to a million: beyond, a triangle is a line, and its squared weight would overflow.
+  /// The cotangent of an angle, clamped to a million: beyond, a triangle is a line, and its squared weight would
+  /// overflow.
   template <class R>
   PLIANT_HD static R cotangent(const Vec3<R>& u, const Vec3<R>& v) {
     const Vec3<R> n = cross(u, v);

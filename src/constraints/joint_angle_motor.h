@@ -1,4 +1,5 @@
-// A motor or friction about a joint's x-axis: a torque up to `most` that imposes a speed. C is the twist (joint_rows.h).
+// A motor or friction about a joint's x-axis: a torque up to `most` that imposes a speed. C is the twist
+// (joint_rows.h).
 //
 //   speed = base speed + (target - twist) rate, the second term within +-most_speed
 //
@@ -31,7 +32,8 @@ struct JointAngleMotor {
   static constexpr auto fields = joint::place_fields_and(
       std::array<const char*, 6>{"target", "rate", "greatest_speed", "base_speed", "greatest_torque", "range_middle"});
 
-  /// The turn from an angle to the target [rad]: the shorter one, or within the range. Both differ by a full turn, or by rounding.
+  /// The turn from an angle to the target [rad]: the shorter one, or within the range. Both differ by a full turn, or
+  /// by rounding.
   template <class R>
   PLIANT_HD static R way(const R& angle, const Params<R>& p) {
     const R shorter = joint::wrap(p.target - angle);

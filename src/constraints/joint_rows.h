@@ -22,7 +22,8 @@ using Bodies = Slots<Point, Frame, Point, Frame>;
 
 /// "No limit" for a force or a speed in rest data, which are finite.
 inline constexpr float no_limit = 1e30f;
-/// A motor of a given torque or force is one of a speed that nothing reaches [rad/s or m/s], whose greatest torque acts.
+/// A motor of a given torque or force is one of a speed that nothing reaches [rad/s or m/s], whose greatest torque
+/// acts.
 inline constexpr float speed_of_torque = 1e6f, least_torque = 1e-30f;
 
 /// Where a joint is fixed in its two bodies. Numbers are relative to each body's centre and principal axes.
@@ -79,7 +80,8 @@ struct Posed {
 template <class R>
 PLIANT_HD Posed<R> pose(const SlotValues<Bodies, R>& at, const Places<R>& p) {
   const Vec3<R> a = rotate(at.frame[1], p.anchor_a), b = rotate(at.frame[3], p.anchor_b);
-  return {a, b, (at.point[2] + b) - (at.point[0] + a), multiply(at.frame[1], p.axes_a), multiply(at.frame[3], p.axes_b)};
+  return {a, b, (at.point[2] + b) - (at.point[0] + a), multiply(at.frame[1], p.axes_a),
+          multiply(at.frame[3], p.axes_b)};
 }
 
 /// Row `row`: displacement along an axis of a.
@@ -187,8 +189,8 @@ PLIANT_HD R wrap_turns(const R& angle) {
   return angle - turn * nearest_integer(angle / turn);
 }
 
-/// Sets the C of a row to the distance from the nearer bound of a range, and its bounds to a force up to `most` that acts
-/// inwards only. A range without width is met from both sides.
+/// Sets the C of a row to the distance from the nearer bound of a range, and its bounds to a force up to `most` that
+/// acts inwards only. A range without width is met from both sides.
 template <class Out, class R>
 PLIANT_HD void bound(const R& above_low, const R& below_high, const R& most, int row, Out& out) {
   const R zero = R(0), width = above_low + below_high;

@@ -3,8 +3,8 @@
 //         x            C(x) = n . x - offset >= 0
 //     ----+----        n the surface's normal, offset = n . (point on the surface) + thickness
 //
-// Mueller et al. 2007, section 3.4. Both continuous contact (the plane where the path enters) and static contact (the plane
-// at the closest surface point) use this constraint. It is projected only if C < 0.
+// Mueller et al. 2007, section 3.4. Both continuous contact (the plane where the path enters) and static contact (the
+// plane at the closest surface point) use this constraint. It is projected only if C < 0.
 #pragma once
 
 #include <array>

@@ -22,9 +22,9 @@ struct PulleyJointRows {
     R ratio;                     ///< of a tackle on the side of b [-]
     R length;                    ///< [m]
   };
-  static constexpr std::array<const char*, 14> fields{"anchor_a_x", "anchor_a_y", "anchor_a_z", "anchor_b_x", "anchor_b_y",
-                                                      "anchor_b_z", "pulley_a_x", "pulley_a_y", "pulley_a_z", "pulley_b_x",
-                                                      "pulley_b_y", "pulley_b_z", "ratio",      "rope_length"};
+  static constexpr std::array<const char*, 14> fields{
+      "anchor_a_x", "anchor_a_y", "anchor_a_z", "anchor_b_x", "anchor_b_y", "anchor_b_z", "pulley_a_x",
+      "pulley_a_y", "pulley_a_z", "pulley_b_x", "pulley_b_y", "pulley_b_z", "ratio",      "rope_length"};
 
   template <class R>
   PLIANT_HD static void evaluate(const SlotValues<slots, R>& at, const Params<R>& p, Rows<slots, rows, R>& out) {

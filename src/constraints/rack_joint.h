@@ -23,9 +23,9 @@ struct RackJointRows {
     R start;                     ///< u . (x_rack - x_third) at angle 0 [m]
     R radius;                    ///< r [m]
   };
-  static constexpr std::array<const char*, 13> fields{"axes_x",      "axes_y",    "axes_z",    "axes_w",      "carrier_x",
-                                                      "carrier_y",   "carrier_z", "carrier_w", "direction_x", "direction_y",
-                                                      "direction_z", "start",     "radius"};
+  static constexpr std::array<const char*, 13> fields{
+      "axes_x",    "axes_y",      "axes_z",      "axes_w",      "carrier_x", "carrier_y", "carrier_z",
+      "carrier_w", "direction_x", "direction_y", "direction_z", "start",     "radius"};
 
   template <class R>
   PLIANT_HD static void evaluate(const SlotValues<slots, R>& at, const Params<R>& p, Rows<slots, rows, R>& out) {

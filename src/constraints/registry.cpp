@@ -37,7 +37,8 @@ Registry& registry() {
   return one;
 }
 
-[[noreturn]] void refuse(const ConstraintDefinition& definition, const std::string& problem, const std::string& advice) {
+[[noreturn]] void refuse(const ConstraintDefinition& definition, const std::string& problem,
+                         const std::string& advice) {
   throw Error({}, "constraint type '" + definition.name + "' " + problem, advice);
 }
 
@@ -101,7 +102,8 @@ bool gives_shape(const std::string& name) {
 bool is_hinge(int type) { return is_hinge(constraint_type(type).name); }
 bool belongs_to_solid(int type) {
   const std::string& name = constraint_type(type).name;
-  return gives_shape(name) || name == TetrahedronVolume::name || name == VolumeAroundEdge::name || name == GreenTrace::name;
+  return gives_shape(name) || name == TetrahedronVolume::name || name == VolumeAroundEdge::name ||
+         name == GreenTrace::name;
 }
 
 bool is_hinge(const std::string& name) { return name == DihedralBending::name || is_flat_hinge(name); }

@@ -1,11 +1,12 @@
-// Two neighbouring segments of an elastic rod: the rod stretches, shears, bends and twists where they meet (pliant/rod.h).
+// Two neighbouring segments of an elastic rod: the rod stretches, shears, bends and twists where they meet
+// (pliant/rod.h).
 //
 //   C_k = sqrt(K_k) d_k, k = x, y, z       d: gap of the anchors [m], in the joint frame of a, whose x-axis is the tangent
 //   C_3+k = sqrt(B_k) phi_k                phi = 4 v / (1 + w), (v, w) the rotation from the joint frame of a to that of b:
 //                                          along the axis of rotation, 4 tan(angle / 4) long [rad]
 //
-// With a compliance of 1 the energy is C . C / 2. Six rows of one constraint, so that a chain of segments is solved directly
-// (Deul, Kugelstadt, Weiler and Bender 2018).
+// With a compliance of 1 the energy is C . C / 2. Six rows of one constraint, so that a chain of segments is solved
+// directly (Deul, Kugelstadt, Weiler and Bender 2018).
 #pragma once
 
 #include <array>
@@ -61,7 +62,8 @@ struct RodJointRows {
     const Quat<float> permanent = joint::relative(start.places.axes_b, axes);
     const float size = surface_strain(rotation_vector(permanent), p);
     if (size > by.most)
-      axes = normalise(multiply(start.places.axes_b, of_rotation_vector(rotation_vector(permanent) * (by.most / size))));
+      axes =
+          normalise(multiply(start.places.axes_b, of_rotation_vector(rotation_vector(permanent) * (by.most / size))));
     p.places.axes_b = axes;
     return true;
   }
@@ -88,7 +90,8 @@ struct RodJointRows {
     const Vec3<R> v{p.x, p.y, p.z}, e = joint::unit<R>(axis);
     const R share = R(1) / (R(1) + p.w), k = joint::component(v, axis);
     out.c[3 + axis] = R(4) * share * k;
-    joint::set_rotation(rotate(posed.frame_a, (e * p.w + cross(v, e) + v * (share * k)) * (R(2) * share)), 3 + axis, out);
+    joint::set_rotation(rotate(posed.frame_a, (e * p.w + cross(v, e) + v * (share * k)) * (R(2) * share)), 3 + axis,
+                        out);
   }
 
   template <class R>

@@ -6,10 +6,11 @@
 //         \|/          D: the same three edges at rest
 //          1
 //
-// With alpha = 1 / (mu V0), C^2 / (2 alpha) is the stable neo-Hookean energy mu V0 / 2 (|F|^2 - 3 - 2 (J - 1)) (Smith, de Goes and
-// Kim 2018, eq. 13, with the rest stability term moved here) plus mu V0 (J - 1)^2 / 2. So mu and lambda are the Lame
-// coefficients, and each constraint vanishes at rest; the pair of Macklin and Mueller 2021 has two forces there that cancel, which
-// a sweep that is not converged does not see. C also vanishes where F = 0, a point, which TetrahedronVolume opposes. Compliance in 1/J.
+// With alpha = 1 / (mu V0), C^2 / (2 alpha) is the stable neo-Hookean energy mu V0 / 2 (|F|^2 - 3 - 2 (J - 1)) (Smith,
+// de Goes and Kim 2018, eq. 13, with the rest stability term moved here) plus mu V0 (J - 1)^2 / 2. So mu and lambda are
+// the Lame coefficients, and each constraint vanishes at rest; the pair of Macklin and Mueller 2021 has two forces
+// there that cancel, which a sweep that is not converged does not see. C also vanishes where F = 0, a point, which
+// TetrahedronVolume opposes. Compliance in 1/J.
 #pragma once
 
 #include "constraints/tetrahedron_strain.h"

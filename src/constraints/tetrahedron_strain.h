@@ -1,5 +1,5 @@
-// What constraints on the shape of a tetrahedron have in common: D^-1 as rest data, and with it the deformation gradient
-// F = [x1 - x0, x2 - x0, x3 - x0] D^-1, where the columns of D are the same three edges at rest.
+// What constraints on the shape of a tetrahedron have in common: D^-1 as rest data, and with it the deformation
+// gradient F = [x1 - x0, x2 - x0, x3 - x0] D^-1, where the columns of D are the same three edges at rest.
 #pragma once
 
 #include <array>
@@ -45,7 +45,8 @@ struct TetrahedronStrain {
   };
   static constexpr std::array<const char*, 9> fields{"d00", "d01", "d02", "d10", "d11", "d12", "d20", "d21", "d22"};
 
-  /// The inverse of the rest edges; all zero, so that nothing moves, if their volume is below a millionth of their product.
+  /// The inverse of the rest edges; all zero, so that nothing moves, if their volume is below a millionth of their
+  /// product.
   template <class R>
   PLIANT_HD static Params<R> measure(const Vec3<R> (&x)[4]) {
     const Vec3<R> a = x[1] - x[0], b = x[2] - x[0], c = x[3] - x[0];
@@ -57,8 +58,9 @@ struct TetrahedronStrain {
     return {r0.x, r0.y, r0.z, r1.x, r1.y, r1.z, r2.x, r2.y, r2.z};
   }
 
-  /// D^-1 becomes D^-1 U^-1, where U = exp(s e), of volume 1, is the part of the stretch that flows, and e the logarithmic strain at
-  /// constant volume. `yield` and `most` are equivalent strains (von Mises) of it: log(l) for a bar l times as long.
+  /// D^-1 becomes D^-1 U^-1, where U = exp(s e), of volume 1, is the part of the stretch that flows, and e the
+  /// logarithmic strain at constant volume. `yield` and `most` are equivalent strains (von Mises) of it: log(l) for a
+  /// bar l times as long.
   static bool flow(const SlotValues<slots, float>& at, Params<float>& p, const Params<float>& start,
                    const PlasticFlow& by) {
     const Matrix3d edges = columns(at.point[1] - at.point[0], at.point[2] - at.point[0], at.point[3] - at.point[0]);
@@ -67,7 +69,8 @@ struct TetrahedronStrain {
     if (!flow_of(f, static_cast<double>(by.yield), -static_cast<double>(by.share), by_flow)) return false;
     Matrix3d to = product(matrix(p), by_flow);
     // The inverse of what is permanent, so of the same size.
-    if (limit_of(product(inverse(matrix(start)), to), static_cast<double>(by.most), by_limit)) to = product(to, by_limit);
+    if (limit_of(product(inverse(matrix(start)), to), static_cast<double>(by.most), by_limit))
+      to = product(to, by_limit);
     set(p, to);
     return true;
   }
@@ -99,7 +102,8 @@ struct TetrahedronStrain {
                                  (dot(f.x, by.y) + dot(f.y, by.x)) * half,
                                  (dot(f.x, by.z) + dot(f.z, by.x)) * half,
                                  (dot(f.y, by.z) + dot(f.z, by.y)) * half};
-    const R both = (e.xx * all.xx + e.yy * all.yy + e.zz * all.zz) + R(2) * (e.xy * all.xy + e.xz * all.xz + e.yz * all.yz);
+    const R both =
+        (e.xx * all.xx + e.yy * all.yy + e.zz * all.zz) + R(2) * (e.xy * all.xy + e.xz * all.xz + e.yz * all.yz);
     const R along = both / max(e.squares(), R(1e-14f));
     return {all.xx - e.xx * along, all.yy - e.yy * along, all.zz - e.zz * along,
             all.xy - e.xy * along, all.xz - e.xz * along, all.yz - e.yz * along};
@@ -136,7 +140,8 @@ struct TetrahedronStrain {
     return p.d00 * p.d00 + p.d01 * p.d01 + p.d02 * p.d02 > R(0);
   }
 
-  /// 1, or less where F is so large that squares of gradients in proportion to it would overflow: a factor of C and its gradients.
+  /// 1, or less where F is so large that squares of gradients in proportion to it would overflow: a factor of C and its
+  /// gradients.
   template <class R>
   PLIANT_HD static R held(const ByColumns<R>& f) {
     constexpr float most_squared = 1e10f;

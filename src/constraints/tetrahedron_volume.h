@@ -6,9 +6,10 @@
 //         \|/
 //          1
 //
-// Mueller et al. 2007, section 4.4.2, divided by the rest volume V0; with alpha = 1 / (lambda V0) it is the volumetric part
-// of a neo-Hookean solid (Macklin and Mueller 2021, "A constraint-based formulation of stable neo-Hookean materials").
-// C keeps its sign when the tetrahedron is turned inside out, so the constraint turns it back. Compliance in 1/J.
+// Mueller et al. 2007, section 4.4.2, divided by the rest volume V0; with alpha = 1 / (lambda V0) it is the volumetric
+// part of a neo-Hookean solid (Macklin and Mueller 2021, "A constraint-based formulation of stable neo-Hookean
+// materials"). C keeps its sign when the tetrahedron is turned inside out, so the constraint turns it back. Compliance
+// in 1/J.
 #pragma once
 
 #include <array>

@@ -12,7 +12,8 @@ inline constexpr int slot_count = T::slots::count;
 template <class T>
 inline constexpr int rest_fields = static_cast<int>(T::fields.size());
 
-/// True if sixteen constraints are projected at once: one row, points only. Others go one at a time (solver/stencil.cpp).
+/// True if sixteen constraints are projected at once: one row, points only. Others go one at a time
+/// (solver/stencil.cpp).
 template <class T>
 inline constexpr bool in_lanes = T::slots::frames == 0 && T::rows == 1;
 
@@ -36,7 +37,8 @@ inline constexpr bool is_led = is_of_solid<T> || requires {
   T::is_of_woven;
 };
 
-/// True if C is the length of a strain of a tetrahedron, whose direction it does not see (constraints/tetrahedron_strain.h).
+/// True if C is the length of a strain of a tetrahedron, whose direction it does not see
+/// (constraints/tetrahedron_strain.h).
 template <class T>
 inline constexpr bool measures_strain = [] {
   if constexpr (requires { T::is_length_of_strain; })

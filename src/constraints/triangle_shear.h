@@ -5,9 +5,9 @@
 //      /   \          f = F d, g = F e: where the deformation takes two unit vectors d, e of the rest shape
 //     0-----1
 //
-// The shear condition of Baraff and Witkin 1998 (4.3), here of the angle alone: stretch along d and e does no work in it. Unlike the sine, the
-// angle has a gradient where a triangle is squeezed to a line. With alpha = 1 / (G A), C^2 / (2 alpha) is the energy of an area A with the
-// shear modulus G [N/m]. Compliance in 1/J.
+// The shear condition of Baraff and Witkin 1998 (4.3), here of the angle alone: stretch along d and e does no work in
+// it. Unlike the sine, the angle has a gradient where a triangle is squeezed to a line. With alpha = 1 / (G A), C^2 /
+// (2 alpha) is the energy of an area A with the shear modulus G [N/m]. Compliance in 1/J.
 #pragma once
 
 #include <array>

@@ -5,8 +5,9 @@
 //      /   \          f = F d: where the deformation takes a unit vector d of the rest shape, so |f| is the stretch
 //     0-----1
 //
-// The stretch condition of Baraff and Witkin 1998 (4.2), here by XPBD. With alpha = 1 / (Y A), C^2 / (2 alpha) is the energy of an area A of
-// parallel yarns of modulus Y [N/m]. f = 0 has no direction: nothing moves then. Compliance in 1/J.
+// The stretch condition of Baraff and Witkin 1998 (4.2), here by XPBD. With alpha = 1 / (Y A), C^2 / (2 alpha) is the
+// energy of an area A of parallel yarns of modulus Y [N/m]. f = 0 has no direction: nothing moves then. Compliance in
+// 1/J.
 #pragma once
 
 #include <array>

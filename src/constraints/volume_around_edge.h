@@ -6,10 +6,11 @@
 //        | .   . |       seen along the edge from a to b. The ring of `ring` points, 2 to 6, is open between its last and its
 //        r3---r4         first point, or closed by one tetrahedron more.
 //
-// Tetrahedra that each keep their volume (TetrahedronVolume) have two constraints for each three directions in which a particle can
-// move, so a body that hardly changes its volume hardly bends, too. Around edges there is about one for each particle. In a grid of six
-// tetrahedra a cell these are the cells, which is the hexahedron of constant pressure (Nagtegaal, Parks and Rice 1974). With alpha = 1 / (lambda V0)
-// it is the volumetric part of a neo-Hookean solid. Points of the ring that are not there repeat a. Compliance in 1/J.
+// Tetrahedra that each keep their volume (TetrahedronVolume) have two constraints for each three directions in which a
+// particle can move, so a body that hardly changes its volume hardly bends, too. Around edges there is about one for
+// each particle. In a grid of six tetrahedra a cell these are the cells, which is the hexahedron of constant pressure
+// (Nagtegaal, Parks and Rice 1974). With alpha = 1 / (lambda V0) it is the volumetric part of a neo-Hookean solid.
+// Points of the ring that are not there repeat a. Compliance in 1/J.
 #pragma once
 
 #include <array>

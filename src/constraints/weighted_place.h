@@ -1,5 +1,5 @@
-// The rows of a particle that stays at a weighted mean of others: C_k = e_k . (sum of weights x), e_k the world's axes, where the
-// particle has the weight 1 and the others their own, negative.
+// The rows of a particle that stays at a weighted mean of others: C_k = e_k . (sum of weights x), e_k the world's axes,
+// where the particle has the weight 1 and the others their own, negative.
 #pragma once
 
 #include "pliant/formula.h"

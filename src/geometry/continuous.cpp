@@ -25,8 +25,8 @@ using Sharp = DoubleDouble;
 constexpr double place_roundings = 16;
 
 /// Error bounds of a volume and an area of corners at most `extent` from the first. Each is a sum of products of
-/// differences, which are below 2 extents and have an error of 2 places: 6 x 3 x (2 extents)^2 x 2 places, and 2 x 6 x ...
-/// The rounding of the products and sums is smaller than that.
+/// differences, which are below 2 extents and have an error of 2 places: 6 x 3 x (2 extents)^2 x 2 places, and 2 x 6 x
+/// ... The rounding of the products and sums is smaller than that.
 struct Bounds {
   double volume, area;
 };
@@ -53,7 +53,8 @@ int kept_turn(const Corners<double>& first, const Corners<double>& last, const V
 
 /// True if, seen along the direction, the vertex stays inside the triangle, or the edges stay crossed, at all times.
 template <int A>
-bool overlap_all_the_time(const Corners<double>& first, const Corners<double>& last, const Vec3d& direction, double bound) {
+bool overlap_all_the_time(const Corners<double>& first, const Corners<double>& last, const Vec3d& direction,
+                          double bound) {
   const auto turn = [&](int p, int q, int r) { return kept_turn(first, last, direction, p, q, r, bound); };
   if constexpr (A == 1) {
     const int turns = turn(0, 1, 2) + turn(0, 2, 3) + turn(0, 3, 1);
@@ -112,7 +113,8 @@ Impact<double> decided(const Vec3d (&from)[4], const Vec3d (&to)[4], double thic
     sharp_to[i] = convert<Sharp>(to[i]);
   }
   const Impact<Sharp> sharp = detail::first_impact<A>(sharp_from, sharp_to, Sharp(thickness), Sharp(impact.time));
-  return {sharp.hit, static_cast<double>(sharp.time), convert<double>(sharp.normal), static_cast<double>(sharp.gap), true};
+  return {sharp.hit, static_cast<double>(sharp.time), convert<double>(sharp.normal), static_cast<double>(sharp.gap),
+          true};
 }
 
 }  // namespace

@@ -119,9 +119,9 @@ PLIANT_HD R first_root(const R& a, const R& b, const R& c) {
   return c < R(0) ? min(R(2), (b + root) / (R(-2) * c)) : R(2);
 }
 
-/// The share of the motion during which all pairs of corners stay farther apart than `least` along a rotating normal; 2 if
-/// that exceeds it. The normal starts as a unit vector and changes by `turn` per unit of time, so each pair's distance is
-/// quadratic. Valid while the normal is not longer than 1.
+/// The share of the motion during which all pairs of corners stay farther apart than `least` along a rotating normal; 2
+/// if that exceeds it. The normal starts as a unit vector and changes by `turn` per unit of time, so each pair's
+/// distance is quadratic. Valid while the normal is not longer than 1.
 template <int A, class R>
 PLIANT_HD R free_share(const Corners<R>& x, const Corners<R>& motion, const Vec3<R>& normal, const Vec3<R>& turn,
                        const R& least) {
@@ -129,8 +129,8 @@ PLIANT_HD R free_share(const Corners<R>& x, const Corners<R>& motion, const Vec3
   for (int i = 0; i < A; ++i)
     for (int j = A; j < 4; ++j) {
       const Vec3<R> apart = x.at[i] - x.at[j], opening = motion.at[i] - motion.at[j];
-      share =
-          min(share, first_root(dot(normal, apart) - least, dot(turn, apart) + dot(normal, opening), dot(turn, opening)));
+      share = min(share,
+                  first_root(dot(normal, apart) - least, dot(turn, apart) + dot(normal, opening), dot(turn, opening)));
     }
   return share;
 }
@@ -164,7 +164,8 @@ PLIANT_HD R turning_share(const Corners<R>& start, const Corners<R>& motion, con
 
 /// True if one primitive's range of a coordinate is above the other's by more than `least`; exact under rounding for 0.
 template <int A, class R, class Coordinate>
-PLIANT_HD bool apart_along(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& least, const Coordinate& coordinate) {
+PLIANT_HD bool apart_along(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& least,
+                           const Coordinate& coordinate) {
   R low[2], high[2];
   for (int i = 0; i < 4; ++i) {
     const int side = i < A ? 0 : 1;
@@ -237,10 +238,10 @@ PLIANT_HD bool faces_front(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], con
 
 }  // namespace detail
 
-/// The first time at which a vertex, (0) of the arrays, comes within `thickness` (>= 0) [m] of a triangle, (1, 2, 3), under
-/// linear motion from `from` to `to`. Conservative: never misses a contact or reports it late. It may report pairs that
-/// pass within about 100 roundings of the extent, or that rotate by over a radian a thousandth of their size apart. R is
-/// float or another rounding number type; coordinates finite and below 1e15.
+/// The first time at which a vertex, (0) of the arrays, comes within `thickness` (>= 0) [m] of a triangle, (1, 2, 3),
+/// under linear motion from `from` to `to`. Conservative: never misses a contact or reports it late. It may report
+/// pairs that pass within about 100 roundings of the extent, or that rotate by over a radian a thousandth of their size
+/// apart. R is float or another rounding number type; coordinates finite and below 1e15.
 template <class R>
 PLIANT_HD Impact<R> vertex_triangle_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness) {
   Impact<R> impact = detail::first_impact<1>(from, to, thickness);
@@ -248,14 +249,15 @@ PLIANT_HD Impact<R> vertex_triangle_impact(const Vec3<R> (&from)[4], const Vec3<
   return impact;
 }
 
-/// The first time at which the edges (0, 1) and (2, 3) of the arrays come within `thickness`, as vertex_triangle_impact.
+/// The first time at which the edges (0, 1) and (2, 3) of the arrays come within `thickness`, as
+/// vertex_triangle_impact.
 template <class R>
 PLIANT_HD Impact<R> edge_edge_impact(const Vec3<R> (&from)[4], const Vec3<R> (&to)[4], const R& thickness) {
   return detail::first_impact<2>(from, to, thickness);
 }
 
-/// The certified test in double. Contacts that double precision cannot prove are repeated in double-double precision, so
-/// pairs farther apart than 1e-29 of the extent are no contact. Host only.
+/// The certified test in double. Contacts that double precision cannot prove are repeated in double-double precision,
+/// so pairs farther apart than 1e-29 of the extent are no contact. Host only.
 Impact<double> vertex_triangle_impact(const Vec3d (&from)[4], const Vec3d (&to)[4], double thickness);
 
 /// The certified test for the edges (0, 1) and (2, 3) of the arrays.

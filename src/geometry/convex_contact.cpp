@@ -13,7 +13,8 @@ namespace pliant {
 
 namespace {
 
-/// A feature is flat to the other solid if its points differ in height by no more than this share of its size, or by the margin.
+/// A feature is flat to the other solid if its points differ in height by no more than this share of its size, or by
+/// the margin.
 constexpr double flat_share = 0.1;
 /// The nearest place is a point of contact where all others are higher by this share of the smaller solid's size.
 constexpr double higher = 0.001;
@@ -39,7 +40,8 @@ double size_of(const ConvexShape& shape) {
   return static_cast<double>(std::max(shape.core_radius, shape.half_length));
 }
 
-Feature facing_feature(const ConvexShape& shape, const Posed& pose, const Vec3d& direction, double margin, double turning) {
+Feature facing_feature(const ConvexShape& shape, const Posed& pose, const Vec3d& direction, double margin,
+                       double turning) {
   const double slack = std::max(std::min(margin, flat_share * size_of(shape)), turning);
   return feature_towards(shape, pose, direction, slack);
 }

@@ -126,9 +126,12 @@ Nearest nearest_of_triangle(const Simplex& s, int i, int j, int k) {
   return nearer(nearer(nearest_of_segment(s, i, j), nearest_of_segment(s, j, k)), nearest_of_segment(s, k, i));
 }
 
-double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) { return dot(cross(b - a, c - a), d - a); }
+double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+  return dot(cross(b - a, c - a), d - a);
+}
 
-/// Of a tetrahedron that contains the origin all four corners stay. Else the nearest point is on a side that the origin sees.
+/// Of a tetrahedron that contains the origin all four corners stay. Else the nearest point is on a side that the origin
+/// sees.
 Nearest nearest_of_tetrahedron(const Simplex& s) {
   const Vec3d a = s.corner(0).w, b = s.corner(1).w, c = s.corner(2).w, d = s.corner(3).w, o{};
   const double whole = volume(a, b, c, d);
@@ -157,7 +160,8 @@ void keep_nearest(Simplex& s) {
   s.count = best.count;
 }
 
-/// The nearest point of the difference to the origin, or any if `beyond` becomes a distance above `reach` that separates both.
+/// The nearest point of the difference to the origin, or any if `beyond` becomes a distance above `reach` that
+/// separates both.
 Simplex nearest_simplex(const Difference& difference, const Vec3d& first, double reach, double& beyond) {
   Simplex s;
   s.add(difference.support(first));
@@ -241,7 +245,8 @@ class Polytope {
     return std::fabs(volume(a.w, b.w, c.w, d.w)) > 1e-12 * size_ * size_ * size_;
   }
 
-  /// Starts from any four candidates that span a volume, and lets it grow by the others, so that the origin is inside or on it.
+  /// Starts from any four candidates that span a volume, and lets it grow by the others, so that the origin is inside
+  /// or on it.
   void enclose(const std::vector<Vertex>& candidates) {
     for (std::size_t i = 1; i < candidates.size(); ++i)
       for (std::size_t j = i + 1; j < candidates.size(); ++j)
@@ -313,8 +318,8 @@ class Polytope {
     return {-face.distance, face.normal, mix(&Vertex::on_a), mix(&Vertex::on_b)};
   }
 
-  /// Cores whose difference has no volume, such as two segments: the normal is that of the plane, or one of the line, in which
-  /// it lies.
+  /// Cores whose difference has no volume, such as two segments: the normal is that of the plane, or one of the line,
+  /// in which it lies.
   ConvexDistance flat() const {
     const Vertex& first = vertices_.front();
     Vec3d along{}, normal{};

@@ -14,8 +14,8 @@ namespace pliant {
 
 namespace {
 
-/// Neighbouring triangles are one face if the corner of one that the other lacks is nearer to the other's plane than this share
-/// of the hull's size, which is some roundings of a float.
+/// Neighbouring triangles are one face if the corner of one that the other lacks is nearer to the other's plane than
+/// this share of the hull's size, which is some roundings of a float.
 constexpr double flatness = 2e-6;
 
 /// A triangle of the growing hull.
@@ -224,8 +224,8 @@ class Polygons {
     return size;
   }
 
-  /// Makes a face of the triangle `seed` and of all others in its plane that are joined to it. If these had no simple border,
-  /// which rounding might cause, the triangle stays alone.
+  /// Makes a face of the triangle `seed` and of all others in its plane that are joined to it. If these had no simple
+  /// border, which rounding might cause, the triangle stays alone.
   void flood(std::size_t seed) {
     const auto face = static_cast<int>(borders_.size());
     const Vec3d unit = unit_or(normal(seed), Vec3d{0, 1, 0}), origin = at(facets_[seed].corners[0]);

@@ -13,8 +13,8 @@ namespace pliant {
 /// points' order alone.
 struct ConvexHull {
   std::vector<Vec3f> corners;
-  /// Corners of each face, counter-clockwise from outside, at least three. Neighbouring triangles that lie in one plane up to
-  /// rounding are one face.
+  /// Corners of each face, counter-clockwise from outside, at least three. Neighbouring triangles that lie in one plane
+  /// up to rounding are one face.
   std::vector<std::vector<int>> faces;
   std::vector<Vec3f> normals;  ///< outward unit normal of each face
 
@@ -22,7 +22,8 @@ struct ConvexHull {
   std::vector<std::array<int, 3>> triangles() const;
 };
 
-/// The hull of points; empty if all lie in one plane, exactly. Coordinates are finite. Quickhull (Barber, Dobkin and Huhdanpaa
+/// The hull of points; empty if all lie in one plane, exactly. Coordinates are finite. Quickhull (Barber, Dobkin and
+/// Huhdanpaa
 /// 1996), in which exact signs decide what is outside, so the hull contains every point but for what
 /// merging triangles into faces moves it, some roundings of a float.
 std::optional<ConvexHull> convex_hull(const std::vector<Vec3f>& points);

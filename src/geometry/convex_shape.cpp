@@ -54,7 +54,8 @@ Feature points_of(std::initializer_list<Vec3d> points) {
   return out;
 }
 
-/// The face that is flattest in a direction, if all of it is near; else the farthest edge that is, or the farthest corner.
+/// The face that is flattest in a direction, if all of it is near; else the farthest edge that is, or the farthest
+/// corner.
 Feature feature_of(const Polyhedron& p, const Vec3d& direction, double slack) {
   const Vec3d top = farthest_corner(p, direction);
   const double least = dot(direction, top) - slack;
@@ -64,7 +65,8 @@ Feature feature_of(const Polyhedron& p, const Vec3d& direction, double slack) {
     if (dot(direction, convert<double>(p.normals[f])) > dot(direction, convert<double>(p.normals[best]))) best = f;
   const auto first = p.face_corners.begin() + p.first_of_face[best], last = first + p.corners_of(best);
   if (std::all_of(first, last, is_near)) return face_of(p, best);
-  const PolyhedronEdge* farthest = nullptr;  // of those near, else a box that tips about an edge would lie on another one
+  const PolyhedronEdge* farthest =
+      nullptr;  // of those near, else a box that tips about an edge would lie on another one
   double reached = 0;
   for (const PolyhedronEdge& edge : p.edges) {
     if (!is_near(edge.a) || !is_near(edge.b)) continue;
@@ -82,7 +84,8 @@ Feature feature_of_round(const ConvexShape& shape, const Vec3d& direction, doubl
   const double r = shape.core_radius, h = shape.half_length, top_radius = shape.kind == ConvexShape::Kind::cone ? 0 : r;
   const double across = std::sqrt(direction.x * direction.x + direction.z * direction.z);
   const double tilt = 2 * r * across;  // the height of a disc in the direction
-  const Vec3d side = on_circle(1, direction), below = side * r - Vec3d{0, h, 0}, above = side * top_radius + Vec3d{0, h, 0};
+  const Vec3d side = on_circle(1, direction), below = side * r - Vec3d{0, h, 0},
+              above = side * top_radius + Vec3d{0, h, 0};
   const bool has_disc = tilt <= slack && (direction.y < 0 || top_radius > 0),
              has_side = std::fabs(dot(direction, above - below)) <= slack;
   // Of a needle or a coin the slack exceeds the thickness: then the longer of both is what it lies on, unless it lies

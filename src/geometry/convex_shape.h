@@ -1,5 +1,5 @@
-// Convex solids for contact between bodies: a core and a radius around it. What a kind of solid brings is its support, which
-// is the core's farthest point in a direction, and its features, which are the flat parts of its surface.
+// Convex solids for contact between bodies: a core and a radius around it. What a kind of solid brings is its support,
+// which is the core's farthest point in a direction, and its features, which are the flat parts of its surface.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ struct ConvexShape {
   const Polyhedron* polyhedron = nullptr;
 };
 
-/// The point of the core that is farthest in a direction, which need not be a unit vector. Of equally far points the same
-/// one is chosen each time.
+/// The point of the core that is farthest in a direction, which need not be a unit vector. Of equally far points the
+/// same one is chosen each time.
 Vec3d support(const ConvexShape& shape, const Vec3d& direction);
 
 /// A flat part of a core's surface: a point, a segment, or a polygon, counter-clockwise from outside.
@@ -30,8 +30,8 @@ struct Feature {
   Vec3d normal{};  ///< of polygons: outward unit normal
 };
 
-/// The largest part of the core's surface whose points are all within `slack` [m] of the farthest in a direction (a unit
-/// vector). Round faces count as polygons of eight corners.
+/// The largest part of the core's surface whose points are all within `slack` [m] of the farthest in a direction (a
+/// unit vector). Round faces count as polygons of eight corners.
 Feature feature_towards(const ConvexShape& shape, const Vec3d& direction, double slack);
 
 /// A face of a polyhedron; of one with more corners than a feature holds, some are left out.

@@ -1,5 +1,5 @@
-// Exact signs by floating-point expansions. A product of two floats is exact in a double, and one of three is the sum of
-// two doubles. A sum of doubles is stored with the rounding error of each addition.
+// Exact signs by floating-point expansions. A product of two floats is exact in a double, and one of three is the sum
+// of two doubles. A sum of doubles is stored with the rounding error of each addition.
 #include "geometry/exact.h"
 
 #include <algorithm>
@@ -100,7 +100,8 @@ bool boxes_meet(const Vec3f (&p)[2], const Vec3f (&q)[2]) {
          intervals_meet(p[0].z, p[1].z, q[0].z, q[1].z);
 }
 
-/// True if two closed segments in one plane meet: tested in a projection with area; for collinear segments by their boxes.
+/// True if two closed segments in one plane meet: tested in a projection with area; for collinear segments by their
+/// boxes.
 bool segments_meet(const Vec3f (&p)[2], const Vec3f (&q)[2]) {
   if (!boxes_meet(p, q)) return false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -140,7 +141,8 @@ int volume_sign(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d) 
   const Vec3d p[4] = {convert<double>(a), convert<double>(b), convert<double>(c), convert<double>(d)};
   const Vec3d u = p[1] - p[0], v = p[2] - p[0], w = p[3] - p[0], m = cross(u, v);
   const Vec3d sizes{abs(u.y * v.z) + abs(u.z * v.y), abs(u.z * v.x) + abs(u.x * v.z), abs(u.x * v.y) + abs(u.y * v.x)};
-  const double volume = dot(m, w), bound = 1e-15 * dot(sizes, abs(w));  // (7 + 56 e) e of the sum of magnitudes, e = 2^-53
+  const double volume = dot(m, w),
+               bound = 1e-15 * dot(sizes, abs(w));  // (7 + 56 e) e of the sum of magnitudes, e = 2^-53
   if (volume > bound || -volume > bound) return volume > 0 ? 1 : -1;
   if (in_plane_across_axis(p)) return 0;
   return exact_volume_sign(p[0], p[1], p[2], p[3]);

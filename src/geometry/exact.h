@@ -8,9 +8,9 @@
 
 namespace pliant {
 
-/// The exact sign (-1, 0, 1) of the volume of the tetrahedron a, b, c, d: positive if a, b, c appear counter-clockwise from
-/// d. Valid for all finite floats, including subnormal ones. Filter as in Shewchuk 1997, "Adaptive precision floating-point
-/// arithmetic and fast robust geometric predicates"; the exact part uses products instead.
+/// The exact sign (-1, 0, 1) of the volume of the tetrahedron a, b, c, d: positive if a, b, c appear counter-clockwise
+/// from d. Valid for all finite floats, including subnormal ones. Filter as in Shewchuk 1997, "Adaptive precision
+/// floating-point arithmetic and fast robust geometric predicates"; the exact part uses products instead.
 int volume_sign(const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d);
 
 /// How a closed edge and a closed triangle meet.

@@ -1,6 +1,6 @@
 // Mass, centre of mass and inertia of solids. Moments of volume are added over the parts of a body, in any frames, and
-// converted to principal axes at the end. Host only; in double precision with no function of libm but sqrt, so all machines
-// agree.
+// converted to principal axes at the end. Host only; in double precision with no function of libm but sqrt, so all
+// machines agree.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ Moments moments_of_box(const Vec3d& half_extents);
 Moments moments_of_capsule(double radius, double half_length);   ///< along y; half_length excludes the caps
 Moments moments_of_cylinder(double radius, double half_length);  ///< along y, about its middle
 Moments moments_of_cone(double radius, double half_length);      ///< base at y = -half_length, apex at +half_length
-/// The solid that a closed mesh encloses, its triangles facing outward (Mirtich 1996 has the integrals; here they are summed
-/// over the tetrahedra of triangles and the mesh's first vertex). A mesh that faces inward has negative mass.
+/// The solid that a closed mesh encloses, its triangles facing outward (Mirtich 1996 has the integrals; here they are
+/// summed over the tetrahedra of triangles and the mesh's first vertex). A mesh that faces inward has negative mass.
 Moments moments_of_mesh(const std::vector<Vec3d>& vertices, const std::vector<std::array<int, 3>>& triangles);
 
 /// A rigid body's inertia in principal axes.

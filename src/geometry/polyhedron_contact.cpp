@@ -159,8 +159,8 @@ std::pair<int, float> facing_of(const Polyhedron& p, int edge, const Vec3f& dire
 }
 
 /// The points of one face over another along a normal that is neither one's: both lie on their faces.
-std::vector<TouchPoint> points_along(const Feature& reference, const Feature& incident, const Vec3d& normal, bool swapped,
-                                     double margin) {
+std::vector<TouchPoint> points_along(const Feature& reference, const Feature& incident, const Vec3d& normal,
+                                     bool swapped, double margin) {
   constexpr double any_height = 1e30;
   Feature across = reference;  // as seen along the normal
   across.normal = swapped ? -normal : normal;

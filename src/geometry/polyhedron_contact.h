@@ -18,9 +18,9 @@ struct SeparatingAxis {
   Vec3f normal{};        ///< unit vector from a to b
 };
 
-/// The best axis of polyhedra in one frame. An axis of faces is preferred to one of edges that is hardly better, and the
-/// face of a to that of b, so that resting contact does not change its kind by rounding.
-/// Any axis that separates them by more than `reach` [m] will do.
+/// The best axis of polyhedra in one frame. An axis of faces is preferred to one of edges that is hardly better, and
+/// the face of a to that of b, so that resting contact does not change its kind by rounding. Any axis that separates
+/// them by more than `reach` [m] will do.
 SeparatingAxis separating_axis(const Polyhedron& a, const Polyhedron& b, float reach = 3e38f);
 
 /// The points at which polyhedra in one frame touch, or might within `margin` [m]; none if they are farther apart.

@@ -49,8 +49,9 @@ struct Bracket {
   SurfaceDistance<R> at_low, at_high;
 };
 
-/// Finds where along a segment the slope of the distance first exceeds `threshold`, to within `exact`: at `high` it does,
-/// at `low` it does not. Regula falsi converges fast for round solids; every third step bisects, which finds kinks too.
+/// Finds where along a segment the slope of the distance first exceeds `threshold`, to within `exact`: at `high` it
+/// does, at `low` it does not. Regula falsi converges fast for round solids; every third step bisects, which finds
+/// kinks too.
 template <class R>
 PLIANT_HD void narrow(const SegmentNearShape<R>& segment, const R& threshold, const R& exact, Bracket<R>& b) {
   constexpr int steps = sizeof(R) == sizeof(float) ? 48 : 120;
@@ -101,8 +102,8 @@ PLIANT_HD ClosestToShape<R> closest_between(const SegmentNearShape<R>& segment) 
   return detail::closest_in(segment, b);
 }
 
-/// Up to two points on a segment that dips(): the closest one, or both ends of a nearly parallel stretch, as across a box
-/// or along a capsule. Two points keep the segment from rocking.
+/// Up to two points on a segment that dips(): the closest one, or both ends of a nearly parallel stretch, as across a
+/// box or along a capsule. Two points keep the segment from rocking.
 template <class R>
 struct ClosestStretch {
   int places = 0;
@@ -120,9 +121,9 @@ PLIANT_HD ClosestStretch<R> closest_stretch(const SegmentNearShape<R>& segment) 
       last{closest.t, R(1), first.at_high, segment.at_b};
   detail::narrow(segment, -parallel, R(0.1f) * parallel, first);
   detail::narrow(segment, parallel, R(0.1f) * parallel, last);
-  return {
-      2,
-      {{first.high, first.at_high.distance, first.at_high.normal}, {last.low, last.at_low.distance, last.at_low.normal}}};
+  return {2,
+          {{first.high, first.at_high.distance, first.at_high.normal},
+           {last.low, last.at_low.distance, last.at_low.normal}}};
 }
 
 }  // namespace pliant

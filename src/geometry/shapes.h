@@ -5,8 +5,8 @@
 // method from outside thus approaches the first contact from before it and never steps
 // over it, at any speed and thickness. A new convex shape needs only a signed distance.
 //
-// A shape is a kind and three numbers, not a std::variant, because the same code runs on devices. Coordinates are in the
-// shape's local frame [m], as scene.h defines it, and up to 1e18 in float.
+// A shape is a kind and three numbers, not a std::variant, because the same code runs on devices. Coordinates are in
+// the shape's local frame [m], as scene.h defines it, and up to 1e18 in float.
 #pragma once
 
 #include "math/quat.h"
@@ -16,8 +16,8 @@ namespace pliant {
 
 enum class ShapeKind : int { plane, sphere, capsule, box };
 
-/// A solid in its local frame. Plane (the half-space y <= 0): none; sphere: a = radius; capsule along y: a = radius, b =
-/// half axis length; box: a, b, c = half extents along x, y, z. All >= 0 [m].
+/// A solid in its local frame. Plane (the half-space y <= 0): none; sphere: a = radius; capsule along y: a = radius, b
+/// = half axis length; box: a, b, c = half extents along x, y, z. All >= 0 [m].
 struct LocalShape {
   ShapeKind kind = ShapeKind::plane;
   float a = 0, b = 0, c = 0;
@@ -91,11 +91,12 @@ struct FirstHit {
 /// The first t in [0, 1] at which a + t (b - a) is within `margin` (>= 0) of the shape, to a few roundings of the
 /// coordinates: a path that misses by less counts as touching. R is float or double.
 ///
-/// For a moving shape, pass a in its frame at the start and b in its frame at the end of the step. Non-finite coordinates
-/// give no hit; no hit is guaranteed beyond 1e18.
+/// For a moving shape, pass a in its frame at the start and b in its frame at the end of the step. Non-finite
+/// coordinates give no hit; no hit is guaranteed beyond 1e18.
 template <class R>
 PLIANT_HD FirstHit<R> first_hit(const LocalShape& shape, const Vec3<R>& a, const Vec3<R>& b, const R& margin) {
-  const R rounding = sizeof(R) == sizeof(float) ? R(2.4e-7f) : R(4.5e-16);  // two units in the last place of the number 1
+  const R rounding =
+      sizeof(R) == sizeof(float) ? R(2.4e-7f) : R(4.5e-16);  // two units in the last place of the number 1
   const Vec3<R> path = b - a;
   const R path_size = abs(path.x) + abs(path.y) + abs(path.z);
   if (!(path_size + abs(a.x) + abs(a.y) + abs(a.z) < R(1e38f))) return {};

@@ -25,12 +25,13 @@ using ClipPolygon = std::vector<ClipPoint>;
 void set_corners(const Feature& feature, ClipPolygon& out) {
   out.clear();
   for (int i = 0; i < feature.count; ++i)
-    out.push_back({feature.points[static_cast<std::size_t>(i)], static_cast<Side>((i + feature.count - 1) % feature.count),
-                   static_cast<Side>(i)});
+    out.push_back({feature.points[static_cast<std::size_t>(i)],
+                   static_cast<Side>((i + feature.count - 1) % feature.count), static_cast<Side>(i)});
 }
 
-/// Keeps what lies behind a plane, n.x <= offset. A polygon gets a side of the number `side` there. A segment is a polygon of
-/// two equal edges, so that each cut gives its point twice; the second has no number of its own and is left out.
+/// Keeps what lies behind a plane, n.x <= offset. A polygon gets a side of the number `side` there. A segment is a
+/// polygon of two equal edges, so that each cut gives its point twice; the second has no number of its own and is left
+/// out.
 void clip(const ClipPolygon& corners, const Vec3d& n, double offset, Side side, bool is_segment, ClipPolygon& out) {
   out.clear();
   for (std::size_t i = 0; i < corners.size(); ++i) {

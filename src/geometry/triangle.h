@@ -1,9 +1,9 @@
 // Closest points of triangles, segments and points; a triangle's area, normal and volume.
 //
-// Robust for degenerate input: the usual case distinctions divide by areas and determinants, which vanish for slivers and
-// parallel edges, exactly where cloth makes contact. Here each candidate (interior, each edge, each end) gives a point on
-// the primitive despite rounding, and the nearest wins. A tiny determinant only spoils its own candidate. Branch-free, so R
-// may be float, double or Wide. Ties go to the candidate named first.
+// Robust for degenerate input: the usual case distinctions divide by areas and determinants, which vanish for slivers
+// and parallel edges, exactly where cloth makes contact. Here each candidate (interior, each edge, each end) gives a
+// point on the primitive despite rounding, and the nearest wins. A tiny determinant only spoils its own candidate.
+// Branch-free, so R may be float, double or Wide. Ties go to the candidate named first.
 //
 // The cost: distances are accurate to rounding, but positions only to its square
 // root, because a distance is flat near its minimum. In float the direction between
@@ -47,8 +47,8 @@ struct ClosestOnTriangle {
 namespace detail {
 
 template <class R>
-PLIANT_HD ClosestOnTriangle<R> triangle_candidate(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c,
-                                                  const Vec3<R>& weights) {
+PLIANT_HD ClosestOnTriangle<R> triangle_candidate(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b,
+                                                  const Vec3<R>& c, const Vec3<R>& weights) {
   // The offset from a is computed first, so that a small triangle far from the origin keeps its precision.
   const Vec3<R> offset = weights.y * (b - a) + weights.z * (c - a);
   return {a + offset, weights, length_squared((p - a) - offset)};
@@ -79,7 +79,8 @@ PLIANT_HD Vec3<R> weights_of_foot(const Vec3<R>& p, const Vec3<R>& a, const Vec3
 
 /// The point of triangle (a, b, c) closest to p. A degenerate triangle acts as a segment or a point.
 template <class R>
-PLIANT_HD ClosestOnTriangle<R> closest_on_triangle(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c) {
+PLIANT_HD ClosestOnTriangle<R> closest_on_triangle(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b,
+                                                   const Vec3<R>& c) {
   using detail::nearer, detail::triangle_candidate;
   const R zero = R(0), one = R(1);
   const R ab = closest_on_segment(p, a, b), bc = closest_on_segment(p, b, c), ca = closest_on_segment(p, c, a);
@@ -101,7 +102,8 @@ struct ClosestOnSegments {
 namespace detail {
 
 template <class R>
-PLIANT_HD ClosestOnSegments<R> segments_candidate(const Vec3<R> (&p)[2], const Vec3<R> (&q)[2], const R& s, const R& t) {
+PLIANT_HD ClosestOnSegments<R> segments_candidate(const Vec3<R> (&p)[2], const Vec3<R> (&q)[2], const R& s,
+                                                  const R& t) {
   const Vec3<R> along_p = s * (p[1] - p[0]), along_q = t * (q[1] - q[0]);
   return {s, t, p[0] + along_p, q[0] + along_q, length_squared((p[0] - q[0]) + (along_p - along_q))};
 }
@@ -109,8 +111,9 @@ PLIANT_HD ClosestOnSegments<R> segments_candidate(const Vec3<R> (&p)[2], const V
 template <class R>
 PLIANT_HD ClosestOnSegments<R> nearer(const ClosestOnSegments<R>& first, const ClosestOnSegments<R>& second) {
   const auto better = second.distance_squared < first.distance_squared;
-  return {select(better, second.s, first.s), select(better, second.t, first.t), select(better, second.first, first.first),
-          select(better, second.second, first.second), select(better, second.distance_squared, first.distance_squared)};
+  return {select(better, second.s, first.s), select(better, second.t, first.t),
+          select(better, second.first, first.first), select(better, second.second, first.second),
+          select(better, second.distance_squared, first.distance_squared)};
 }
 
 /// The closest points of two lines, s clamped to [0, 1] and t optimal for it: the solution if both points are inside.
@@ -125,7 +128,8 @@ PLIANT_HD ClosestOnSegments<R> closest_inside(const Vec3<R> (&p)[2], const Vec3<
 
 }  // namespace detail
 
-/// The closest points of the segments p[0] p[1] and q[0] q[1]; any closest pair if parallel. Degenerate segments are valid.
+/// The closest points of the segments p[0] p[1] and q[0] q[1]; any closest pair if parallel. Degenerate segments are
+/// valid.
 template <class R>
 PLIANT_HD ClosestOnSegments<R> closest_on_segments(const Vec3<R> (&p)[2], const Vec3<R> (&q)[2]) {
   using detail::nearer, detail::segments_candidate;
@@ -144,8 +148,8 @@ PLIANT_HD R triangle_area(const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c) 
   return R(0.5f) * length(cross(b - a, c - a));
 }
 
-/// The unit normal of a triangle, on the side from which a, b, c run counter-clockwise; zero if the triangle is degenerate
-/// in R. Edges are scaled first, so any size works.
+/// The unit normal of a triangle, on the side from which a, b, c run counter-clockwise; zero if the triangle is
+/// degenerate in R. Edges are scaled first, so any size works.
 template <class R>
 PLIANT_HD Vec3<R> triangle_normal(const Vec3<R>& a, const Vec3<R>& b, const Vec3<R>& c) {
   const Vec3<R> ab = b - a, ac = c - a;

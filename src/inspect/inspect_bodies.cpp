@@ -48,7 +48,8 @@ struct SolidCheck {
 };
 
 /// Reports a particle or frame that does not exist or belongs to two bodies.
-void check_place(Problems& problems, const std::string& element, const char* kind, int index, std::vector<char>& taken) {
+void check_place(Problems& problems, const std::string& element, const char* kind, int index,
+                 std::vector<char>& taken) {
   if (index < 0 || static_cast<std::size_t>(index) >= taken.size())
     return problems.grave(element, std::string("has ") + kind + ' ' + std::to_string(index) + ", which does not exist",
                           "make bodies by add_body");
@@ -86,7 +87,8 @@ bool may_tip(const Object& object, std::size_t index) {
   const ObjectFrame& frame = object.frames[static_cast<std::size_t>(body.frame)];
   const bool is_ball = body.solids.size() == 1 && std::holds_alternative<Sphere>(body.solids[0].shape);
   const bool is_locked = std::isinf(frame.inertia.x) && std::isinf(frame.inertia.y) && std::isinf(frame.inertia.z);
-  if (!object.collides || body.solids.empty() || is_ball || is_locked || frame.angular_velocity != Vec3f{}) return false;
+  if (!object.collides || body.solids.empty() || is_ball || is_locked || frame.angular_velocity != Vec3f{})
+    return false;
   const int number = static_cast<int>(index);
   return std::none_of(object.joints.begin(), object.joints.end(),
                       [&](const ObjectJoint& joint) { return joint.a == number || joint.b == number; });

@@ -110,7 +110,8 @@ double estimated_pairs(const Object& object, double kept) {
   return pairs;
 }
 
-/// Warns of a large thickness: if it is n edges, on the whole mesh or on its finest part, a frame takes n^2 times as long.
+/// Warns of a large thickness: if it is n edges, on the whole mesh or on its finest part, a frame takes n^2 times as
+/// long.
 void doubt_cost(Problems& problems, const Object& object) {
   if (!object.self_collision || object.triangles.empty()) return;
   const double kept = 2 * static_cast<double>(object.thickness),
@@ -135,7 +136,8 @@ void doubt_thickness(Problems& problems, const Object& object) {
   if (edge == 0)
     return problems.doubtful("", "has neither triangles nor links: its particles collide as spheres of its thickness",
                              "add triangles or links if it is meant as a surface or a rope");
-  if (kept > edge && !object.triangles.empty())  // ropes bend no more sharply than they are thick, so they need no warning
+  if (kept > edge &&
+      !object.triangles.empty())  // ropes bend no more sharply than they are thick, so they need no warning
     problems.doubtful("thickness",
                       "is " + words(object.thickness) +
                           " m: two layers keep twice this distance, more than the median edge, " + words(edge) + " m",
@@ -179,8 +181,8 @@ double particle_mass(const Object& object) {
   return count > 0 ? sum / count : 0;
 }
 
-/// A sheet whose particles are so much heavier than those of one that it can press on that contact hardly converges: the
-/// light sheet yields in each projection, and the filter holds both in round after round.
+/// A sheet whose particles are so much heavier than those of one that it can press on that contact hardly converges:
+/// the light sheet yields in each projection, and the filter holds both in round after round.
 struct HeavySheet {
   const Object* object;
   std::string problem, advice;
@@ -241,9 +243,9 @@ void check_frames(Problems& problems, const MeshCollider& collider) {
     if (k > 0 && !(frame.time > collider.frames[k - 1].time))
       problems.grave(name, "is at " + words(frame.time) + " s, but times must increase", "sort frames by time");
     if (frame.positions.size() != vertices)
-      problems.grave(name,
-                     "has " + counted(frame.positions.size(), "vertex position") + ", the mesh " + std::to_string(vertices),
-                     "give one position per vertex of the mesh, in its order");
+      problems.grave(
+          name, "has " + counted(frame.positions.size(), "vertex position") + ", the mesh " + std::to_string(vertices),
+          "give one position per vertex of the mesh, in its order");
     Tally not_places;
     for (std::size_t i = 0; i < frame.positions.size(); ++i)
       if (!is_place(frame.positions[i])) not_places.add(static_cast<std::int64_t>(i));
@@ -278,10 +280,10 @@ void doubt_folds(Problems& problems, const std::vector<Vec3f>& positions,
   if (folded.empty()) return;
   const Edge& first = edges[static_cast<std::size_t>(folded.front())];
   const std::string more = folded.size() > 1 ? " and " + std::to_string(folded.size() - 1) + " more" : "";
-  problems.doubtful("edge " + std::to_string(first.a) + "-" + std::to_string(first.b) + more,
-                    "folds the surface back on itself",
-                    "the two triangles there lie on one another, so that contact has no side to push to; open the fold, or "
-                    "remove one of them");
+  problems.doubtful(
+      "edge " + std::to_string(first.a) + "-" + std::to_string(first.b) + more, "folds the surface back on itself",
+      "the two triangles there lie on one another, so that contact has no side to push to; open the fold, or "
+      "remove one of them");
 }
 
 /// Reports triangles that give contact no direction.

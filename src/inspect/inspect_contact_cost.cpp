@@ -100,10 +100,10 @@ class Neighbours {
 void refuse_thickness(Problems& problems, const Object& object, double edge, double of_vertex) {
   const double all = of_vertex * static_cast<double>(object.positions.size());
   char text[200];
-  std::snprintf(
-      text, sizeof text,
-      " m, and the median edge is %.3g m: contact would test about %.0f pairs per vertex, %.2g million in all, in %.0f MB",
-      edge, of_vertex, 1e-6 * all, 1e-6 * bytes_of_pair * all);
+  std::snprintf(text, sizeof text,
+                " m, and the median edge is %.3g m: contact would test about %.0f pairs per vertex, %.2g million in "
+                "all, in %.0f MB",
+                edge, of_vertex, 1e-6 * all, 1e-6 * bytes_of_pair * all);
   problems.at(object.name);
   problems.grave(
       "thickness", "is " + words(object.thickness) + text,

@@ -101,7 +101,8 @@ void doubt_attachments(const Doubts& d) {
 }
 
 void doubt_references(const Doubts& d) {
-  if (d.object.fluid || d.object.grains || d.object.tracers) return;  // whose particles are in no constraint of their own
+  if (d.object.fluid || d.object.grains || d.object.tracers)
+    return;  // whose particles are in no constraint of their own
   std::vector<bool> used = d.fixed;
   const auto use = [&](int particle) { used[static_cast<std::size_t>(particle)] = true; };
   for (const ConstraintGroup& group : d.object.constraints)
@@ -109,7 +110,8 @@ void doubt_references(const Doubts& d) {
   for (const auto& triangle : d.object.triangles) std::for_each(triangle.begin(), triangle.end(), use);
   for (const Attachment& attachment : d.object.attachments) use(attachment.particle);
   for (const ObjectBody& body : d.object.bodies) use(body.particle);
-  for (const Cluster& cluster : d.object.clusters) std::for_each(cluster.particles.begin(), cluster.particles.end(), use);
+  for (const Cluster& cluster : d.object.clusters)
+    std::for_each(cluster.particles.begin(), cluster.particles.end(), use);
   Tally loose;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i]) loose.add(static_cast<std::int64_t>(i));
@@ -153,15 +155,18 @@ void doubt_distances(const Doubts& d, const ConstraintGroup& group) {
     if (group.stiffness.kind == Stiffness::Kind::compliance && does_nothing(d, group, c))
       idle.add(static_cast<std::int64_t>(c));
   }
-  d.problems.doubtful(strained, "distance constraint", "has a length that differs from its rest length by more than half",
+  d.problems.doubtful(strained, "distance constraint",
+                      "has a length that differs from its rest length by more than half",
                       "the object will jump at the start: check rest lengths and units");
-  d.problems.doubtful(idle, "distance constraint", "is so compliant that the weight of its particles stretches it tenfold",
+  d.problems.doubtful(idle, "distance constraint",
+                      "is so compliant that the weight of its particles stretches it tenfold",
                       "compliance is the inverse of stiffness, in m/N: 0 is rigid");
-  const double most = d.object.triangles.empty() ? 10 * shortest : shortest;  // short links let a thick rope bend smoothly
+  const double most =
+      d.object.triangles.empty() ? 10 * shortest : shortest;  // short links let a thick rope bend smoothly
   if (static_cast<double>(d.object.thickness) > most)
-    d.problems.doubtful("thickness",
-                        "is " + words(d.object.thickness) + " m, more than the shortest edge, " + words(shortest) + " m",
-                        "the object will hover above colliders: lengths are in metres");
+    d.problems.doubtful(
+        "thickness", "is " + words(d.object.thickness) + " m, more than the shortest edge, " + words(shortest) + " m",
+        "the object will hover above colliders: lengths are in metres");
 }
 
 /// Damping is that of a spring: what is rigid has none.
@@ -217,16 +222,17 @@ void doubt_volume(const Doubts& d) {
   if (six_volumes < 0)
     d.problems.doubtful("volume", "is inside out: its triangles face inward",
                         "flip all triangles; make_cloth does so itself");
-  const bool is_rigid = d.object.volume->stiffness.kind == Stiffness::Kind::pbd || d.object.volume->stiffness.value == 0;
+  const bool is_rigid =
+      d.object.volume->stiffness.kind == Stiffness::Kind::pbd || d.object.volume->stiffness.value == 0;
   const double frame = static_cast<double>(d.scene.frame_time);
   const bool is_strained =
       strain_of_inflated(d.object) > tolerated_p99;  // less is within the bounds even if no edge yields
   if (is_rigid && is_strained && !can_follow_volume(d.object, frame / substeps_of_volumes))
-    d.problems.doubtful("volume",
-                        "has a pressure of " + words(largest_pressure(*d.object.volume)) +
-                            ", for which edges must become " + words(std::round(1000 * strain_of_inflated(d.object)) / 10) +
-                            " % longer, but they are too stiff for that",
-                        "lower the pressure, or give the distances more compliance");
+    d.problems.doubtful(
+        "volume",
+        "has a pressure of " + words(largest_pressure(*d.object.volume)) + ", for which edges must become " +
+            words(std::round(1000 * strain_of_inflated(d.object)) / 10) + " % longer, but they are too stiff for that",
+        "lower the pressure, or give the distances more compliance");
 }
 
 // ------------------------------------------------------------------------------------------------ surroundings
@@ -255,9 +261,10 @@ void doubt_compression(const Doubts& d) {
   const double longer = static_cast<double>(needed) / settings.substeps;
   const double mean = mean_by_default * longer * longer / settings.iterations;
   if (mean <= tolerated) return;
-  d.problems.doubtful("settings, substeps",
-                      "are so few that the liquid will be about " + words(100 * mean) + " % denser than at rest on average",
-                      "use " + std::to_string(needed) + ", or leave substeps out");
+  d.problems.doubtful(
+      "settings, substeps",
+      "are so few that the liquid will be about " + words(100 * mean) + " % denser than at rest on average",
+      "use " + std::to_string(needed) + ", or leave substeps out");
 }
 
 /// Says by how much too few substeps weaken surface tension.
@@ -268,9 +275,10 @@ void doubt_tension(const Doubts& d) {
   const int needed = substeps_of_tension(d.object, static_cast<double>(d.scene.frame_time));
   const double longer = static_cast<double>(needed) / (settings.substeps * tolerated);
   if (longer <= 1) return;
-  d.problems.doubtful("settings, substeps",
-                      "are so few that only about " + words(100 / (longer * longer)) + " % of the surface tension can act",
-                      "use " + std::to_string(needed) + ", or leave substeps out");
+  d.problems.doubtful(
+      "settings, substeps",
+      "are so few that only about " + words(100 / (longer * longer)) + " % of the surface tension can act",
+      "use " + std::to_string(needed) + ", or leave substeps out");
 }
 
 /// Says so where a contact angle or a cohesion has no effect, or not all of it.
@@ -299,7 +307,8 @@ void doubt_air(const Doubts& d) {
   if (length_squared(wind.velocity) > 0 && wind.air_density > 0 && (d.object.fluid || d.object.grains) && !d.object.gas)
     d.problems.doubtful("", "is not pushed by the wind, which acts on triangles and on bodies that are one capsule",
                         "leave the wind out, or push the particles by a force field");
-  if (length_squared(wind.velocity) > 0 && wind.air_density == 0 && (!d.object.triangles.empty() || has_capsule(d.object)))
+  if (length_squared(wind.velocity) > 0 && wind.air_density == 0 &&
+      (!d.object.triangles.empty() || has_capsule(d.object)))
     d.problems.doubtful("", "has no effect from wind, because the air density is 0",
                         "set the wind's air_density, for example to 1.2 kg/m^3");
 }

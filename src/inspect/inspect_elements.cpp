@@ -34,9 +34,12 @@ constexpr std::array<ElementType, 8> element_types{{{"tetrahedron_shear", 4, 0, 
                                                     {"triangle_shear", 3, 0, true}}};
 
 bool is_flat_element(const Object& object, const int* corners, std::size_t count) {
-  const auto at = [&](std::size_t i) { return convert<double>(object.positions[static_cast<std::size_t>(corners[i])]); };
+  const auto at = [&](std::size_t i) {
+    return convert<double>(object.positions[static_cast<std::size_t>(corners[i])]);
+  };
   const Vec3d a = at(1) - at(0), b = at(2) - at(0);
-  if (count == 3) return length_squared(cross(a, b)) <= least_share * least_share * length_squared(a) * length_squared(b);
+  if (count == 3)
+    return length_squared(cross(a, b)) <= least_share * least_share * length_squared(a) * length_squared(b);
   const Vec3d c = at(3) - at(0);
   const double edges = std::sqrt(length_squared(a)) * std::sqrt(length_squared(b)) * std::sqrt(length_squared(c));
   return std::fabs(dot(cross(a, b), c)) <= least_share * edges;
@@ -46,7 +49,8 @@ void doubt_flat(Problems& problems, const Object& object, const ConstraintGroup&
                 const std::string& kind) {
   Tally flat;
   for (std::size_t c = 0; c < group.particles.size() / type.corners; ++c)
-    if (is_flat_element(object, &group.particles[c * type.corners], type.corners)) flat.add(static_cast<std::int64_t>(c));
+    if (is_flat_element(object, &group.particles[c * type.corners], type.corners))
+      flat.add(static_cast<std::int64_t>(c));
   const bool is_solid = type.corners == 4;
   const std::string where = is_solid ? "has its corners in one plane at rest" : "has its corners on one line at rest";
   problems.doubtful(flat, kind,

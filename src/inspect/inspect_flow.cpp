@@ -13,8 +13,8 @@ namespace pliant {
 
 namespace {
 
-/// Particles of liquids nearer than this share of the smaller distance at which they rest push each other away in the first
-/// frame. Grains that are nearer than this share of their diameter have contact, which throws them apart.
+/// Particles of liquids nearer than this share of the smaller distance at which they rest push each other away in the
+/// first frame. Grains that are nearer than this share of their diameter have contact, which throws them apart.
 constexpr float crowded_share = 0.5f, overlapping_share = 0.95f;
 /// A jet that is faster than this from an opening has probably a flow in litres a second [m/s].
 constexpr float fast_jet = 30;
@@ -40,9 +40,11 @@ std::vector<Place> places_of(const Scene& scene) {
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const Object& object = scene.objects[o];
     const float distance = distance_at_rest(object);
-    const std::size_t spare = std::min(static_cast<std::size_t>(std::max(object.flow.spare, 0)), object.positions.size());
+    const std::size_t spare =
+        std::min(static_cast<std::size_t>(std::max(object.flow.spare, 0)), object.positions.size());
     for (std::size_t i = 0; distance > 0 && i < object.positions.size() - spare; ++i)
-      all.push_back({object.positions[i], distance, static_cast<int>(o), static_cast<int>(i), object.grains.has_value()});
+      all.push_back(
+          {object.positions[i], distance, static_cast<int>(o), static_cast<int>(i), object.grains.has_value()});
   }
   return all;
 }
@@ -96,10 +98,11 @@ void doubt_emitters(Problems& problems, const Object& object) {
 void doubt_temperature(Problems& problems, const std::string& what, float temperature) {
   constexpr float coldest = 100, hottest = 10000;  // [K]
   if (temperature >= coldest && temperature <= hottest) return;
-  problems.doubtful(what,
-                    "is " + words(static_cast<double>(temperature)) +
-                        (temperature < coldest ? " K, at which air is frozen" : " K, hotter than the surface of the sun"),
-                    "temperatures are in kelvin: 20 degrees Celsius are 293.15");
+  problems.doubtful(
+      what,
+      "is " + words(static_cast<double>(temperature)) +
+          (temperature < coldest ? " K, at which air is frozen" : " K, hotter than the surface of the sun"),
+      "temperatures are in kelvin: 20 degrees Celsius are 293.15");
 }
 
 /// Numbers of a liquid or gas that are outside of what exists by far.

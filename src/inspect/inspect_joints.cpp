@@ -35,7 +35,9 @@ struct JointedBody {
   }
 };
 
-bool has_body(const Object& object, int body) { return body >= 0 && static_cast<std::size_t>(body) < object.bodies.size(); }
+bool has_body(const Object& object, int body) {
+  return body >= 0 && static_cast<std::size_t>(body) < object.bodies.size();
+}
 
 /// True if keyframes move or turn a body.
 bool is_driven(const Object& object, const ObjectBody& body) {

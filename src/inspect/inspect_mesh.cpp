@@ -141,7 +141,8 @@ class Inspector {
       tell(counted(flat.count, "triangle has", "triangles have") + " no area, the first " + std::to_string(flat.first),
            "they have no mass and catch no wind; remove them, as read_mesh does");
     if (sliver.count > 0)
-      tell(counted(sliver.count, "sliver triangle", "sliver triangles") + ", the first " + std::to_string(sliver.first) +
+      tell(counted(sliver.count, "sliver triangle", "sliver triangles") + ", the first " +
+               std::to_string(sliver.first) +
                " (worst aspect 1:" + std::to_string(static_cast<long long>(std::min(worst, 1e15) + 0.5)) + ")",
            "they give their vertices little mass, which causes jitter; remesh there");
   }
@@ -151,7 +152,8 @@ class Inspector {
     if (folded.empty()) return;
     tell(counted(folded.size(), "edge folds", "edges fold") + " the surface back on itself, the first " +
              name_of(edges_[at(folded.front())]),
-         "the two triangles there lie on one another, so that contact has no side to push to; open the fold, or remove one "
+         "the two triangles there lie on one another, so that contact has no side to push to; open the fold, or remove "
+         "one "
          "of them");
   }
 
@@ -196,7 +198,8 @@ class Inspector {
     if (repeated.count > 0)
       tell(counted(repeated.count, "triangle has", "triangles have") + " the vertices of another, the first " +
                std::to_string(repeated.first),
-           "they count twice for mass and stiffness, and make_cloth rejects two triangles that are connected only to each "
+           "they count twice for mass and stiffness, and make_cloth rejects two triangles that are connected only to "
+           "each "
            "other; remove one of each pair");
   }
 
@@ -253,8 +256,8 @@ class Inspector {
     for (std::size_t i = 0; i < fans.size(); ++i)
       if (fans[i] > 1) pinched.add(i);
     if (pinched.count > 0)
-      tell(counted(pinched.count, "vertex joins", "vertices join") + " parts of the surface in a single point, the first " +
-               std::to_string(pinched.first),
+      tell(counted(pinched.count, "vertex joins", "vertices join") +
+               " parts of the surface in a single point, the first " + std::to_string(pinched.first),
            "the parts rotate freely about it; split the vertex or close the gap");
   }
 
@@ -298,7 +301,8 @@ class Inspector {
     for (std::size_t i = 0; i < volume.size(); ++i)
       if (volume[i] < 0) inside_out.add(i);
     if (inside_out.count == 0) return;
-    tell(counted(inside_out.count, "closed piece is", "closed pieces are") + " wound inside out, the first with triangle " +
+    tell(counted(inside_out.count, "closed piece is", "closed pieces are") +
+             " wound inside out, the first with triangle " +
              std::to_string(
                  std::find(pieces.of_triangle.begin(), pieces.of_triangle.end(), static_cast<int>(inside_out.first)) -
                  pieces.of_triangle.begin()),

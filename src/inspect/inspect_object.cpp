@@ -61,7 +61,8 @@ void check_masses(Problems& problems, const Object& object) {
     else if (!std::isinf(mass) && (mass > largest_quantity || mass < 1 / largest_quantity))
       extreme.add(static_cast<std::int64_t>(i));
   }
-  problems.grave(none, "particle", "has a mass that is not above 0", "give more than 0 kg, or infinity for a fixed one");
+  problems.grave(none, "particle", "has a mass that is not above 0",
+                 "give more than 0 kg, or infinity for a fixed one");
   problems.grave(extreme, "particle", "has a mass outside 1e-20 to 1e20 kg",
                  "give masses in kg, or infinity for a fixed one");
 }
@@ -91,8 +92,8 @@ void check_frames(Problems& problems, const Object& object) {
   const Vec3f& moments = object.frames[static_cast<std::size_t>(inertia.first)].inertia;
   problems.grave("body " + std::to_string(body - object.bodies.begin()) + " '" + body->name + "'" +
                      (inertia.count > 1 ? " and " + std::to_string(inertia.count - 1) + " more" : ""),
-                 "has moments of inertia of " + words(moments.x) + ", " + words(moments.y) + " and " + words(moments.z) +
-                     " kg m^2, outside 1e-20 to 1e20",
+                 "has moments of inertia of " + words(moments.x) + ", " + words(moments.y) + " and " +
+                     words(moments.z) + " kg m^2, outside 1e-20 to 1e20",
                  "make it larger, or check that its sizes are in metres");
 }
 
@@ -135,7 +136,8 @@ void check_rest(Problems& problems, const ConstraintGroup& group, const Constrai
   const std::size_t fields = type.rest_fields.size();
   if (group.rest.empty()) {
     if (fields > 0 && count > 0 && constraint_type(find_constraint_type(type.name)).measure == nullptr)
-      problems.grave("rest of " + group.type + " constraints", "cannot be measured by this constraint type", "give `rest`");
+      problems.grave("rest of " + group.type + " constraints", "cannot be measured by this constraint type",
+                     "give `rest`");
     return;
   }
   if (group.rest.size() != count * fields) {
@@ -147,7 +149,8 @@ void check_rest(Problems& problems, const ConstraintGroup& group, const Constrai
   Tally bad;
   for (std::size_t i = 0; i < group.rest.size(); ++i) {
     const bool is_length = type.rest_fields[i % fields] == "rest_length";
-    if (!std::isfinite(group.rest[i]) || (is_length && group.rest[i] < 0)) bad.add(static_cast<std::int64_t>(i / fields));
+    if (!std::isfinite(group.rest[i]) || (is_length && group.rest[i] < 0))
+      bad.add(static_cast<std::int64_t>(i / fields));
   }
   problems.grave(bad, kind, "has rest data that is not finite, or a negative length",
                  "leave `rest` empty to have it measured from the positions");
@@ -160,7 +163,8 @@ void check_compliances(Problems& problems, const ConstraintGroup& group, std::si
                    "give only one of the two");
   if (group.compliances.size() != count)
     problems.grave("compliances of " + group.type + " constraints",
-                   of(group.compliances.size()) + " for " + of(count) + " constraints", "give one per constraint, or none");
+                   of(group.compliances.size()) + " for " + of(count) + " constraints",
+                   "give one per constraint, or none");
   Tally bad;
   for (std::size_t i = 0; i < group.compliances.size(); ++i)
     if (!(group.compliances[i] >= 0 && group.compliances[i] <= largest_quantity)) bad.add(static_cast<std::int64_t>(i));
@@ -273,7 +277,8 @@ void check_closed(Problems& problems, const Object& object) {
   for (const Edge& edge : find_edges(object.triangles, static_cast<int>(object.positions.size()))) {
     const std::string name = "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b);
     if (!edge.is_inner())
-      return problems.grave(name, "has " + std::to_string(edge.triangle_count) + " triangles where a closed surface has 2",
+      return problems.grave(name,
+                            "has " + std::to_string(edge.triangle_count) + " triangles where a closed surface has 2",
                             "close the surface, or remove the volume");
     if (!edge.is_wound_consistently())
       return problems.grave(name, "joins triangles of opposite winding", "flip one of them; make_cloth does so itself");
@@ -286,7 +291,8 @@ void check_pressures(Problems& problems, const Volume& volume) {
   for (std::size_t i = 0; i < volume.keyframes.size(); ++i) {
     const std::string element = "volume, keyframe " + std::to_string(i);
     require_range(problems, element + ", time", static_cast<double>(volume.keyframes[i].time), 0, largest_place);
-    require_range(problems, element + ", pressure", static_cast<double>(volume.keyframes[i].pressure), 0, largest_place);
+    require_range(problems, element + ", pressure", static_cast<double>(volume.keyframes[i].pressure), 0,
+                  largest_place);
     if (i > 0 && !(volume.keyframes[i].time > volume.keyframes[i - 1].time))
       problems.grave(element, "is not after the previous one", "give times that increase");
   }
@@ -348,7 +354,8 @@ void check_grains(Problems& problems, const Object& object) {
   require_range(problems, "grains, density", object.grains->density, least, 1e12);
   require_range(problems, "grains, friction", object.grains->friction, 0, 1000);
   require_range(problems, "grains, cohesion", object.grains->cohesion, 0, 1e9);
-  if (object.fluid) problems.grave("grains", "are a liquid too", "give grains or fluid, in two objects if both are wanted");
+  if (object.fluid)
+    problems.grave("grains", "are a liquid too", "give grains or fluid, in two objects if both are wanted");
 }
 
 void check_region(Problems& problems, const std::string& what, const Region& region) {
@@ -381,8 +388,10 @@ void check_tracers(Problems& problems, const Object& object) {
   constexpr double most = 1e9;
   if (!object.tracers) return;
   const Tracers& tracers = *object.tracers;
-  if (object.fluid || object.grains || !object.triangles.empty() || !object.constraints.empty() || !object.bodies.empty())
-    problems.grave("tracers", "are a liquid, grains, a surface or constrained too", "give tracers an object of their own");
+  if (object.fluid || object.grains || !object.triangles.empty() || !object.constraints.empty() ||
+      !object.bodies.empty())
+    problems.grave("tracers", "are a liquid, grains, a surface or constrained too",
+                   "give tracers an object of their own");
   if (!object.clusters.empty() || !object.pins.empty() || !object.attachments.empty() ||
       std::any_of(object.masses.begin(), object.masses.end(), [](float m) { return std::isinf(m); }))
     problems.grave("tracers", "have clusters, pins, attachments or infinite masses",
@@ -449,9 +458,9 @@ void check_flow(Problems& problems, const Object& object) {
                    "give the number of the last particles that are not there at the start");
   if (object.gas) problems.grave("flow", "is of a gas, whose particles cannot come and go yet", "leave it out");
   if (!object.pins.empty() || !object.attachments.empty() || !object.constraints.empty() || !object.clusters.empty())
-    problems.grave("flow",
-                   "is of an object with pins, attachments, constraints or clusters, whose particles cannot come and go",
-                   "leave these out");
+    problems.grave(
+        "flow", "is of an object with pins, attachments, constraints or clusters, whose particles cannot come and go",
+        "leave these out");
   require_range(problems, "flow, lifetime", flow.lifetime, 0, largest_place);
   for (std::size_t i = 0; i < flow.emitters.size(); ++i)
     check_emitter(problems, "emitter " + of(i), flow.emitters[i], object);

@@ -12,7 +12,8 @@ namespace {
 
 /// Contact gives way by this times h^2 F / m (docs/guide/bodies.md).
 constexpr double give = 1.04;
-/// Of the radius, up to which a cable that is loaded over an edge stays outside it: a drum of 0.1 m lost its cable at 1.0 and not at 0.75.
+/// Of the radius, up to which a cable that is loaded over an edge stays outside it: a drum of 0.1 m lost its cable at
+/// 1.0 and not at 0.75.
 constexpr double most_give = 0.6;
 
 /// The segments of an object's rods, and what else hangs on them.

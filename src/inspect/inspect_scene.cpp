@@ -89,8 +89,10 @@ void check_settings(Problems& problems, const Scene& scene) {
   check_sweep(problems, settings, has_natural(scene));
   require_range(problems, "frames", scene.frames, 0, std::numeric_limits<int>::max());
   if (!(scene.frame_time > 0) || std::isinf(scene.frame_time))
-    problems.grave("frame_time", "is " + words(scene.frame_time) + " s", "give a positive, finite time, such as 1/60 s");
-  else if (settings.substeps >= 0 && scene.frame_time / static_cast<double>(most_substeps_of(settings)) < shortest_substep)
+    problems.grave("frame_time", "is " + words(scene.frame_time) + " s",
+                   "give a positive, finite time, such as 1/60 s");
+  else if (settings.substeps >= 0 &&
+           scene.frame_time / static_cast<double>(most_substeps_of(settings)) < shortest_substep)
     problems.grave("frame_time", "is " + words(scene.frame_time) + " s, which makes substeps too short for floats",
                    "give a longer time or fewer substeps, such as 1/60 s and 20");
   try {
@@ -155,7 +157,8 @@ void check_changing_lengths(Problems& problems, const Scene& scene) {
     const bool is_held =
         sweep == Sweep::multigrid || sweep == Sweep::tethered_chains || scene.settings.sweep_options.tethers;
     if (is_held && has_changing_lengths(object))
-      problems.grave("'" + object.name + "', keyframes", "change rest lengths, which multigrid and tethers do not follow",
+      problems.grave("'" + object.name + "', keyframes",
+                     "change rest lengths, which multigrid and tethers do not follow",
                      "use the sweep chains or tiled without tethers");
   }
 }
@@ -329,8 +332,8 @@ std::optional<Error> error_of_bounds(const Settings& settings) {
   const int least = settings.least_substeps, most = settings.most_substeps;
   if (least <= 0 || most <= 0) return {};
   const Location where{{}, 0, {}, "settings, least_substeps"};
-  const std::string fixed =
-      settings.substeps > 0 ? ", or remove both bounds: the scene names substeps" : ", or name a fixed number of substeps";
+  const std::string fixed = settings.substeps > 0 ? ", or remove both bounds: the scene names substeps"
+                                                  : ", or name a fixed number of substeps";
   if (least > most)
     return Error(where, "is " + std::to_string(least) + ", more than most_substeps, " + std::to_string(most),
                  "increase most_substeps" + fixed);

@@ -24,7 +24,8 @@ void refuse_grave(const Object& object);
 void refuse_grave(const Collider& collider);
 void refuse_grave(const MeshCollider& collider);
 
-/// Throws an Error for initial intersections and enclosures, if the scene's settings refuse them; makes no other checks.
+/// Throws an Error for initial intersections and enclosures, if the scene's settings refuse them; makes no other
+/// checks.
 void refuse_initial_intersections(const Scene& scene);
 
 /// For each liquid, gas or grains with particles that start inside primitive colliders or rigid bodies: a warning with
@@ -40,8 +41,8 @@ std::vector<std::string> warnings_of_woven(const Scene& scene, const Settings& s
 /// For each sheet whose hinges bend much further than their stiffness says with these settings: a warning with by how
 /// much.
 std::vector<std::string> warnings_of_hinges(const Scene& scene, const Settings& settings);
-/// For each sheet whose particles are over 10 000 times as heavy as those of one that it can press on: a warning with how
-/// many times, as frames may take ten times as long.
+/// For each sheet whose particles are over 10 000 times as heavy as those of one that it can press on: a warning with
+/// how many times, as frames may take ten times as long.
 std::vector<std::string> warnings_of_masses(const Scene& scene);
 
 }  // namespace pliant

@@ -32,8 +32,8 @@ double yield_over_right_one(double longer, int iterations) {
 
 TooSoft words_of_too_soft(const Object& object, int substeps, double needed, double times, bool are_named) {
   const std::string wanted = std::to_string(std::llround(std::ceil(std::min(needed, 1e9))));
-  const std::string yields =
-      "'" + object.name + "' will yield about " + words(std::round(10 * times) / 10) + " times as much as its modulus says";
+  const std::string yields = "'" + object.name + "' will yield about " + words(std::round(10 * times) / 10) +
+                             " times as much as its modulus says";
   if (!are_named && substeps >= most_soft_substeps)
     return {&object, "are " + std::to_string(substeps) + ", the most by default, so that " + yields,
             "give \"substeps\": " + wanted + ", or use larger tetrahedra, a smaller modulus or a rigid body"};
@@ -50,7 +50,8 @@ std::vector<TooSoft> find_too_soft(const Scene& scene, const Settings& settings)
   if (std::none_of(scene.objects.begin(), scene.objects.end(), is_soft_body)) return found;
   const std::vector<int> all = chosen_substeps(scene, settings);
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
-    if (!is_soft_body(scene.objects[o]) || all[o] <= 0) continue;  // 0: they follow the State, and are as many as it needs
+    if (!is_soft_body(scene.objects[o]) || all[o] <= 0)
+      continue;  // 0: they follow the State, and are as many as it needs
     const double needed = needed_substeps_of_soft_body(scene.objects[o], static_cast<double>(scene.frame_time));
     const double times = yield_over_right_one(needed / all[o], settings.iterations);
     if (times <= tolerated) continue;

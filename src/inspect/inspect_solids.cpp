@@ -24,16 +24,18 @@ std::vector<StartsInside> find_starts_inside(const Scene& scene, MeshesToo meshe
   std::vector<StartsInside> all;
   for (const Object& object : scene.objects) {
     if (!(object.fluid || object.grains) || !(object.thickness > 0)) continue;
-    const std::size_t spare = std::min(static_cast<std::size_t>(std::max(object.flow.spare, 0)), object.positions.size());
-    const std::vector<Vec3f> places(object.positions.begin(), object.positions.end() - static_cast<std::ptrdiff_t>(spare));
+    const std::size_t spare =
+        std::min(static_cast<std::size_t>(std::max(object.flow.spare, 0)), object.positions.size());
+    const std::vector<Vec3f> places(object.positions.begin(),
+                                    object.positions.end() - static_cast<std::ptrdiff_t>(spare));
     const std::vector<PlacesInSolid> in = find_in_solids(
         places, scene, {inside_share * object.thickness, object.groups, object.mask, object.collides}, meshes);
     if (in.empty()) continue;
     StartsInside& found = all.emplace_back();
     found.object = &object;
     for (const PlacesInSolid& one : in) found.particles += one.places;
-    found.words = std::string(found.particles == 1 ? "particle starts" : "particles start") + " inside '" + in.front().in +
-                  "'" + (in.size() > 1 ? " and " + std::to_string(in.size() - 1) + " more" : "");
+    found.words = std::string(found.particles == 1 ? "particle starts" : "particles start") + " inside '" +
+                  in.front().in + "'" + (in.size() > 1 ? " and " + std::to_string(in.size() - 1) + " more" : "");
   }
   return all;
 }

@@ -1,5 +1,5 @@
-// What starts inside of rigid bodies and soft bodies. Contact is between surfaces: it moves out what is inside of a rigid body, and
-// leaves in a soft body what does not touch its surface.
+// What starts inside of rigid bodies and soft bodies. Contact is between surfaces: it moves out what is inside of a
+// rigid body, and leaves in a soft body what does not touch its surface.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -89,7 +89,8 @@ class Bodies {
     std::pair<int, int> found{-1, -1};
     tree_.query(BoxBounds{p, p}, [&](int i) {
       const PlacedBody& by = bodies_[static_cast<std::size_t>(i)];
-      if (found.first < 0 && may_touch(object, looked, particle, by) && by.solid.overlaps(p)) found = {by.object, by.body};
+      if (found.first < 0 && may_touch(object, looked, particle, by) && by.solid.overlaps(p))
+        found = {by.object, by.body};
     });
     return found;
   }
@@ -97,8 +98,8 @@ class Bodies {
   std::string name(const std::pair<int, int>& of) const {
     const Object& object = scene_.objects[static_cast<std::size_t>(of.first)];
     const std::string& name = object.bodies[static_cast<std::size_t>(of.second)].name;
-    return "body " + std::to_string(of.second) + (has_own_name(name) ? " ('" + name + "')" : "") + " of '" + object.name +
-           "'";
+    return "body " + std::to_string(of.second) + (has_own_name(name) ? " ('" + name + "')" : "") + " of '" +
+           object.name + "'";
   }
 
  private:
@@ -114,7 +115,8 @@ class Bodies {
   static bool is_fixed(const Object& object, int body) {
     const int particle = object.bodies[static_cast<std::size_t>(body)].particle;
     return std::isinf(object.masses[static_cast<std::size_t>(particle)]) ||
-           std::any_of(object.pins.begin(), object.pins.end(), [&](const Pin& pin) { return pin.particle == particle; });
+           std::any_of(object.pins.begin(), object.pins.end(),
+                       [&](const Pin& pin) { return pin.particle == particle; });
   }
 
   const Scene& scene_;

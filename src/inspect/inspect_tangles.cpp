@@ -66,9 +66,10 @@ void name_crossings(Problems& problems, const Surfaces& all, const Crossings& cr
   if (what == Intersections::refuse)
     problems.grave(edge, problem, advice_on_tangles);
   else if (what == Intersections::untangle)
-    problems.doubtful(edge, problem,
-                      "parts that are cut off or inside a closed collider will be moved apart at untangling_speed; a slit "
-                      "from border to border remains: move one of them, or repair the mesh");
+    problems.doubtful(
+        edge, problem,
+        "parts that are cut off or inside a closed collider will be moved apart at untangling_speed; a slit "
+        "from border to border remains: move one of them, or repair the mesh");
   else
     problems.doubtful(
         edge, problem,

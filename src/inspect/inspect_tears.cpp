@@ -104,8 +104,8 @@ void check_skin(Problems& problems, const Object& object) {
   problems.grave(bad_triangles, "skin triangle", "uses a vertex that does not exist", "indices count from 0");
 }
 
-/// By how much rounding changes the force of constraint `number` that the World knows [N]: by its elongation or by its multiplier, whichever
-/// is more exact.
+/// By how much rounding changes the force of constraint `number` that the World knows [N]: by its elongation or by its
+/// multiplier, whichever is more exact.
 double error_of_force(const Object& object, const ConstraintGroup& group, int number, double h) {
   const std::vector<int> stencil = stencil_of(group, slots_of(group, object), number);
   double extent = 0, mass = std::numeric_limits<double>::infinity();
@@ -115,8 +115,8 @@ double error_of_force(const Object& object, const ConstraintGroup& group, int nu
     extent = std::max(extent, length(convert<double>(x) - convert<double>(first)));
     mass = std::min(mass, static_cast<double>(object.masses[static_cast<std::size_t>(p)]));
   }
-  const auto alpha = static_cast<double>(group.compliances.empty() ? group.stiffness.value
-                                                                   : group.compliances[static_cast<std::size_t>(number)]);
+  const auto alpha = static_cast<double>(
+      group.compliances.empty() ? group.stiffness.value : group.compliances[static_cast<std::size_t>(number)]);
   return rounding_of_elongation(extent) * std::min(1 / alpha, mass / (h * h));
 }
 
@@ -175,7 +175,8 @@ void doubt_tears(Problems& problems, const Object& object, const Scene& scene) {
 void check_tears(Problems& problems, const Object& object) {
   check_tearing(problems, object);
   for (std::size_t i = 0; i < object.cuts.size(); ++i) check_cut(problems, object.cuts[i], "cut " + std::to_string(i));
-  if (!object.cuts.empty() && object.triangles.empty() && !has_links(object) && !is_soft_body(object) && !has_rods(object))
+  if (!object.cuts.empty() && object.triangles.empty() && !has_links(object) && !is_soft_body(object) &&
+      !has_rods(object))
     problems.grave("cuts", "are of an object without triangles, links or rods, so there is nothing to cut",
                    "leave them out");
   check_skin(problems, object);

@@ -14,9 +14,10 @@ namespace pliant {
 
 namespace {
 
-/// Speed of the surface in the first substep above which it is doubted [m/s]. The next substeps stop it but for a twentieth to an eighth.
-/// Balls of rubber sheet at a pressure of 1.3 are at rest after 0.2 s if they have 0.2 m (90 m/s), and after 1 s move at 0.8 m/s if they
-/// have 0.5 m (220 m/s), at 6 m/s with 1 m (430 m/s) and at 290 m/s with 10 m (4300 m/s).
+/// Speed of the surface in the first substep above which it is doubted [m/s]. The next substeps stop it but for a
+/// twentieth to an eighth. Balls of rubber sheet at a pressure of 1.3 are at rest after 0.2 s if they have 0.2 m (90
+/// m/s), and after 1 s move at 0.8 m/s if they have 0.5 m (220 m/s), at 6 m/s with 1 m (430 m/s) and at 290 m/s with 10
+/// m (4300 m/s).
 constexpr double most_speed = 400;
 /// Time in which the advice reaches the pressure [s].
 constexpr double ramp = 1;
@@ -37,7 +38,8 @@ Size size_of(const Object& object) {
   return size;
 }
 
-/// By how much a sphere of the object's volume grows in the first substep [m]: all the way to its pressure, less what the constraint yields.
+/// By how much a sphere of the object's volume grows in the first substep [m]: all the way to its pressure, less what
+/// the constraint yields.
 double first_jump(const Object& object, double substep) {
   const Size size = size_of(object);
   const double radius = pow(std::fabs(size.volume) * 3 / (4 * 3.14159265358979), 1.0 / 3);

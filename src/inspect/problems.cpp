@@ -26,7 +26,8 @@ void Problems::grave(const std::string& element, const std::string& problem, con
   put(true, element, problem, advice);
 }
 
-void Problems::grave(const Tally& tally, const std::string& kind, const std::string& problem, const std::string& advice) {
+void Problems::grave(const Tally& tally, const std::string& kind, const std::string& problem,
+                     const std::string& advice) {
   if (tally.count > 0) grave(tally.name(kind), problem, advice);
 }
 
@@ -115,7 +116,8 @@ void check_friction(Problems& problems, float static_friction, float kinetic_fri
   require_range(problems, "kinetic_friction", kinetic_friction, 0, largest_place);
   require_range(problems, "restitution", restitution, 0, 1);
   if (kinetic_friction > static_friction)
-    problems.grave("kinetic_friction", "is " + words(kinetic_friction) + ", more than the static " + words(static_friction),
+    problems.grave("kinetic_friction",
+                   "is " + words(kinetic_friction) + ", more than the static " + words(static_friction),
                    "lower it to the static friction or less");
 }
 

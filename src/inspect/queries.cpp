@@ -40,7 +40,9 @@ double vertex_distance(const Vec3d& p, const Corners& t) {
 /// The squared distance of two triangles: the least of their vertex-triangle and edge-edge pairs without a common
 /// vertex [m^2].
 double triangle_distance(const Triangle& s, const Corners& p, const Triangle& t, const Corners& q, double least) {
-  const auto shares = [](int vertex, const Triangle& of) { return std::find(of.begin(), of.end(), vertex) != of.end(); };
+  const auto shares = [](int vertex, const Triangle& of) {
+    return std::find(of.begin(), of.end(), vertex) != of.end();
+  };
   for (std::size_t i = 0; i < 3; ++i) {
     if (!shares(s[i], t)) least = std::min(least, vertex_distance(p[i], q));
     if (!shares(t[i], s)) least = std::min(least, vertex_distance(q[i], p));
@@ -83,7 +85,8 @@ double segment_distance(const std::array<Vec3d, 4>& ends) {
 namespace {
 
 template <class R, class Test>
-std::optional<R> time_of_impact(const std::array<Vec3<R>, 4>& from, const std::array<Vec3<R>, 4>& to, const Test& test) {
+std::optional<R> time_of_impact(const std::array<Vec3<R>, 4>& from, const std::array<Vec3<R>, 4>& to,
+                                const Test& test) {
   Vec3<R> a[4], b[4];
   std::copy(from.begin(), from.end(), a);
   std::copy(to.begin(), to.end(), b);
@@ -103,7 +106,8 @@ std::optional<float> vertex_triangle_impact(const std::array<Vec3f, 4>& from, co
   return time_of_impact(from, to, [&](const auto& a, const auto& b) { return vertex_triangle_impact(a, b, within); });
 }
 
-std::optional<double> edge_edge_impact(const std::array<Vec3d, 4>& from, const std::array<Vec3d, 4>& to, double within) {
+std::optional<double> edge_edge_impact(const std::array<Vec3d, 4>& from, const std::array<Vec3d, 4>& to,
+                                       double within) {
   return time_of_impact(from, to, [&](const auto& a, const auto& b) { return edge_edge_impact(a, b, within); });
 }
 

@@ -7,9 +7,9 @@
 
 namespace pliant {
 
-/// The rotation R that maximises the trace of R^T a, so that R q_i is nearest to r_i where a = sum r_i q_i^T. It is the eigenvector of
-/// the largest eigenvalue of a symmetric 4 x 4 matrix (Horn 1987), so it is a rotation and no reflection, whatever a is. The
-/// identity for a = 0.
+/// The rotation R that maximises the trace of R^T a, so that R q_i is nearest to r_i where a = sum r_i q_i^T. It is the
+/// eigenvector of the largest eigenvalue of a symmetric 4 x 4 matrix (Horn 1987), so it is a rotation and no
+/// reflection, whatever a is. The identity for a = 0.
 PLIANT_HD Quatd best_rotation(const Matrix3d& a) {
   double size = 0;
   for (int i = 0; i < 9; ++i) size = max(size, abs(a[i]));

@@ -1,7 +1,7 @@
 // Direct solution of symmetric systems whose blocks form a forest, in time linear in the number of blocks.
 //
-// Bodies and the joints between them are such blocks: (M, J^T; J, -compliance). Eliminated from the leaves on, no block fills
-// in (Baraff 1996, "Linear-time dynamics using Lagrange multipliers").
+// Bodies and the joints between them are such blocks: (M, J^T; J, -compliance). Eliminated from the leaves on, no block
+// fills in (Baraff 1996, "Linear-time dynamics using Lagrange multipliers").
 #pragma once
 
 #include <algorithm>
@@ -61,15 +61,17 @@ PLIANT_HD R larger(const R& a, const R& b) {
   return select(a < b, b, a);
 }
 
-/// A pivot below this share of the terms that made it is rounding: its unknown depends on earlier ones and becomes zero.
+/// A pivot below this share of the terms that made it is rounding: its unknown depends on earlier ones and becomes
+/// zero.
 constexpr double least_pivot = 1e-6;
 
-/// True if R is one number, so that compilers handle rows of a block by whole registers. Where R has lanes, what is left of the diagonal is
-/// not computed.
+/// True if R is one number, so that compilers handle rows of a block by whole registers. Where R has lanes, what is
+/// left of the diagonal is not computed.
 template <class R>
 constexpr bool is_one_number = std::is_floating_point_v<R>;
 
-/// The factors L D L^T of a block: L^T above the diagonal of the matrix, and 1 / D, which is 0 where an unknown is lost.
+/// The factors L D L^T of a block: L^T above the diagonal of the matrix, and 1 / D, which is 0 where an unknown is
+/// lost.
 template <class R>
 struct Pivots {
   R inverse[most_of_block];

@@ -7,9 +7,9 @@ namespace pliant {
 
 namespace {
 
-/// Finds the numbers v > 0 of product d > 0 that are closest to s, of which only the smallest may be negative. By Lagrange
-/// v_i (v_i - s_i) = mu for all i. At most the smallest v takes the smaller root of this (second-order condition), so t = v of the
-/// smallest s gives mu, and the others as the larger roots.
+/// Finds the numbers v > 0 of product d > 0 that are closest to s, of which only the smallest may be negative. By
+/// Lagrange v_i (v_i - s_i) = mu for all i. At most the smallest v takes the smaller root of this (second-order
+/// condition), so t = v of the smallest s gives mu, and the others as the larger roots.
 class ClosestOfProduct {
  public:
   ClosestOfProduct(double least, double second, double third, double d) : s_{least, second, third}, d_(d) {
@@ -48,7 +48,8 @@ class ClosestOfProduct {
     return v_[1] * v_[2] + rise * (v_[2] / (2 * v_[1] - s_[1]) + v_[1] / (2 * v_[2] - s_[2]));
   }
 
-  /// The t from `low`, where the product is at most d, to `high`, where it is at least d: Newton's method, kept in the interval by bisection.
+  /// The t from `low`, where the product is at most d, to `high`, where it is at least d: Newton's method, kept in the
+  /// interval by bisection.
   double root(double low, double high) {
     constexpr int most_steps = 60;
     constexpr double precision = 1e-15;
@@ -113,8 +114,8 @@ Vec3d perpendicular_to(const Vec3d& v) {
   return axis - dot(axis, v) * v;
 }
 
-/// The singular value decomposition f = sum s_k left_k right_k^T by Hestenes' one-sided method, which is exact for small values too. Both
-/// bases are right-handed, and s falls; so only the last of s may be negative.
+/// The singular value decomposition f = sum s_k left_k right_k^T by Hestenes' one-sided method, which is exact for
+/// small values too. Both bases are right-handed, and s falls; so only the last of s may be negative.
 struct SingularValues {
   Vec3d left[3], right[3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   double s[3];

@@ -10,7 +10,9 @@ namespace pliant {
 class DisjointSets {
  public:
   /// Sets of one number each, from 0.
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
 
   std::size_t count() const { return parent_.size(); }
 

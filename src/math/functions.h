@@ -37,8 +37,8 @@ PLIANT_HD R atan_tail(const R& z) {
 template <>
 PLIANT_HD double atan_tail<double>(const double& z) {
   const double z2 = z * z, z4 = z2 * z2, z8 = z4 * z4;
-  const double a =
-      (-0.33333333333333312124 + 0.19999999999993229267 * z) + (-0.14285714284957702888 + 0.11111111068427944313 * z) * z2;
+  const double a = (-0.33333333333333312124 + 0.19999999999993229267 * z) +
+                   (-0.14285714284957702888 + 0.11111111068427944313 * z) * z2;
   const double b = (-0.090909076663602999878 + 0.076922770250935948945 * z) +
                    (-0.066662184035687293188 + 0.058777668412249776222 * z) * z2;
   const double c = (-0.052297963489608701412 + 0.045886655465777094216 * z) +
@@ -70,9 +70,9 @@ PLIANT_HD double atan_floor<double>() {
 
 /// The angle of the point (x, y) from the positive x-axis, in [-pi, pi] [rad].
 ///
-/// Error within 4 units in the last place (float and Wide; measured 2.2) or 3 (double) while |x|, |y| are at most half the
-/// largest number. Above that: finite, in the right octant, and within 0.33 rad. atan2(0, 0) = 0. The sign of zero is
-/// ignored: +pi on the negative x-axis. NaN if an argument is NaN or both are infinite.
+/// Error within 4 units in the last place (float and Wide; measured 2.2) or 3 (double) while |x|, |y| are at most half
+/// the largest number. Above that: finite, in the right octant, and within 0.33 rad. atan2(0, 0) = 0. The sign of zero
+/// is ignored: +pi on the negative x-axis. NaN if an argument is NaN or both are infinite.
 template <class R>
 PLIANT_HD R atan2(const R& y, const R& x) {
   const R ax = abs(x), ay = abs(y);
@@ -132,7 +132,8 @@ PLIANT_HD SineCosine turned(const SineCosine& of, double quarters) {
 /// last place up to |x| = 1.6e6, beyond as if x erred by
 /// 2^-51 |x|. Always in [-1, 1]; NaN if x is not finite.
 PLIANT_HD SineCosine sine_cosine(double x) {
-  // x = k pi/2 + r, |r| <= pi/4. The first two parts of pi/2 have 33 bits, so that k times them is exact (Cody and Waite).
+  // x = k pi/2 + r, |r| <= pi/4. The first two parts of pi/2 have 33 bits, so that k times them is exact (Cody and
+  // Waite).
   const double k = __builtin_floor(x * 0.6366197723675814 + 0.5);
   const double r = ((x - k * 0x1.921fb544p+0) - k * 0x1.0b4611a6p-34) - k * 0x1.3198a2e037073p-69;
   // If k is too large for the split of pi/2, r is wrong; then 0 is used instead.
@@ -180,7 +181,8 @@ PLIANT_HD double log_of_ratio(double f) {
 PLIANT_HD double exp(double x) {
   const double bounded = clamp(x, -746.0, 710.0);
   const double k = __builtin_floor(bounded * 1.4426950408889634 + 0.5);
-  const double r = (bounded - k * 0x1.62e42fee00000p-1) - k * 0x1.a39ef35793c76p-33;  // the first part has 32 bits: exact
+  const double r =
+      (bounded - k * 0x1.62e42fee00000p-1) - k * 0x1.a39ef35793c76p-33;  // the first part has 32 bits: exact
   const double fraction = 1 + (r + (r * r) * detail::exp_tail(r));
   const std::int64_t n = static_cast<std::int64_t>(k), half = n / 2;  // two factors, because 2^n alone may overflow
   return select(x == x, (fraction * detail::power_of_two(half)) * detail::power_of_two(n - half), x);

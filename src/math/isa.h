@@ -1,5 +1,5 @@
-// The instruction set level that this unit is compiled for (math/levels.h), and the inline namespace of everything that depends on it.
-// Without intrinsics, so that a unit that only names functions of its level stays cheap to compile.
+// The instruction set level that this unit is compiled for (math/levels.h), and the inline namespace of everything that
+// depends on it. Without intrinsics, so that a unit that only names functions of its level stays cheap to compile.
 #pragma once
 
 // PLIANT_X86_BITS: the widest x86 registers that this unit may use, or 0.
@@ -21,9 +21,9 @@
 #define PLIANT_X86_BITS 128
 #endif
 
-// PLIANT_WIDE_WIDTH: lanes of a Wide. By default sixteen, on every machine. A unit that defines PLIANT_ONE_REGISTER before its first
-// include gets those of a native vector: an operation is then one instruction, so that long formulas compile in a fraction of the time
-// and their values fit the registers. Its names are in a namespace of their own.
+// PLIANT_WIDE_WIDTH: lanes of a Wide. By default sixteen, on every machine. A unit that defines PLIANT_ONE_REGISTER
+// before its first include gets those of a native vector: an operation is then one instruction, so that long formulas
+// compile in a fraction of the time and their values fit the registers. Its names are in a namespace of their own.
 #ifdef PLIANT_ONE_REGISTER
 #define PLIANT_WIDE_WIDTH PLIANT_PART_WIDTH
 #define PLIANT_ISA PLIANT_JOIN(PLIANT_LEVEL_ISA, _register)

@@ -46,9 +46,9 @@ class IsochoricStrain {
   double strain_[3] = {};
 };
 
-/// True if the equivalent strain of F is below `most` for certain, found without its axes. Of the eigenvalues c of F^T F over their
-/// mean, |log c_i - log c_j| <= |c_i - c_j| / min c, and min c >= 1 - d, where d^2 is 2/3 of their squared deviator. So the strain is at
-/// most d / (2 - 2 d).
+/// True if the equivalent strain of F is below `most` for certain, found without its axes. Of the eigenvalues c of F^T
+/// F over their mean, |log c_i - log c_j| <= |c_i - c_j| / min c, and min c >= 1 - d, where d^2 is 2/3 of their squared
+/// deviator. So the strain is at most d / (2 - 2 d).
 inline bool is_surely_below(const Matrix3d& f, double most) {
   double trace = 0, squares = 0;
   for (int i = 0; i < 3; ++i)

@@ -5,7 +5,8 @@
 
 namespace pliant {
 
-/// A symmetric matrix, and the product of the rotations that made it diagonal so far: its columns become the eigenvectors.
+/// A symmetric matrix, and the product of the rotations that made it diagonal so far: its columns become the
+/// eigenvectors.
 template <int n>
 struct Diagonal {
   double a[n][n] = {};

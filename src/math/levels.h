@@ -1,4 +1,5 @@
-// The list of instruction set levels of the SIMD units, widest first: X(suffix of function names, name of the level, ...).
+// The list of instruction set levels of the SIMD units, widest first: X(suffix of function names, name of the level,
+// ...).
 //
 // cmake/PliantLanes.cmake lists the same levels with compiler flags, and says what a new one needs. `generic` names no
 // instruction set, so it compiles on any CPU. All levels give the same bits. A build holds some of them

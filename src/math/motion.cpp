@@ -44,7 +44,8 @@ Posed pose_at(const Motion& motion, double time) {
 
 TimePlace place_in(const std::vector<float>& times, bool repeat, double time) {
   const double at = time_in_cycle(times.front(), times.back(), repeat, time);
-  const auto after = std::upper_bound(times.begin(), times.end(), at, [](double t, float one) { return t < double(one); });
+  const auto after =
+      std::upper_bound(times.begin(), times.end(), at, [](double t, float one) { return t < double(one); });
   const auto number = static_cast<std::size_t>(after - times.begin());
   if (number == 0) return {};
   if (number == times.size()) return {number - 1, number - 1, 0};

@@ -1,7 +1,7 @@
 // What searches in lanes share: they compare a vector of items at a time, and keep those that are near.
 //
-// Packing moves the lanes whose bits are set to the front, in order: by one instruction (AVX-512), by a permutation from a table (AVX2,
-// SSSE3), or lane by lane.
+// Packing moves the lanes whose bits are set to the front, in order: by one instruction (AVX-512), by a permutation
+// from a table (AVX2, SSSE3), or lane by lane.
 #pragma once
 
 #include <array>
@@ -105,7 +105,8 @@ constexpr std::array<std::array<std::uint8_t, 16>, 16> make_packing_table() {
 #endif
 
 #if PLIANT_X86_BITS == 256 || PLIANT_X86_BITS == 128
-constexpr auto packing_table = make_packing_table();  // of each unit its own: a local of a function would be shared by all
+constexpr auto packing_table =
+    make_packing_table();  // of each unit its own: a local of a function would be shared by all
 #endif
 
 /// How lanes move for a set of bits; for several vectors.

@@ -6,11 +6,12 @@
 
 namespace pliant {
 
-/// Permanent strain beyond which nothing flows, whatever a scene says: bars 4.5 times as long. Longer rest shapes become so flat that
-/// rounding decides.
+/// Permanent strain beyond which nothing flows, whatever a scene says: bars 4.5 times as long. Longer rest shapes
+/// become so flat that rounding decides.
 inline constexpr double largest_permanent_strain = 1.5;
 
-/// True if a deformation leaves less than a thousandth in one direction, or inverts: its strain in that direction would be rounding.
+/// True if a deformation leaves less than a thousandth in one direction, or inverts: its strain in that direction would
+/// be rounding.
 inline bool is_pressed_flat(const Matrix3d& f) {
   double squares = 0;
   for (const double element : f.elements) squares += element * element;
@@ -19,8 +20,8 @@ inline bool is_pressed_flat(const Matrix3d& f) {
   return !(determinant(f) > thinnest * mean * sqrt(mean));
 }
 
-/// Sets `by` to exp(share times the strain of f beyond `yield`), an equivalent strain (IsochoricStrain). False where nothing flows: below the
-/// yield strain, and where f is pressed flat, inverted or not finite.
+/// Sets `by` to exp(share times the strain of f beyond `yield`), an equivalent strain (IsochoricStrain). False where
+/// nothing flows: below the yield strain, and where f is pressed flat, inverted or not finite.
 inline bool flow_of(const Matrix3d& f, double yield, double share, Matrix3d& by) {
   if (is_pressed_flat(f) || is_surely_below(f, yield)) return false;
   const IsochoricStrain strain(f);

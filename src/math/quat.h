@@ -31,7 +31,8 @@ PLIANT_HD Quat<R> normalise(const Quat<R>& q) {
           select(zero, R(1), q.w * scale)};
 }
 
-/// Normalised linear interpolation (1 - share) a + share b on the shorter arc: cheap, nearly uniform for close rotations.
+/// Normalised linear interpolation (1 - share) a + share b on the shorter arc: cheap, nearly uniform for close
+/// rotations.
 template <class R>
 PLIANT_HD Quat<R> nlerp(const Quat<R>& a, const Quat<R>& b, const R& share) {
   const R first = R(1) - share, second = select(dot(a, b) < R(0), -share, share);
@@ -39,8 +40,8 @@ PLIANT_HD Quat<R> nlerp(const Quat<R>& a, const Quat<R>& b, const R& share) {
                            first * a.w + second * b.w});
 }
 
-/// The rotation at `share` of the shorter arc from a to b (unit quaternions), at constant angular speed. For rotations half
-/// a turn apart, the signs as given decide the direction.
+/// The rotation at `share` of the shorter arc from a to b (unit quaternions), at constant angular speed. For rotations
+/// half a turn apart, the signs as given decide the direction.
 PLIANT_HD Quatd slerp(const Quatd& a, const Quatd& b, double share) {
   const Quatd near = dot(a, b) < 0 ? Quatd{-b.x, -b.y, -b.z, -b.w} : b;
   const Quatd difference{near.x - a.x, near.y - a.y, near.z - a.z, near.w - a.w};

@@ -1,4 +1,5 @@
-// One number of a row in memory, as formulas load and store it whose scalar is a float or double; wide_rows.h has sixteen.
+// One number of a row in memory, as formulas load and store it whose scalar is a float or double; wide_rows.h has
+// sixteen.
 #pragma once
 
 #include "pliant/formula.h"

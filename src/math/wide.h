@@ -1,14 +1,15 @@
-// Wide: sixteen floats with the interface of one. A unit that defines PLIANT_ONE_REGISTER gets as many floats as a native vector has, and
-// walks over a batch of sixteen itself (math/isa.h).
+// Wide: sixteen floats with the interface of one. A unit that defines PLIANT_ONE_REGISTER gets as many floats as a
+// native vector has, and walks over a batch of sixteen itself (math/isa.h).
 //
 // One logical width on every machine, so that the grouping of constraints is machine-independent. It
 // is stored as an array of native vectors (four of SSE, two of AVX2, one of AVX-512). A raw 64-byte
 // vector type also compiles, but g++ spills it on AVX2 and runs four times slower. Every operation
 // is the IEEE operation per lane, so lanes give the bits of plain floats; tests verify that.
 //
-// Everything lives in an inline namespace named after the instruction set that this unit is compiled for: the sweeps are
-// built once for each level (math/levels.h) into one program, and nothing of one build may be linked into another. The
-// generic level has parts of 16 bytes in the compiler's own vector types and names no instruction; it compiles on any CPU.
+// Everything lives in an inline namespace named after the instruction set that this unit is compiled for: the sweeps
+// are built once for each level (math/levels.h) into one program, and nothing of one build may be linked into another.
+// The generic level has parts of 16 bytes in the compiler's own vector types and names no instruction; it compiles on
+// any CPU.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +55,8 @@ struct Wide {
   }
 };
 
-// Loops over parts are unrolled by hand, because not every compiler does so early enough to keep the parts in registers.
+// Loops over parts are unrolled by hand, because not every compiler does so early enough to keep the parts in
+// registers.
 #if PLIANT_WIDE_WIDTH == PLIANT_PART_WIDTH
 #define PLIANT_EACH_PART(...) \
   {                           \
@@ -142,10 +144,12 @@ PLIANT_HD Wide select(const WideMask& mask, const Wide& a, const Wide& b) {
   PLIANT_EACH_PART(r.part[i] = mask.part[i] ? a.part[i] : b.part[i])
   return r;
 }
-/// a < b ? a : b, like the hardware minimum, including zeros and NaN; g++ would emit two instructions for the expression.
+/// a < b ? a : b, like the hardware minimum, including zeros and NaN; g++ would emit two instructions for the
+/// expression.
 PLIANT_HD Part min_part(const Part& a, const Part& b) {
 #if PLIANT_X86_BITS == 512
-  return (Part)_mm512_maskz_min_ps(0xffff, (__m512)a, (__m512)b);  // the unmasked form makes g++ 12 warn of its own header
+  return (Part)_mm512_maskz_min_ps(0xffff, (__m512)a,
+                                   (__m512)b);  // the unmasked form makes g++ 12 warn of its own header
 #elif PLIANT_X86_BITS == 256
   return (Part)_mm256_min_ps((__m256)a, (__m256)b);
 #elif PLIANT_X86_BITS == 128
@@ -211,9 +215,9 @@ PLIANT_HD void store_wide(float* to, const Wide& a) { std::memcpy(to, &a, sizeof
 
 // ---------------------------------------------------------------- loading and storing records
 //
-// Lane 4 L + j of a Wide holds the particle of constraint 4 L + j. Register j holds the records of lanes j, 4 + j, 8 + j
-// and 12 + j; the 4 x 4 transpose in each 128-bit part gives x, y, z and w. A contiguous group of four records fills a
-// register with one load; it needs one base index for four constraints.
+// Lane 4 L + j of a Wide holds the particle of constraint 4 L + j. Register j holds the records of lanes j, 4 + j, 8 +
+// j and 12 + j; the 4 x 4 transpose in each 128-bit part gives x, y, z and w. A contiguous group of four records fills
+// a register with one load; it needs one base index for four constraints.
 
 #if PLIANT_PART_WIDTH == 16
 #define PLIANT_SHUFFLE(a, b, p, q, r, s)                                                                          \
@@ -250,12 +254,14 @@ PLIANT_HD Quad load_quad(const Record* from) {
   return q;
 }
 
-/// Part i of the register with records at[0], at[4], at[8], at[12]. Intrinsics, because g++ needs twice as many shuffles.
+/// Part i of the register with records at[0], at[4], at[8], at[12]. Intrinsics, because g++ needs twice as many
+/// shuffles.
 PLIANT_HD Part gather_part(const Record* base, const std::int32_t* at, int i) {
 #if PLIANT_PART_WIDTH == 16
   (void)i;
   const auto pair = [&](int k) __attribute__((always_inline)) {
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&base[at[k]].x)), _mm_loadu_ps(&base[at[k + 4]].x), 1);
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(&base[at[k]].x)), _mm_loadu_ps(&base[at[k + 4]].x),
+                                1);
   };
   const __m512d low = _mm512_castpd256_pd512(_mm256_castps_pd(pair(0)));
   return (Part)_mm512_maskz_insertf64x4(0xff, low, _mm256_castps_pd(pair(8)), 1);  // masked as above, against a warning

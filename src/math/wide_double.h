@@ -1,4 +1,5 @@
-// WideDouble: eight doubles with the interface of one, half of the lanes of a Wide. Every operation is the IEEE operation per lane.
+// WideDouble: eight doubles with the interface of one, half of the lanes of a Wide. Every operation is the IEEE
+// operation per lane.
 #pragma once
 
 #include "math/wide.h"
@@ -25,7 +26,8 @@ struct WideDouble {
   WideDouble() = default;
   /// Sets every lane to `value`.
   PLIANT_HD explicit WideDouble(double value) {
-    for (int i = 0; i < wide_parts; ++i) part[i] = value - DoublePart{};  // x - 0 is exact for every x; x + 0 changes -0
+    for (int i = 0; i < wide_parts; ++i)
+      part[i] = value - DoublePart{};  // x - 0 is exact for every x; x + 0 changes -0
   }
 };
 

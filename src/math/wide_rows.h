@@ -1,4 +1,5 @@
-// Rows of sixteen floats in memory, as formulas load and store them whose scalar is Wide; rows.h has those of one number.
+// Rows of sixteen floats in memory, as formulas load and store them whose scalar is Wide; rows.h has those of one
+// number.
 #pragma once
 
 #include "math/wide.h"

@@ -15,8 +15,9 @@ namespace {
 bool is_rigid(const Object& object) {
   return std::all_of(object.constraints.begin(), object.constraints.end(), [](const ConstraintGroup& group) {
     const auto is_zero = [](float alpha) { return alpha == 0; };
-    return !is_length(group.type) || (group.stiffness.kind == Stiffness::Kind::compliance && group.stiffness.value == 0 &&
-                                      std::all_of(group.compliances.begin(), group.compliances.end(), is_zero));
+    return !is_length(group.type) ||
+           (group.stiffness.kind == Stiffness::Kind::compliance && group.stiffness.value == 0 &&
+            std::all_of(group.compliances.begin(), group.compliances.end(), is_zero));
   });
 }
 
@@ -46,7 +47,8 @@ bool may_meet_collider(const Scene& scene) {
 /// "a", "a and b", or "a, b and c".
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return text;
 }
 

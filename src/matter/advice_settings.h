@@ -8,18 +8,19 @@
 
 namespace pliant {
 
-/// True if tethers may help: some object with lengths hangs from pins, and all objects that hang are rigid. Tethers limit the
-/// length of inextensible objects; they would hold back objects that are meant to stretch, and soft bodies.
+/// True if tethers may help: some object with lengths hangs from pins, and all objects that hang are rigid. Tethers
+/// limit the length of inextensible objects; they would hold back objects that are meant to stretch, and soft bodies.
 bool may_tether(const Scene& scene);
 
-/// Other sweeps that may need less time for the same stretch. The default for the scene comes first, because there may be
-/// time to try only one. Multigrid is left out where the choice leaves it out: cloth sticks to colliders by it. There are none
-/// where a soft body has no lengths, because these sweeps correct lengths alone.
+/// Other sweeps that may need less time for the same stretch. The default for the scene comes first, because there may
+/// be time to try only one. Multigrid is left out where the choice leaves it out: cloth sticks to colliders by it.
+/// There are none where a soft body has no lengths, because these sweeps correct lengths alone.
 std::vector<Sweep> better_sweeps(const Scene& scene);
 
 /// The settings with sweep, substeps and their bounds left open, so that the default is used.
 Settings left_open(Settings settings);
-/// The members of settings by which they depart from the default for the scene, as a scene file has them: "\"sweep\" and
+/// The members of settings by which they depart from the default for the scene, as a scene file has them: "\"sweep\"
+/// and
 /// \"substeps\"". Empty if they do not depart. `chosen` are those that chosen_settings returns for them.
 std::string departures(const Scene& scene, const Settings& given, const Settings& chosen);
 /// Like chosen_settings in pliant/scene.h, with `settings` instead of the scene's own.

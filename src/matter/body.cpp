@@ -15,7 +15,8 @@ namespace pliant {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& body, std::size_t solid, const std::string& what, const std::string& advice) {
+[[noreturn]] void refuse(const std::string& body, std::size_t solid, const std::string& what,
+                         const std::string& advice) {
   throw Error({"", 0, body, "solid " + std::to_string(solid)}, what, advice);
 }
 
@@ -41,7 +42,8 @@ struct SizeCheck {
 
   double operator()(float size, const char* name) const {
     if (!(size > 0) || !std::isfinite(size))
-      refuse(body, solid, std::string(name) + " is " + std::to_string(size), "give a positive, finite number in metres");
+      refuse(body, solid, std::string(name) + " is " + std::to_string(size),
+             "give a positive, finite number in metres");
     return static_cast<double>(size);
   }
 };
@@ -80,7 +82,8 @@ struct MomentsOf {
 
 Moments moments_of(const Solid& solid, const std::string& body, std::size_t number) {
   if (!(solid.density > 0) || !std::isfinite(solid.density))
-    refuse(body, number, "has a density of " + std::to_string(solid.density), "give a positive, finite density [kg/m^3]");
+    refuse(body, number, "has a density of " + std::to_string(solid.density),
+           "give a positive, finite density [kg/m^3]");
   const Moments own = std::visit(MomentsOf{{body, number}}, solid.shape);
   return moved(times(own, static_cast<double>(solid.density)), pose_of_solid(solid, body, number));
 }
@@ -100,12 +103,12 @@ Moments moments_of(const BodyInertia& inertia, const std::string& body) {
                 "give positive numbers in kg and kg m^2");
   return {m,
           m * c,
-          {half - own.x + m * c.x * c.x, half - own.y + m * c.y * c.y, half - own.z + m * c.z * c.z, m * c.y * c.z - off.x,
-           m * c.z * c.x - off.y, m * c.x * c.y - off.z}};
+          {half - own.x + m * c.x * c.x, half - own.y + m * c.y * c.y, half - own.z + m * c.z * c.z,
+           m * c.y * c.z - off.x, m * c.z * c.x - off.y, m * c.x * c.y - off.z}};
 }
 
-/// Refuses an inertia tensor that is not positive definite, or that no distribution of mass has: with x^2 + y^2 and so on
-/// integrated, no moment exceeds the sum of the others. Thin plates reach it, hence the margin for rounding.
+/// Refuses an inertia tensor that is not positive definite, or that no distribution of mass has: with x^2 + y^2 and so
+/// on integrated, no moment exceeds the sum of the others. Thin plates reach it, hence the margin for rounding.
 MassProperties checked(const MassProperties& own, const std::string& body) {
   const Vec3d& i = own.inertia;
   if (!(i.x > 0 && i.y > 0 && i.z > 0))
@@ -193,7 +196,8 @@ Object make_body(const std::vector<Solid>& solids, const BodyOptions& options) {
 RigidPose pose_of(const Object& object, int body) {
   if (body < 0 || static_cast<std::size_t>(body) >= object.bodies.size())
     throw Error({"", 0, object.name, "body " + std::to_string(body)},
-                "does not exist; there are " + std::to_string(object.bodies.size()) + " bodies", "indices count from 0");
+                "does not exist; there are " + std::to_string(object.bodies.size()) + " bodies",
+                "indices count from 0");
   const ObjectBody& of = object.bodies[static_cast<std::size_t>(body)];
   const Quatd axes = convert<double>(object.frames.at(static_cast<std::size_t>(of.frame)).orientation);
   const Posed pose{convert<double>(object.positions.at(static_cast<std::size_t>(of.particle))), normalise(axes)};

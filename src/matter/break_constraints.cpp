@@ -43,7 +43,8 @@ class ForceShares {
     std::optional<double> force;
     if (rounding * lightest(stencil) <= coarse * most * known_.h * known_.h) force = by_multipliers(number);
     if (!force) force = elongation(number, at) / static_cast<double>(alpha);
-    if (std::fabs(*force - most) <= rounding / static_cast<double>(alpha)) force = by_multipliers(number).value_or(*force);
+    if (std::fabs(*force - most) <= rounding / static_cast<double>(alpha))
+      force = by_multipliers(number).value_or(*force);
     return *force > most ? *force / most : 0;
   }
 
@@ -67,7 +68,8 @@ class ForceShares {
   /// The least mass of these particles [kg].
   double lightest(const std::vector<int>& particles) const {
     double mass = std::numeric_limits<double>::infinity();
-    for (const int p : particles) mass = std::min(mass, static_cast<double>(object_.masses[static_cast<std::size_t>(p)]));
+    for (const int p : particles)
+      mass = std::min(mass, static_cast<double>(object_.masses[static_cast<std::size_t>(p)]));
     return mass;
   }
 
@@ -150,7 +152,9 @@ class Series {
   }
 
  private:
-  static bool is_link(const ConstraintGroup& group) { return is_length(group.type) || group.type == DistanceLimit::name; }
+  static bool is_link(const ConstraintGroup& group) {
+    return is_length(group.type) || group.type == DistanceLimit::name;
+  }
 
   std::size_t number_constraints(const Object& object) {
     std::size_t count = 0;

@@ -66,7 +66,8 @@ Choice choose(const Given& given, const Object& object, std::size_t number) {
   const bool touches = can_touch(given.surroundings, object, number);
   // Tethers would pull tied particles off their bodies.
   if (!is_stiff && !is_tied && is_in_rows && may_be_tethered(object, gravity) && (!touches || !lies_on_pins(object)))
-    return {Sweep::tethered_chains, name + ", which hangs from pins or attachments and has its springs in straight rows"};
+    return {Sweep::tethered_chains,
+            name + ", which hangs from pins or attachments and has its springs in straight rows"};
   if (touches) return {Sweep::chains, name + ", a surface that can touch itself or others"};
   if (is_stiff) return {Sweep::chains, name + ", a sheet whose bending length is more than a quarter of its size"};
   if (is_in_rows) return {Sweep::chains, name + ", whose springs lie in straight rows"};
@@ -84,7 +85,8 @@ Choice choice_of(const Given& given, const Object& object, std::size_t number) {
   return choose(given, object, number);
 }
 
-/// Counts the objects of each sweep. Objects too small for sweeps to differ are ignored; they use the sweep of the others.
+/// Counts the objects of each sweep. Objects too small for sweeps to differ are ignored; they use the sweep of the
+/// others.
 struct SweepsInUse {
   struct Use {
     std::string first;  ///< name of the first object
@@ -113,8 +115,8 @@ struct SweepsInUse {
     std::string text;
     for (const auto& [sweep, use] : uses)
       text += (text.empty() ? "'" : ", '") + use.first + "'" +
-              (use.objects > 1 ? " and " + std::to_string(use.objects - 1) + " more" : "") + " by '" + sweep_name(sweep) +
-              "'";
+              (use.objects > 1 ? " and " + std::to_string(use.objects - 1) + " more" : "") + " by '" +
+              sweep_name(sweep) + "'";
     return text;
   }
 };
@@ -161,8 +163,9 @@ bool is_coarse(std::size_t particles) { return particles < fewest_particles; }
 
 bool has_stiff_sheet(const Scene& scene) {
   const double gravity = magnitude(scene.gravity);
-  return std::any_of(scene.objects.begin(), scene.objects.end(),
-                     [&](const Object& object) { return linked_particles(object) > 0 && is_stiff_sheet(object, gravity); });
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+    return linked_particles(object) > 0 && is_stiff_sheet(object, gravity);
+  });
 }
 
 Sweep chosen_sweep(const Scene& scene, int object, std::string* reason) {
@@ -203,9 +206,9 @@ std::vector<int> substeps_of_objects(const Scene& scene, const Settings& setting
   const double gravity = magnitude(scene.gravity);
   const bool is_blown = blows(scene.wind, scene.forces);
   for (std::size_t o = 0; o < sweeps.size(); ++o)
-    members.push_back(member_of(scene.objects[o],
-                                own_substeps(scene.objects[o], sweeps[o], is_blown, static_cast<double>(scene.frame_time)),
-                                substep_rule(scene.objects[o], sweeps[o], gravity), static_cast<double>(scene.frame_time)));
+    members.push_back(member_of(
+        scene.objects[o], own_substeps(scene.objects[o], sweeps[o], is_blown, static_cast<double>(scene.frame_time)),
+        substep_rule(scene.objects[o], sweeps[o], gravity), static_cast<double>(scene.frame_time)));
   for (const MeshCollider& collider : scene.mesh_colliders) members.push_back(member_of(collider));
   std::vector<SetSubsteps> sets = substeps_of_sets(members);
   sets.resize(scene.objects.size());
@@ -227,7 +230,9 @@ std::vector<int> chosen_substeps(const Scene& scene, const Settings& settings) {
   return substeps_of_objects(scene, settings, chosen_sweeps(scene, settings));
 }
 
-Settings chosen_settings(const Scene& scene, std::string* reason) { return chosen_settings(scene, scene.settings, reason); }
+Settings chosen_settings(const Scene& scene, std::string* reason) {
+  return chosen_settings(scene, scene.settings, reason);
+}
 
 Settings chosen_settings(const Scene& scene, Settings settings, std::string* reason) {
   const Choices choices = choices_of(scene, settings);

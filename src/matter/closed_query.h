@@ -6,7 +6,8 @@
 
 namespace pliant {
 
-/// Throws an Error unless the vertices are finite, the triangles use vertices that exist, and each edge has two triangles.
+/// Throws an Error unless the vertices are finite, the triangles use vertices that exist, and each edge has two
+/// triangles.
 MeshQuery query_of_closed(const TriangleMesh& mesh);
 
 }  // namespace pliant

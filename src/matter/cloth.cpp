@@ -1,8 +1,8 @@
 // Makes cloth of a triangle mesh: masses by area, a distance constraint for each edge, a bending constraint for each
 // inner edge.
 //
-// Stiffness is a material property, so each compliance follows from the area that its edge represents. A finer mesh of the
-// same piece then stretches and folds alike. All values are computed in double and rounded once.
+// Stiffness is a material property, so each compliance follows from the area that its edge represents. A finer mesh of
+// the same piece then stretches and folds alike. All values are computed in double and rounded once.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -162,7 +162,8 @@ void lump_masses(ClothDraft& piece) {
   piece.masses.assign(piece.mesh.positions.size(), 0);
   const double density = piece.options.material.area_density;
   for (std::size_t t = 0; t < piece.triangles.size(); ++t)
-    for (int corner : piece.triangles[t]) piece.masses[static_cast<std::size_t>(corner)] += density * piece.areas[t] / 3;
+    for (int corner : piece.triangles[t])
+      piece.masses[static_cast<std::size_t>(corner)] += density * piece.areas[t] / 3;
   for (std::size_t v = 0; v < piece.masses.size(); ++v) {
     const std::string vertex = "vertex " + std::to_string(v);
     if (piece.masses[v] == 0) piece.refuse(vertex, "belongs to no triangle, so it has no mass", "drop it");
@@ -389,8 +390,9 @@ void require_yarns(const ClothDraft& piece) {
   const ClothOptions& options = piece.options;
   if (options.stretch_model == ClothOptions::Stretching::springs) return;
   if (options.stretch)
-    piece.refuse("stretch", "is the stiffness of edges, which woven cloth does not have",
-                 "give the material's stretch_stiffness, weft_stiffness and shear_stiffness, or leave stretch_model out");
+    piece.refuse(
+        "stretch", "is the stiffness of edges, which woven cloth does not have",
+        "give the material's stretch_stiffness, weft_stiffness and shear_stiffness, or leave stretch_model out");
   const double squared = length_squared(convert<double>(options.warp));
   if (!(squared > 1e-30 && squared < 1e30))
     piece.refuse("warp", "is not a direction", "give a finite vector of any length but 0");

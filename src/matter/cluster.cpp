@@ -61,11 +61,13 @@ Cluster cluster_of(std::vector<int> particles, const ClusterOptions& options) {
 
 void add_cluster(Object& object, const std::vector<int>& particles, const ClusterOptions& options) {
   const Location where{.object = object.name, .element = "cluster " + std::to_string(object.clusters.size())};
-  if (particles.size() < 2) throw Error(where, "has fewer than two particles", "give the particles that keep their shape");
+  if (particles.size() < 2)
+    throw Error(where, "has fewer than two particles", "give the particles that keep their shape");
   std::set<int> seen;
   for (const int p : particles) {
     if (p < 0 || static_cast<std::size_t>(p) >= object.positions.size())
-      throw Error(where, "has particle " + std::to_string(p) + ", but there are " + std::to_string(object.positions.size()),
+      throw Error(where,
+                  "has particle " + std::to_string(p) + ", but there are " + std::to_string(object.positions.size()),
                   "particles count from 0");
     if (!seen.insert(p).second) throw Error(where, "has particle " + std::to_string(p) + " twice", "name it once");
   }

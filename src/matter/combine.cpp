@@ -73,7 +73,8 @@ Skin skin_or_surface(const Object& object) {
   if (object.skin) return *object.skin;
   Skin skin;
   skin.triangles = object.triangles;
-  for (int i = 0; i < static_cast<int>(object.positions.size()); ++i) skin.vertices.push_back({{i, i, i, i}, {1, 0, 0, 0}});
+  for (int i = 0; i < static_cast<int>(object.positions.size()); ++i)
+    skin.vertices.push_back({{i, i, i, i}, {1, 0, 0, 0}});
   return skin;
 }
 
@@ -108,9 +109,11 @@ int append(Object& object, const Object& other) {
   object.masses.insert(object.masses.end(), other.masses.begin(), other.masses.end());
   object.frames.insert(object.frames.end(), other.frames.begin(), other.frames.end());
   append_bodies(object, other, particles, frames);
-  for (const ConstraintGroup& group : other.constraints) object.constraints.push_back(shifted(group, particles, frames));
+  for (const ConstraintGroup& group : other.constraints)
+    object.constraints.push_back(shifted(group, particles, frames));
   append_joints(object, other, bodies, groups);
-  for (const auto& [a, b, c] : other.triangles) object.triangles.push_back({a + particles, b + particles, c + particles});
+  for (const auto& [a, b, c] : other.triangles)
+    object.triangles.push_back({a + particles, b + particles, c + particles});
   for (Cluster cluster : other.clusters) {
     for (int& particle : cluster.particles) particle += particles;
     object.clusters.push_back(std::move(cluster));

@@ -61,7 +61,8 @@ double squared_substep(const ConversionContext& context) {
 float compliance_from_stiffness(float k, const ConversionContext& context) {
   require_context(context);
   if (!(k >= 0 && k <= 1))
-    throw Error({"", 0, "", "stiffness"}, "is " + std::to_string(k), "PBD stiffness is a share of the error: give 0 to 1");
+    throw Error({"", 0, "", "stiffness"}, "is " + std::to_string(k),
+                "PBD stiffness is a share of the error: give 0 to 1");
   if (k == 0) return std::numeric_limits<float>::infinity();
   if (k == 1) return 0;
   const double share = single_share(k, context.substeps);

@@ -117,7 +117,8 @@ class Cut {
     }
   }
 
-  /// Distributes the constraints on particles that split. Other particles of these are looked up in their triangles too.
+  /// Distributes the constraints on particles that split. Other particles of these are looked up in their triangles
+  /// too.
   void split_constraints(std::vector<ConstraintGroup>& groups) {
     std::vector<std::vector<int>> reached;  // of each group
     std::vector<char> at(object_.positions.size());

@@ -1,5 +1,5 @@
-// Divides a closed mesh into convex pieces. The part whose hull fills the deepest hollow is divided, by the plane along an axis after
-// which both halves fill least, until all are within the tolerance.
+// Divides a closed mesh into convex pieces. The part whose hull fills the deepest hollow is divided, by the plane along
+// an axis after which both halves fill least, until all are within the tolerance.
 #include "pliant/decompose.h"
 
 #include <algorithm>
@@ -22,9 +22,9 @@ namespace {
 
 constexpr float cells_along = 56;  ///< along the longest side
 constexpr float near_surface =
-    0.9f;                            ///< nodes up to this share of a cell outside count as solid, so that thin walls do too
-constexpr float automatic = 0.02f;   ///< tolerance, as a share of the longest side
-constexpr int planes_per_axis = 12;  ///< that are tried, evenly spaced
+    0.9f;  ///< nodes up to this share of a cell outside count as solid, so that thin walls do too
+constexpr float automatic = 0.02f;       ///< tolerance, as a share of the longest side
+constexpr int planes_per_axis = 12;      ///< that are tried, evenly spaced
 constexpr std::size_t most_places = 24;  ///< up to which all places of vertices are tried as well
 
 void require(bool is_right, const char* option, const std::string& advice) {
@@ -115,8 +115,8 @@ class Divider {
 
   void run() {
     while (static_cast<int>(pieces_.size()) < options_.most_pieces) {
-      const auto deepest = std::max_element(pieces_.begin(), pieces_.end(),
-                                            [](const HulledPart& a, const HulledPart& b) { return a.filled < b.filled; });
+      const auto deepest = std::max_element(
+          pieces_.begin(), pieces_.end(), [](const HulledPart& a, const HulledPart& b) { return a.filled < b.filled; });
       if (!(deepest->filled > tolerance_)) return;
       const std::optional<AxisPlane> plane = best_plane(deepest->part);
       if (!plane) {
@@ -174,16 +174,19 @@ class Divider {
     std::vector<AxisPlane> planes;
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
-      const auto [low, high] = std::minmax_element(part.solid.begin(), part.solid.end(),
-                                                   [k](const GridNode& a, const GridNode& b) { return a.at[k] < b.at[k]; });
+      const auto [low, high] =
+          std::minmax_element(part.solid.begin(), part.solid.end(),
+                              [k](const GridNode& a, const GridNode& b) { return a.at[k] < b.at[k]; });
       if (low == part.solid.end()) continue;
       const std::int32_t first = low->at[k], last = high->at[k];
       for (const float place : places_[k])
-        if (const AxisPlane plane = plane_at(axis, place); plane.node > first && plane.node < last) planes.push_back(plane);
+        if (const AxisPlane plane = plane_at(axis, place); plane.node > first && plane.node < last)
+          planes.push_back(plane);
       for (int i = 1; i <= planes_per_axis; ++i) {
         const float cell = static_cast<float>(first) + static_cast<float>(last - first) * static_cast<float>(i) /
                                                            static_cast<float>(planes_per_axis + 1);
-        const AxisPlane plane = plane_at(axis, coordinate(field_->low, axis) + (std::floor(cell) + 0.5f) * field_->spacing);
+        const AxisPlane plane =
+            plane_at(axis, coordinate(field_->low, axis) + (std::floor(cell) + 0.5f) * field_->spacing);
         if (plane.node >= first && plane.node < last) planes.push_back(plane);
       }
     }
@@ -217,7 +220,8 @@ class Divider {
         piece.filled = node.distance;
   }
 
-  /// True if a point is in a hull or nearer to its faces than `near`: a hull may be thinner than a cell, and have nodes beside it alone.
+  /// True if a point is in a hull or nearer to its faces than `near`: a hull may be thinner than a cell, and have nodes
+  /// beside it alone.
   static bool is_in(const ConvexHull& hull, const Vec3f& p, float near) {
     for (std::size_t f = 0; f < hull.faces.size(); ++f)
       if (dot(hull.normals[f], p - hull.corners[static_cast<std::size_t>(hull.faces[f][0])]) > near) return false;
@@ -251,7 +255,8 @@ BodyInertia inertia_of(const Moments& of) {
 std::vector<HulledPart> pieces_of(const TriangleMesh& mesh, double volume, const DecomposeOptions& options) {
   constexpr double of_rounding = 1e-5;
   if (std::optional<ConvexHull> hull = convex_hull(mesh.positions); hull) {
-    if (std::abs(volume_of(*hull) - volume) <= of_rounding * volume) return {{{}, reduced(hull, options.most_corners), 0}};
+    if (std::abs(volume_of(*hull) - volume) <= of_rounding * volume)
+      return {{{}, reduced(hull, options.most_corners), 0}};
   }
   Divider divider(mesh, options);
   divider.run();

@@ -23,8 +23,9 @@ std::set<EdgeEnds> edges_of(const Object& object, std::span<const int> path) {
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const EdgeEnds cut = edge_of(path[i], path[i + 1]);
     if (cut.first == cut.second || triangles_of({cut.first, cut.second}, object, around).empty())
-      throw Error({.object = object.name, .element = "edge " + std::to_string(path[i]) + "-" + std::to_string(path[i + 1])},
-                  "is not an edge of a triangle, so it cannot be cut", "give a path along edges of triangles");
+      throw Error(
+          {.object = object.name, .element = "edge " + std::to_string(path[i]) + "-" + std::to_string(path[i + 1])},
+          "is not an edge of a triangle, so it cannot be cut", "give a path along edges of triangles");
     edges.insert(cut);
   }
   return edges;
@@ -53,7 +54,8 @@ Edit remove_triangles(const Object& object, std::span<const int> triangles) {
   require_triangles(object);
   std::vector<char> is_reached(object.positions.size());
   for (const int t : triangles)
-    for (const int corner : object.triangles[static_cast<std::size_t>(t)]) is_reached[static_cast<std::size_t>(corner)] = 1;
+    for (const int corner : object.triangles[static_cast<std::size_t>(t)])
+      is_reached[static_cast<std::size_t>(corner)] = 1;
   const Around around(object.triangles, is_reached);
   Edit edit = unchanged(object);
   edit.object.triangles.clear();

@@ -95,8 +95,8 @@ void overwrite(ConstraintGroup& group, int slots, const std::vector<int>& number
 void require_masses(const Object& object) {
   if (object.masses.size() != object.positions.size())
     throw Error({.object = object.name},
-                "has " + std::to_string(object.masses.size()) + " masses for " + std::to_string(object.positions.size()) +
-                    " particles",
+                "has " + std::to_string(object.masses.size()) + " masses for " +
+                    std::to_string(object.positions.size()) + " particles",
                 "give one for each");
 }
 
@@ -166,7 +166,8 @@ std::vector<int> constraints_at(const ConstraintGroup& group, const std::vector<
   return found;
 }
 
-void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer, ConstraintGroup& to) {
+void append(const ConstraintGroup& from, int number, const std::vector<int>& stencil, double softer,
+            ConstraintGroup& to) {
   const auto slots = stencil.size();
   const std::size_t count = from.particles.size() / slots, fields = count > 0 ? from.rest.size() / count : 0;
   const auto at = static_cast<std::size_t>(number);

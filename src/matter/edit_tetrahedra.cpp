@@ -80,7 +80,8 @@ Edit part_tetrahedra(const Object& object, std::span<const int> part) {
                 "has " + std::to_string(all.size()) + " tetrahedra and is given " + std::to_string(part.size()) +
                     " numbers of parts",
                 "give one for each tetrahedron");
-  std::vector<char> reached = where_parts_meet(all, part, object.positions.size());  // be it in an edge or a point alone
+  std::vector<char> reached =
+      where_parts_meet(all, part, object.positions.size());  // be it in an edge or a point alone
   std::set<Face> open;
   for (const InnerFace& inner : inner_faces(all, reached))
     if (part[static_cast<std::size_t>(inner.a)] != part[static_cast<std::size_t>(inner.b)]) open.insert(inner.face);

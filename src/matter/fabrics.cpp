@@ -40,7 +40,8 @@ Fabric sheet(const char* name, double density, double thickness, double young, d
 std::vector<Fabric> make_fabrics() {
   return {
       woven("cotton", 0.12f, 0.0003f, 7000, 4500, 0.9f, 1.75e-5f, 0.4f, 0.3f,
-            "plain-woven cotton of 120 g/m^2: bending for the measured drape coefficient of plain weave, 80 % (KES-F: 0.18 "
+            "plain-woven cotton of 120 g/m^2: bending for the measured drape coefficient of plain weave, 80 % (KES-F: "
+            "0.18 "
             "gf cm^2/cm), typical extension at 490 N/m 4 to 12 %; shear 0.5 to 2 gf/cm a degree"),
       woven("silk", 0.06f, 0.0002f, 12000, 8000, 0.35f, 2.5e-6f, 0.3f, 0.2f,
             "typical of light plain-woven silk: KES-F bending 0.01 to 0.06 gf cm^2/cm, extension at 490 N/m 2 to 6 %"),

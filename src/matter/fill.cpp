@@ -58,7 +58,8 @@ std::vector<Vec3f> fill_mesh(const TriangleMesh& mesh, float spacing, float clea
     return !query.is_inside(p) || (clearance > 0 && query.closest(p, clearance).triangle >= 0);
   });
   if (points.empty())
-    throw Error({.element = "mesh"}, "has no room for a particle", "give a smaller spacing or clearance, or a larger mesh");
+    throw Error({.element = "mesh"}, "has no room for a particle",
+                "give a smaller spacing or clearance, or a larger mesh");
   return points;
 }
 

@@ -1,6 +1,6 @@
-// Fills closed meshes with tetrahedra of a body-centred cubic lattice, and moves the border onto the mesh. Isosurface stuffing
-// (Labelle and Shewchuk 2007) starts from the same lattice and cuts tetrahedra at the surface; here none is cut, so that all keep
-// about the same size, which decides how long a substep may be.
+// Fills closed meshes with tetrahedra of a body-centred cubic lattice, and moves the border onto the mesh. Isosurface
+// stuffing (Labelle and Shewchuk 2007) starts from the same lattice and cuts tetrahedra at the surface; here none is
+// cut, so that all keep about the same size, which decides how long a substep may be.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,7 +17,8 @@ namespace pliant {
 namespace {
 
 constexpr double most_nodes = 1 << 22;  // of up to six tetrahedra each
-/// Nodes up to this share of a cell outside of the mesh belong to the body; the border is then about as often outside as inside.
+/// Nodes up to this share of a cell outside of the mesh belong to the body; the border is then about as often outside
+/// as inside.
 constexpr float share_of_cell_outside = 0.25f;
 /// Of a tetrahedron when a corner is moved: volume over that of a regular one with edges of the same root mean square.
 constexpr double least_quality = 0.25;
@@ -65,7 +66,8 @@ Lattice lattice_about(const BoxBounds& bounds, float size) {
 /// A mesh of tetrahedra under construction, with the surface that it fills.
 class Filling {
  public:
-  Filling(const MeshQuery& query, const Lattice& lattice) : query_(query), lattice_(lattice), places_(lattice.places()) {
+  Filling(const MeshQuery& query, const Lattice& lattice)
+      : query_(query), lattice_(lattice), places_(lattice.places()) {
     is_kept_.reserve(places_.size());
     for (const Vec3f& p : places_)
       is_kept_.push_back(query_.closest(p, share_of_cell_outside * lattice_.side).triangle >= 0 || query_.is_inside(p));
@@ -125,17 +127,17 @@ void Filling::add_tetrahedra() {
       for (int x = 0; x < n[0]; ++x) {
         const int here = l.centre(x, y, z);
         if (x + 1 < n[0])
-          add_across(
-              here, l.centre(x + 1, y, z),
-              {l.corner(x + 1, y, z), l.corner(x + 1, y + 1, z), l.corner(x + 1, y + 1, z + 1), l.corner(x + 1, y, z + 1)});
+          add_across(here, l.centre(x + 1, y, z),
+                     {l.corner(x + 1, y, z), l.corner(x + 1, y + 1, z), l.corner(x + 1, y + 1, z + 1),
+                      l.corner(x + 1, y, z + 1)});
         if (y + 1 < n[1])
-          add_across(
-              here, l.centre(x, y + 1, z),
-              {l.corner(x, y + 1, z), l.corner(x + 1, y + 1, z), l.corner(x + 1, y + 1, z + 1), l.corner(x, y + 1, z + 1)});
+          add_across(here, l.centre(x, y + 1, z),
+                     {l.corner(x, y + 1, z), l.corner(x + 1, y + 1, z), l.corner(x + 1, y + 1, z + 1),
+                      l.corner(x, y + 1, z + 1)});
         if (z + 1 < n[2])
-          add_across(
-              here, l.centre(x, y, z + 1),
-              {l.corner(x, y, z + 1), l.corner(x + 1, y, z + 1), l.corner(x + 1, y + 1, z + 1), l.corner(x, y + 1, z + 1)});
+          add_across(here, l.centre(x, y, z + 1),
+                     {l.corner(x, y, z + 1), l.corner(x + 1, y, z + 1), l.corner(x + 1, y + 1, z + 1),
+                      l.corner(x, y + 1, z + 1)});
       }
 }
 
@@ -206,8 +208,8 @@ bool Filling::have_shape(std::size_t node) const {
   return true;
 }
 
-/// Moves a node of the border all the way to the mesh, or half or a quarter of it, and an inner one towards the middle of its
-/// neighbours, which gives the border room.
+/// Moves a node of the border all the way to the mesh, or half or a quarter of it, and an inner one towards the middle
+/// of its neighbours, which gives the border room.
 void Filling::move(std::size_t node, const std::vector<bool>& on_border) {
   const Vec3f from = places_[node];
   Vec3f to{};
@@ -305,7 +307,8 @@ FilledMesh fill_with_tetrahedra(const TriangleMesh& mesh, float size) {
   FilledMesh out;
   const int crumbs = filling.drop_crumbs();
   if (filling.is_empty())
-    throw Error({.element = "size"}, "is too large: the mesh has no room for tetrahedra of " + std::to_string(size) + " m",
+    throw Error({.element = "size"},
+                "is too large: the mesh has no room for tetrahedra of " + std::to_string(size) + " m",
                 "give a smaller size");
   if (crumbs > 0) out.notes.push_back(std::to_string(crumbs) + " tetrahedra of small pieces apart were left out");
   filling.fit_border();

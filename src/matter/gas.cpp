@@ -19,7 +19,8 @@ struct Preset {
   float density, diffusivity, temperature;
 };
 
-// Ideal gases of 28.96 and 4.003 g/mol; conductivity over heat capacity and density from the CRC Handbook (0.0259 and 0.152 W/(m K)).
+// Ideal gases of 28.96 and 4.003 g/mol; conductivity over heat capacity and density from the CRC Handbook (0.0259 and
+// 0.152 W/(m K)).
 constexpr float room = 293.15f;
 constexpr std::array<Preset, 3> presets{
     {{"air", 1.204f, 2.1e-5f, room}, {"smoke", 1.204f, 2.1e-5f, 400}, {"helium", 0.166f, 1.8e-4f, room}}};
@@ -47,7 +48,8 @@ Object make_gas(const std::vector<Vec3f>& positions, const GasOptions& options) 
   require_option(gas.ambient_density >= 0, options.name, "ambient_density", gas.ambient_density,
                  "density of 0 or more [kg/m^3]");
   require_option(gas.cooling_time >= 0, options.name, "cooling_time", gas.cooling_time, "time of 0 or more [s]");
-  require_option(gas.diffusivity >= 0, options.name, "diffusivity", gas.diffusivity, "diffusivity of 0 or more [m^2/s]");
+  require_option(gas.diffusivity >= 0, options.name, "diffusivity", gas.diffusivity,
+                 "diffusivity of 0 or more [m^2/s]");
   require_option(gas.drag >= 0, options.name, "drag", gas.drag, "rate of 0 or more [1/s]");
   require_option(gas.vorticity >= 0, options.name, "vorticity", gas.vorticity, "coefficient of 0 or more [m/s]");
   Object object = make_liquid(positions, {.name = options.name, .fluid = options.fluid, .velocity = options.velocity});

@@ -10,7 +10,8 @@ const std::vector<GrainKind>& grain_kinds() {
        "quartz; 31 degrees, between round and angular grains, loose (Terzaghi and Peck, Soil Mechanics in Engineering "
        "Practice, 1967)"},
       {"wet sand", 2900, 0.65f, 1000,
-       "angular grains of quartz, with a tenth of their weight in water; tensile strength typical of moist fine sand, 0.5 "
+       "angular grains of quartz, with a tenth of their weight in water; tensile strength typical of moist fine sand, "
+       "0.5 "
        "to "
        "1.5 kPa (Lu, Wu and Tan, J. Geotech. Geoenviron. Eng. 133, 2007)"},
       {"gravel", 2650, 0.7f, 0, "quartz; 35 degrees, sandy gravel, loose (Terzaghi and Peck 1967)"},

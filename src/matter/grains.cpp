@@ -17,7 +17,8 @@ Object make_grains(const std::vector<Vec3f>& positions, const GrainsOptions& opt
     throw Error({.object = options.name}, "grains without particles", "give a position or more");
   require_option(grains.radius > 0, options.name, "radius", grains.radius, "positive, finite radius [m]");
   require_option(grains.density > 0, options.name, "density", grains.density, "positive, finite density [kg/m^3]");
-  require_option(grains.friction >= 0, options.name, "friction", grains.friction, "finite coefficient of 0 or more [-]");
+  require_option(grains.friction >= 0, options.name, "friction", grains.friction,
+                 "finite coefficient of 0 or more [-]");
   require_option(grains.cohesion >= 0, options.name, "cohesion", grains.cohesion,
                  "finite tensile stress of 0 or more [Pa]");
   Object object;
@@ -25,7 +26,8 @@ Object make_grains(const std::vector<Vec3f>& positions, const GrainsOptions& opt
   object.positions = positions;
   object.flow = options.flow;
   add_spare(options.capacity, object);
-  object.masses.assign(object.positions.size(), sphere * grains.density * grains.radius * grains.radius * grains.radius);
+  object.masses.assign(object.positions.size(),
+                       sphere * grains.density * grains.radius * grains.radius * grains.radius);
   if (length_squared(options.velocity) > 0) object.velocities.assign(object.positions.size(), options.velocity);
   object.grains = grains;
   object.thickness = grains.radius;

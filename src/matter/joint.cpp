@@ -115,11 +115,12 @@ int add_joint(Object& object, const CylindricalJoint& joint) {
 int add_joint(Object& object, const UniversalJoint& joint) {
   JointDraft draft(object, "universal", joint.a, joint.b, joint.options);
   const Vec3d x = draft.direction(joint.axis_a, "axis_a"), y = draft.direction(joint.axis_b, "axis_b");
-  if (std::fabs(dot(x, y)) > 1e-3) draft.refuse("has axes that are not perpendicular", "give two axes at a right angle");
+  if (std::fabs(dot(x, y)) > 1e-3)
+    draft.refuse("has axes that are not perpendicular", "give two axes at a right angle");
   draft.set_frame(draft.place(joint.anchor, "anchor"), rotation_from_xy(x, y));
   draft.lock("universal_joint");
-  // x of a and y of b stay perpendicular, so the rotation of b against a is one about x and then one about y; the twists about x
-  // and y (joint_rows.h) are these two angles.
+  // x of a and y of b stay perpendicular, so the rotation of b against a is one about x and then one about y; the
+  // twists about x and y (joint_rows.h) are these two angles.
   if (joint.limit_a) draft.limit_angle(0, *joint.limit_a);
   if (joint.limit_b) draft.limit_angle(1, *joint.limit_b);
   draft.drive_angle(0, joint.motor_a, joint.friction_a, "motor_a");
@@ -150,7 +151,8 @@ int add_joint(Object& object, const DistanceJoint& joint) {
   const Vec3d a = draft.place(joint.anchor_a, "anchor_a"), b = draft.place(joint.anchor_b, "anchor_b");
   const bool is_kept = !joint.least && !joint.most;
   const auto now = static_cast<float>(distance(a, b));
-  const float least = is_kept ? now : joint.least.value_or(0), most = is_kept ? now : joint.most.value_or(joint::no_limit);
+  const float least = is_kept ? now : joint.least.value_or(0),
+              most = is_kept ? now : joint.most.value_or(joint::no_limit);
   draft.require(least, "least distance [m]", 0);
   if (least > most)
     draft.refuse("has a least distance of " + in_metres(least) + ", more than its greatest of " + in_metres(most),
@@ -222,8 +224,8 @@ int add_joint(Object& object, const RackJoint& joint) {
   append(rotate(conjugate(third.pose.rotation), u), rest);
   rest.insert(rest.end(), {static_cast<float>(start), joint.radius});
   draft.set_frame(draft.b().pose.position, {});
-  draft.add_raw("rack_joint", {draft.a().frame, draft.b().point, third.point, third.frame}, rest, joint.options.compliance,
-                joint.options.damping);
+  draft.add_raw("rack_joint", {draft.a().frame, draft.b().point, third.point, third.frame}, rest,
+                joint.options.compliance, joint.options.damping);
   return draft.finish();
 }
 
@@ -232,7 +234,8 @@ namespace {
 using Freedoms = std::array<AxisFreedom, 3>;
 
 bool all_locked(const Freedoms& axes) {
-  return std::all_of(axes.begin(), axes.end(), [](const AxisFreedom& f) { return f.kind == AxisFreedom::Kind::locked; });
+  return std::all_of(axes.begin(), axes.end(),
+                     [](const AxisFreedom& f) { return f.kind == AxisFreedom::Kind::locked; });
 }
 
 JointRange range_of(const AxisFreedom& freedom, const JointOptions& options) {
@@ -245,7 +248,8 @@ int add_joint(Object& object, const SixAxisJoint& joint) {
   JointDraft draft(object, "six_axis", joint.a, joint.b, joint.options);
   const Quatd axes = convert<double>(joint.axes);
   const double size = dot(axes, axes);
-  if (!(size > 0.9 && size < 1.1)) draft.refuse("has axes that are no unit quaternion", "give x, y, z, w of length one");
+  if (!(size > 0.9 && size < 1.1))
+    draft.refuse("has axes that are no unit quaternion", "give x, y, z, w of length one");
   draft.set_frame(draft.place(joint.anchor, "anchor"), normalise(axes));
   const bool has_place = all_locked(joint.linear), has_rotation = all_locked(joint.angular);
   if (has_place) draft.lock(has_rotation ? "fixed_joint" : "ball_joint");

@@ -113,7 +113,8 @@ JointDraft::JointDraft(Object& object, std::string kind, int a, int b, const Joi
   a_ = find(a);
   b_ = find(b);
   if (a_.body == b_.body) refuse("joins " + called(object, a_.body) + " with itself", "give two bodies");
-  if (is_fixed(object, a_) && is_fixed(object, b_)) refuse("joins two fixed bodies", "make at least one of them dynamic");
+  if (is_fixed(object, a_) && is_fixed(object, b_))
+    refuse("joins two fixed bodies", "make at least one of them dynamic");
   require(options.compliance, "compliance", 0);
   require(options.damping, "damping", 0);
   require(options.break_force, "break_force", above_zero, unlimited, true);
@@ -209,8 +210,8 @@ void JointDraft::add(const char* type, int axis, const std::vector<float>& more,
   add_raw(type, {a_.point, a_.frame, b_.point, b_.frame}, rest, compliance, damping);
 }
 
-void JointDraft::add_raw(const char* type, const std::vector<int>& slots, const std::vector<float>& rest, float compliance,
-                         float damping, const std::optional<Plasticity>& plasticity) {
+void JointDraft::add_raw(const char* type, const std::vector<int>& slots, const std::vector<float>& rest,
+                         float compliance, float damping, const std::optional<Plasticity>& plasticity) {
   parts_.push_back({type, slots, rest, Stiffness::compliance(compliance, damping), plasticity});
 }
 
@@ -327,7 +328,8 @@ int JointDraft::finish() {
   for (const Part& part : parts_) {
     const std::size_t number = group_for(object_, part.type, part.stiffness, part.plasticity);
     ConstraintGroup& group = object_.constraints[number];
-    joint.constraints.push_back({static_cast<int>(number), static_cast<int>(group.particles.size() / part.slots.size())});
+    joint.constraints.push_back(
+        {static_cast<int>(number), static_cast<int>(group.particles.size() / part.slots.size())});
     group.particles.insert(group.particles.end(), part.slots.begin(), part.slots.end());
     group.rest.insert(group.rest.end(), part.rest.begin(), part.rest.end());
   }

@@ -1,4 +1,5 @@
-// A joint while it is made: its parts are collected, and added to the object only when all numbers are known to be right.
+// A joint while it is made: its parts are collected, and added to the object only when all numbers are known to be
+// right.
 #pragma once
 
 #include <array>
@@ -47,8 +48,8 @@ class JointDraft {
   void set_frame(const Vec3d& anchor, const Quatd& axes);
   const Vec3d& anchor() const { return anchor_; }
 
-  /// Adds a constraint between a and b in the joint frame with its axes exchanged so that `axis` (0, 1, 2) is its x-axis.
-  /// `more` follows the places in the rest data.
+  /// Adds a constraint between a and b in the joint frame with its axes exchanged so that `axis` (0, 1, 2) is its
+  /// x-axis. `more` follows the places in the rest data.
   void add(const char* type, int axis, const std::vector<float>& more, float compliance, float damping = 0);
   /// Adds the constraint that holds the bodies together, with the compliance of the options.
   void lock(const char* type) { add(type, 0, {}, options_.compliance, options_.damping); }

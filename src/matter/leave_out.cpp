@@ -28,7 +28,8 @@ constexpr float touching = 0.01f;
 float reach_of(const LeaveOutOptions& by) { return by.radius * (1 - touching); }
 
 /// A box, ball, capsule or half-space, `margin` thicker [m].
-PlacedSolid placed_solid(const std::string& name, const LocalShape& shape, const Posed& pose, float margin, float reach) {
+PlacedSolid placed_solid(const std::string& name, const LocalShape& shape, const Posed& pose, float margin,
+                         float reach) {
   PlacedSolid solid{&name, {}, [=](const Vec3f& p) {
                       const Vec3d local = to_local(pose, convert<double>(p));
                       return signed_distance(shape, local).distance < static_cast<double>(margin + reach);
@@ -65,7 +66,8 @@ void add_solids_of_body(const Object& object, const ObjectBody& body, float reac
   const Posed centre{convert<double>(object.positions[static_cast<std::size_t>(body.particle)]),
                      normalise(convert<double>(object.frames[static_cast<std::size_t>(body.frame)].orientation))};
   for (const Solid& solid : body.solids) {
-    const Posed pose = compose(centre, Posed{convert<double>(solid.position), normalise(convert<double>(solid.rotation))});
+    const Posed pose =
+        compose(centre, Posed{convert<double>(solid.position), normalise(convert<double>(solid.rotation))});
     if (const auto* ball = std::get_if<Sphere>(&solid.shape))
       solids.push_back(placed_solid(object.name, local_shape(*ball), pose, 0, reach));
     else if (const auto* capsule = std::get_if<Capsule>(&solid.shape))
@@ -84,7 +86,8 @@ void add_bodies(const Object& object, float reach, std::vector<PlacedSolid>& sol
 }
 
 /// What a closed mesh encloses; nothing if it is open or damaged.
-std::shared_ptr<const MeshQuery> closed_mesh(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles) {
+std::shared_ptr<const MeshQuery> closed_mesh(const std::vector<Vec3f>& positions,
+                                             const std::vector<Triangle>& triangles) {
   if (triangles.empty()) return nullptr;
   try {
     return std::make_shared<MeshQuery>(query_of_closed({positions, triangles}));
@@ -101,8 +104,9 @@ void add_closed(const std::string& name, const std::shared_ptr<const MeshQuery>&
   if (mesh == nullptr) return;
   const auto is_inside = [&](const Vec3f& p) { return mesh->is_inside(p); };
   if (kind == Closed::vessel_if_all_are_inside && std::all_of(places.begin(), places.end(), is_inside)) return;
-  solids.push_back({&name, mesh->bounds(),
-                    [mesh, reach](const Vec3f& p) { return mesh->is_inside(p) || mesh->closest(p, reach).triangle >= 0; }});
+  solids.push_back({&name, mesh->bounds(), [mesh, reach](const Vec3f& p) {
+                      return mesh->is_inside(p) || mesh->closest(p, reach).triangle >= 0;
+                    }});
 }
 
 /// Terrain; nothing if the mesh is none, which a World says.
@@ -141,8 +145,8 @@ std::vector<PlacedSolid> solids_of(const Scene& scene, const LeaveOutOptions& by
   const float reach = reach_of(by);
   std::vector<PlacedSolid> solids;
   for (const Collider& collider : scene.colliders)
-    solids.push_back(
-        placed_solid(collider.name, local_shape(collider.shape), collider_pose(collider, 0), collider.thickness, reach));
+    solids.push_back(placed_solid(collider.name, local_shape(collider.shape), collider_pose(collider, 0),
+                                  collider.thickness, reach));
   for (const MeshCollider& collider : scene.mesh_colliders)
     if (meshes == MeshesToo::yes && can_overlap(by, collider.groups, collider.mask))
       add_mesh(collider, reach, places, solids);
@@ -201,7 +205,8 @@ void require_radius(const LeaveOutOptions& options) {
 }
 
 void count(const std::string& name, std::vector<PlacesInSolid>& counts) {
-  const auto known = std::find_if(counts.begin(), counts.end(), [&](const PlacesInSolid& one) { return one.in == name; });
+  const auto known =
+      std::find_if(counts.begin(), counts.end(), [&](const PlacesInSolid& one) { return one.in == name; });
   if (known == counts.end())
     counts.push_back({name, 1});
   else

@@ -93,7 +93,8 @@ bool is_doubtful(const GridNode& node, const AxisPlane& plane) {
   return node.distance > 0 && (beyond == 0 || beyond == 1);
 }
 
-/// Of planes after which about as much is filled, one that divides evenly is better: cutting a ring in two does not help at once.
+/// Of planes after which about as much is filled, one that divides evenly is better: cutting a ring in two does not
+/// help at once.
 constexpr double share_of_balance = 0.1;
 
 }  // namespace

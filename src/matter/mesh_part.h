@@ -1,5 +1,5 @@
-// A part of a closed mesh between planes along the axes, as decompose.cpp divides it: the pieces of its triangles, and the nodes of a grid
-// of distances that lie in it.
+// A part of a closed mesh between planes along the axes, as decompose.cpp divides it: the pieces of its triangles, and
+// the nodes of a grid of distances that lie in it.
 #pragma once
 
 #include <array>
@@ -43,13 +43,15 @@ struct AxisPlane {
 
 struct MeshPart {
   std::vector<std::array<Vec3f, 3>> triangles;
-  std::vector<GridNode> solid;   ///< in the mesh, or within less than a cell of it
-  std::vector<GridNode> hollow;  ///< outside of the mesh by more than the tolerance, but between the slabs of the others
+  std::vector<GridNode> solid;  ///< in the mesh, or within less than a cell of it
+  std::vector<GridNode>
+      hollow;  ///< outside of the mesh by more than the tolerance, but between the slabs of the others
 
   /// Keeps only hollow nodes between the slabs.
   void drop_far_hollows();
 
-  /// How bad a plane is: what the two halves would fill, as the sum of depths, and a small share of it if one half is smaller.
+  /// How bad a plane is: what the two halves would fill, as the sum of depths, and a small share of it if one half is
+  /// smaller.
   double cost_of(const AxisPlane& plane) const;
 
   /// What lies before a plane and beyond it.

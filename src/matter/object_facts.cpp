@@ -35,7 +35,8 @@ Vec3d position(const Object& object, int particle) {
 std::size_t springs_of(const Object& object) {
   std::size_t count = 0;
   for (const ConstraintGroup& group : object.constraints)
-    if (is_length(group.type) && group.stiffness.kind == Stiffness::Kind::compliance) count += group.particles.size() / 2;
+    if (is_length(group.type) && group.stiffness.kind == Stiffness::Kind::compliance)
+      count += group.particles.size() / 2;
   return count;
 }
 
@@ -105,8 +106,8 @@ bool have_same_motion(const Motion& a, const Motion& b) {
          std::equal(a.keyframes.begin(), a.keyframes.end(), b.keyframes.begin(), b.keyframes.end(), same);
 }
 
-/// Each particle's neighbours along springs that multigrid and chains correct. Those of particle p are numbers first[p] to
-/// first[p + 1] of `all`.
+/// Each particle's neighbours along springs that multigrid and chains correct. Those of particle p are numbers first[p]
+/// to first[p + 1] of `all`.
 struct Neighbours {
   std::vector<std::size_t> first;
   std::vector<int> all;
@@ -119,7 +120,8 @@ void for_springs(const Object& object, const Visit& visit) {
   for (const ConstraintGroup& group : object.constraints) {
     if (!is_length(group.type) || group.stiffness.kind != Stiffness::Kind::compliance) continue;
     for (std::size_t i = 0; i + 1 < group.particles.size(); i += 2)
-      if (exists(group.particles[i]) && exists(group.particles[i + 1])) visit(group.particles[i], group.particles[i + 1]);
+      if (exists(group.particles[i]) && exists(group.particles[i + 1]))
+        visit(group.particles[i], group.particles[i + 1]);
   }
 }
 
@@ -157,7 +159,8 @@ struct Ways {
   }
 };
 
-/// True if it has pins, or attachments that act like pins, whose distances stay the same: none moves, or all have one motion.
+/// True if it has pins, or attachments that act like pins, whose distances stay the same: none moves, or all have one
+/// motion.
 bool hangs(const Object& object, double gravity) {
   if (object.pins.empty() && object.attachments.empty()) return false;
   const Motion& one = object.pins.empty() ? object.attachments.front().motion : object.pins.front().motion;

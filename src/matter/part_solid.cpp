@@ -1,5 +1,5 @@
-// At each particle that the edit reaches, tetrahedra of one part that share faces form a fan. The first fan keeps the particle, every
-// other fan gets a copy of it.
+// At each particle that the edit reaches, tetrahedra of one part that share faces form a fan. The first fan keeps the
+// particle, every other fan gets a copy of it.
 #include "matter/part_solid.h"
 
 #include <algorithm>
@@ -149,8 +149,8 @@ class Parting {
     }
   }
 
-  /// The constraints on reached particles follow the tetrahedra that these are of. Other particles of them may be those of a tetrahedron
-  /// farther away, as of a tie.
+  /// The constraints on reached particles follow the tetrahedra that these are of. Other particles of them may be those
+  /// of a tetrahedron farther away, as of a tie.
   void follow(std::vector<ConstraintGroup>& groups) {
     std::vector<std::vector<int>> reached;  // of each group
     std::vector<char> looked_up(object_.positions.size());
@@ -172,7 +172,8 @@ class Parting {
   void follow(const ConstraintGroup& group, const ConstraintType& type, int number, ConstraintGroup& out) const {
     std::vector<int> stencil = stencil_of(group, type.stencil_size, number);
     const std::vector<int> with = tetrahedra_with(stencil, type);
-    if (group.type == DistanceLimit::name && !with.empty()) return append_to_all(group, number, stencil, type, with, out);
+    if (group.type == DistanceLimit::name && !with.empty())
+      return append_to_all(group, number, stencil, type, with, out);
     const auto left = std::find_if(with.begin(), with.end(), [&](int t) { return !is_removed(t); });
     if (uses_left_over(stencil, type) || (!with.empty() && left == with.end())) return;
     if (!with.empty()) replace_corners(*left, type, stencil);
@@ -198,11 +199,13 @@ class Parting {
     return false;
   }
 
-  /// The tetrahedra that have all points of a constraint as corners, of a tie those that it ties to; none for a constraint of one point.
+  /// The tetrahedra that have all points of a constraint as corners, of a tie those that it ties to; none for a
+  /// constraint of one point.
   std::vector<int> tetrahedra_with(const std::vector<int>& stencil, const ConstraintType& type) const {
     std::vector<int> points, out;
     for (std::size_t slot = 0; slot < stencil.size(); ++slot)
-      if (type.slots[slot] == SlotKind::point && static_cast<int>(slot) != tied_slot(type)) points.push_back(stencil[slot]);
+      if (type.slots[slot] == SlotKind::point && static_cast<int>(slot) != tied_slot(type))
+        points.push_back(stencil[slot]);
     if (points.size() < 2) return out;
     for (const int t : around_[points.back()])
       if (std::all_of(points.begin(), points.end(), [&](int p) { return has_corner(at(t), p); })) out.push_back(t);

@@ -40,7 +40,8 @@ class PlaneSides {
     return dot(middle(particles) - point_, normal_) > 0;
   }
   bool is_ahead(const Vec3d& place) const { return dot(place - point_, normal_) > 0; }
-  /// For each triangle or tetrahedron: 1 if is_ahead. The sum of the distances of its corners tells it, unless rounding could.
+  /// For each triangle or tetrahedron: 1 if is_ahead. The sum of the distances of its corners tells it, unless rounding
+  /// could.
   template <std::size_t n>
   std::vector<int> ahead_of(const std::vector<std::array<int, n>>& elements) const {
     std::vector<double> distances;

@@ -20,8 +20,9 @@ namespace {
 
 /// Caps reach a radius beyond the ends of a segment, so two segments with one of this length between them do not touch.
 constexpr double least_length_in_radii = 2.25;
-/// The moment of inertia about the axis is that of a cylinder of at least this radius, as a share of the segment's length: contact would
-/// spin thinner ones by radians in a substep. It only slows waves of torsion, which are far faster than anything seen.
+/// The moment of inertia about the axis is that of a cylinder of at least this radius, as a share of the segment's
+/// length: contact would spin thinner ones by radians in a substep. It only slows waves of torsion, which are far
+/// faster than anything seen.
 constexpr double least_turning_radius = 0.1;
 constexpr double shear_factor = 0.9;  // Timoshenko's, of a round section
 
@@ -37,7 +38,8 @@ void require_positive(const RodOptions& options, float value, const char* name, 
 
 void require_not_negative(const RodOptions& options, float value, const char* name, const char* unit) {
   if (!(value >= 0) || !std::isfinite(value))
-    refuse(options, name, "is " + std::to_string(value), std::string("give a finite number of at least 0 [") + unit + "]");
+    refuse(options, name, "is " + std::to_string(value),
+           std::string("give a finite number of at least 0 [") + unit + "]");
 }
 
 /// 0 is no limit.
@@ -73,7 +75,8 @@ void check(const RodOptions& options) {
 
 void check_end(const Object& object, const RodEnd& end, const RodOptions& options) {
   if (end.body >= -1 && end.body < static_cast<int>(object.bodies.size())) return;
-  refuse(options, "", "is held by body " + std::to_string(end.body) + "; there are " + std::to_string(object.bodies.size()),
+  refuse(options, "",
+         "is held by body " + std::to_string(end.body) + "; there are " + std::to_string(object.bodies.size()),
          "give an index in Object::bodies, or -1 for the world");
 }
 
@@ -142,8 +145,8 @@ Vec3d first_across(const Vec3d& tangent, const RodOptions& options) {
   return found;
 }
 
-/// Gives each segment the direction across that follows without twist: rotated by the shortest rotation from tangent to tangent
-/// (Bishop's frame).
+/// Gives each segment the direction across that follows without twist: rotated by the shortest rotation from tangent to
+/// tangent (Bishop's frame).
 void carry_across(std::vector<Segment>& segments, const RodOptions& options) {
   segments[0].across = first_across(segments[0].tangent, options);
   for (std::size_t i = 1; i < segments.size(); ++i) {
@@ -309,8 +312,8 @@ RodStiffness stiffness_of(const RodMaterial& material, float radius) {
 int add_rod(Object& object, const std::vector<Vec3f>& points, const RodOptions& options) {
   check(options);
   const std::string first = options.name + " 0";
-  const bool is_taken =
-      std::any_of(object.bodies.begin(), object.bodies.end(), [&](const ObjectBody& body) { return body.name == first; });
+  const bool is_taken = std::any_of(object.bodies.begin(), object.bodies.end(),
+                                    [&](const ObjectBody& body) { return body.name == first; });
   if (is_taken) refuse(options, "", "has a name that is taken", "give each rod of an object a name of its own");
   for (const RodEnd* end : {&options.start, &options.end}) check_end(object, *end, options);
   return RodBuilder(object, points, options).build();

@@ -30,7 +30,8 @@ std::vector<RodMaterial> make_materials() {
        0.005f,
        0.5f,
        0.4f,
-       "a laid polyamide rope: 62 g/m at 10 mm, and 20 kN at a stretch by about 40 % (ISO 1140:2012); its share of bending "
+       "a laid polyamide rope: 62 g/m at 10 mm, and 20 kN at a stretch by about 40 % (ISO 1140:2012); its share of "
+       "bending "
        "is a sensible "
        "choice",
        {},

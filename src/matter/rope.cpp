@@ -21,8 +21,8 @@ std::vector<double> link_lengths(const std::vector<Vec3f>& points, const std::st
     const Vec3d a{points[i - 1].x, points[i - 1].y, points[i - 1].z}, b{points[i].x, points[i].y, points[i].z};
     lengths.push_back(std::sqrt(length_squared(b - a)));
     if (lengths.back() == 0)
-      throw Error({"", 0, name, "points " + std::to_string(i - 1) + " and " + std::to_string(i)}, "have the same position",
-                  "remove one of them");
+      throw Error({"", 0, name, "points " + std::to_string(i - 1) + " and " + std::to_string(i)},
+                  "have the same position", "remove one of them");
   }
   return lengths;
 }

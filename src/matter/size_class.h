@@ -5,8 +5,8 @@
 
 namespace pliant {
 
-/// The number of a class of volumes, by powers of the square root of two. Constraints of a group have one damping, so what is damped in
-/// proportion to its stiffness has a group for each class.
+/// The number of a class of volumes, by powers of the square root of two. Constraints of a group have one damping, so
+/// what is damped in proportion to its stiffness has a group for each class.
 inline int size_class(double volume) {
   int exponent = 0;
   const double mantissa = std::frexp(volume, &exponent);

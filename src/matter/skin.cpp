@@ -21,8 +21,8 @@ Skin make_skin(const Object& soft_body, const TriangleMesh& mesh) {
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const Vec3f& place = mesh.positions[v];
     if (!std::isfinite(place.x) || !std::isfinite(place.y) || !std::isfinite(place.z))
-      throw Error({.object = soft_body.name, .element = "vertex " + std::to_string(v) + " of the skin"}, "is not finite",
-                  "give finite coordinates in metres");
+      throw Error({.object = soft_body.name, .element = "vertex " + std::to_string(v) + " of the skin"},
+                  "is not finite", "give finite coordinates in metres");
     const PlaceInTetrahedron found = query.nearest(place);
     SkinVertex vertex;
     vertex.particles = query.tetrahedron(found.tetrahedron);

@@ -1,4 +1,5 @@
-// Makes elastic bodies of tetrahedra: masses by volume, and for each tetrahedron two constraints, on its shape and on its volume.
+// Makes elastic bodies of tetrahedra: masses by volume, and for each tetrahedron two constraints, on its shape and on
+// its volume.
 #include "pliant/soft_body.h"
 
 #include <algorithm>
@@ -59,7 +60,8 @@ void require_options(const Source& from, const SoftBodyOptions& options) {
   require(from, "material, plasticity, yield", m.plasticity->yield, 0, false, largest_plastic,
           "give a strain of 0 or more");
   require(from, "material, plasticity, rate", m.plasticity->rate, 0, false, largest_plastic, "give 0 1/s or more");
-  require(from, "material, plasticity, most", m.plasticity->most, 0, false, largest_plastic, "give a strain of 0 or more");
+  require(from, "material, plasticity, most", m.plasticity->most, 0, false, largest_plastic,
+          "give a strain of 0 or more");
 }
 
 void require_positions(const Source& from) {
@@ -81,7 +83,8 @@ void require_corners(const Source& from) {
                     "indices run from 0 to " + std::to_string(count - 1));
       for (std::size_t k = 0; k < i; ++k)
         if (from.mesh.tetrahedra[t][k] == corner)
-          from.refuse(name_of(t), "uses vertex " + std::to_string(corner) + " twice", "remove it, or give four corners");
+          from.refuse(name_of(t), "uses vertex " + std::to_string(corner) + " twice",
+                      "remove it, or give four corners");
     }
 }
 
@@ -172,8 +175,9 @@ std::vector<int> drop_unused(std::size_t corners, std::vector<Tetrahedron>& tetr
   return kept;
 }
 
-/// Adds a constraint for each tetrahedron, whose compliance is 1 / (modulus volume). All of a group have one damping, which is to be the
-/// damping time over the compliance; so with damping there is a group for each size. A large one's would stop a small one.
+/// Adds a constraint for each tetrahedron, whose compliance is 1 / (modulus volume). All of a group have one damping,
+/// which is to be the damping time over the compliance; so with damping there is a group for each size. A large one's
+/// would stop a small one.
 void add_groups(const char* type, const MeasuredTetrahedra& solid, double modulus, double damping_time,
                 const std::optional<Plasticity>& plasticity, Object& body) {
   std::map<int, std::vector<std::size_t>> classes;
@@ -198,7 +202,8 @@ void add_groups(const char* type, const MeasuredTetrahedra& solid, double modulu
 void set_masses(const MeasuredTetrahedra& solid, double density, Object& body) {
   std::vector<double> masses(body.positions.size(), 0);
   for (std::size_t t = 0; t < solid.tetrahedra.size(); ++t)
-    for (const int corner : solid.tetrahedra[t]) masses[static_cast<std::size_t>(corner)] += density * solid.volumes[t] / 4;
+    for (const int corner : solid.tetrahedra[t])
+      masses[static_cast<std::size_t>(corner)] += density * solid.volumes[t] / 4;
   body.masses.assign(masses.begin(), masses.end());
 }
 
@@ -212,7 +217,8 @@ Lame lame_of(const ElasticSolid& material) {
   return {e * nu / ((1 + nu) * (1 - 2 * nu)), e / (2 * (1 + nu))};
 }
 
-/// The constraint types of a solid: with the shear modulus mu, and with lambda. Of Green's strain both have the rest shape, so both flow.
+/// The constraint types of a solid: with the shear modulus mu, and with lambda. Of Green's strain both have the rest
+/// shape, so both flow.
 struct Types {
   const char *shape, *volume;
   std::optional<Plasticity> flow{};  ///< of the second
@@ -299,8 +305,8 @@ Object make_soft_body(const TetrahedralMesh& mesh, const SoftBodyOptions& option
 
 namespace {
 
-/// The corners of a cube along its diagonal from (0,0,0) to (1,1,1): one step along each axis, in six orders. The odd orders
-/// are mirrored, so their last two corners are exchanged.
+/// The corners of a cube along its diagonal from (0,0,0) to (1,1,1): one step along each axis, in six orders. The odd
+/// orders are mirrored, so their last two corners are exchanged.
 constexpr std::array<std::array<int, 4>, 6> kuhn{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 
@@ -314,11 +320,14 @@ TetrahedralMesh box_tetrahedra(const Vec3f& size, const std::array<int, 3>& cell
   std::int64_t count = 1;
   for (const int along : cells) {
     if (along < 1 || along > most_cells || (count *= along) > most_cells)
-      throw Error({.element = "cells"},
-                  "are " + std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " + std::to_string(cells[2]),
-                  "give 1 or more along each axis, and 2^24 together at most");
+      throw Error(
+          {.element = "cells"},
+          "are " + std::to_string(cells[0]) + " x " + std::to_string(cells[1]) + " x " + std::to_string(cells[2]),
+          "give 1 or more along each axis, and 2^24 together at most");
   }
-  const auto place = [](float side, int i, int n) { return side * (static_cast<float>(i) / static_cast<float>(n) - 0.5f); };
+  const auto place = [](float side, int i, int n) {
+    return side * (static_cast<float>(i) / static_cast<float>(n) - 0.5f);
+  };
   TetrahedralMesh mesh;
   for (int z = 0; z <= cells[2]; ++z)
     for (int y = 0; y <= cells[1]; ++y)

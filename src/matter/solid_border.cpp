@@ -1,5 +1,6 @@
-// Most of a large body's surface stays as it is when the body comes apart in some places. So if the triangles are the border of the
-// tetrahedra, in the order of border_triangles, only those at reached particles are found again; else all are.
+// Most of a large body's surface stays as it is when the body comes apart in some places. So if the triangles are the
+// border of the tetrahedra, in the order of border_triangles, only those at reached particles are found again; else all
+// are.
 #include "matter/solid_border.h"
 
 #include <algorithm>
@@ -28,10 +29,12 @@ struct BorderFace {
 };
 
 bool is_reached(const Triangle& triangle, const std::vector<char>& reached) {
-  return std::any_of(triangle.begin(), triangle.end(), [&](int p) { return reached[static_cast<std::size_t>(p)] != 0; });
+  return std::any_of(triangle.begin(), triangle.end(),
+                     [&](int p) { return reached[static_cast<std::size_t>(p)] != 0; });
 }
 
-/// Numbers of faces whose sum without carry tells sets of them apart, as in chess programs (Zobrist 1970): what is in it twice cancels.
+/// Numbers of faces whose sum without carry tells sets of them apart, as in chess programs (Zobrist 1970): what is in
+/// it twice cancels.
 class FaceNumbers {
  public:
   explicit FaceNumbers(std::size_t particles) {
@@ -55,8 +58,8 @@ class FaceNumbers {
   std::vector<std::uint64_t> of_particle_;
 };
 
-/// The faces that triangles are, if these are the border of tetrahedra in the order of border_triangles: each has the corners of a face, the
-/// faces ascend, and all other faces are there twice.
+/// The faces that triangles are, if these are the border of tetrahedra in the order of border_triangles: each has the
+/// corners of a face, the faces ascend, and all other faces are there twice.
 std::optional<std::vector<BorderFace>> faces_of(const std::vector<Triangle>& triangles,
                                                 const std::vector<Corners>& tetrahedra,
                                                 const std::vector<Vec3f>& positions) {
@@ -142,8 +145,8 @@ std::vector<Triangle> take_solid(std::vector<Triangle>& triangles, const std::ve
     for (const int corner : t) is_solid[static_cast<std::size_t>(corner)] = 1;
   std::vector<Triangle> taken;
   std::erase_if(triangles, [&](const Triangle& triangle) {
-    const bool take =
-        std::all_of(triangle.begin(), triangle.end(), [&](int p) { return is_solid[static_cast<std::size_t>(p)] != 0; });
+    const bool take = std::all_of(triangle.begin(), triangle.end(),
+                                  [&](int p) { return is_solid[static_cast<std::size_t>(p)] != 0; });
     if (take) taken.push_back(triangle);
     return take;
   });
@@ -166,8 +169,8 @@ std::vector<Triangle> triangles_of_cloth(const Object& object, const std::vector
 
 }  // namespace
 
-std::vector<Triangle> surface_after(const Object& object, const SolidParting& parting, const std::vector<Corners>& after,
-                                    const std::vector<Vec3f>& positions) {
+std::vector<Triangle> surface_after(const Object& object, const SolidParting& parting,
+                                    const std::vector<Corners>& after, const std::vector<Vec3f>& positions) {
   require_triangles(object);
   std::vector<Triangle> all = object.triangles;
   const std::vector<Triangle> solid = take_solid(all, parting.tetrahedra, object.positions.size());

@@ -63,8 +63,8 @@ TriangleMesh capsule_mesh(double radius, double half_length, int segments) {
 TriangleMesh box_mesh(const Vec3f& half) {
   TriangleMesh mesh;
   for (int corner = 0; corner < 8; ++corner)
-    mesh.positions.push_back(
-        {(corner & 1) != 0 ? half.x : -half.x, (corner & 2) != 0 ? half.y : -half.y, (corner & 4) != 0 ? half.z : -half.z});
+    mesh.positions.push_back({(corner & 1) != 0 ? half.x : -half.x, (corner & 2) != 0 ? half.y : -half.y,
+                              (corner & 4) != 0 ? half.z : -half.z});
   for (int axis = 0; axis < 3; ++axis) {
     const int out = 1 << axis, u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3;
     mesh.triangles.push_back({out, out | u, out | u | v});

@@ -206,7 +206,8 @@ std::vector<std::array<int, 2>> nearest_pairs(const Object& object, std::span<co
       const Vec3d way = convert<double>(object.positions[static_cast<std::size_t>(other)]) -
                         convert<double>(object.positions[static_cast<std::size_t>(particle)]);
       const double distance = dot(way, way);
-      if (other == particle || (nearest >= 0 && (distance > least || (distance == least && other >= nearest)))) continue;
+      if (other == particle || (nearest >= 0 && (distance > least || (distance == least && other >= nearest))))
+        continue;
       nearest = other;
       least = distance;
     }
@@ -221,8 +222,8 @@ std::vector<std::array<int, 2>> nearest_pairs(const Object& object, std::span<co
 void add_stitches(Object& object, std::span<const std::array<int, 2>> pairs, const StitchOptions& options) {
   require_pairs(object, pairs);
   if (!(options.closing_time >= 0 && options.closing_time <= 1e6f))
-    throw Error({.object = object.name, .element = "stitches, closing_time"}, "is " + std::to_string(options.closing_time),
-                "give 0 s or more");
+    throw Error({.object = object.name, .element = "stitches, closing_time"},
+                "is " + std::to_string(options.closing_time), "give 0 s or more");
   if (pairs.empty()) return;
   ConstraintGroup group;
   group.type = DistanceLimit::name;

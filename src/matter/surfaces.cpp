@@ -61,7 +61,8 @@ std::vector<Vec3f> positions_at_start(const MeshCollider& collider) {
   }
   const CarrierPose pose(carrier, 0);
   std::vector<Vec3f> places;
-  for (std::size_t i = 0; i < carrier.rest.size(); ++i) places.push_back(convert<float>(pose.place(static_cast<int>(i))));
+  for (std::size_t i = 0; i < carrier.rest.size(); ++i)
+    places.push_back(convert<float>(pose.place(static_cast<int>(i))));
   return places;
 }
 

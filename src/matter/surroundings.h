@@ -14,12 +14,13 @@ namespace pliant {
 double magnitude(const Vec3f& gravity);
 
 struct Surroundings {
-  std::vector<SetMember> members;       ///< all objects in order, then the mesh colliders as triangles; `rule` is not used
+  std::vector<SetMember> members;  ///< all objects in order, then the mesh colliders as triangles; `rule` is not used
   std::vector<SetMember> other_meshes;  ///< mesh colliders that only particles touch
   bool has_primitives = false;          ///< true if there are colliders that are no meshes
   double gravity = 0;                   ///< its magnitude [m/s^2]
   double frame_time = 1.0 / 60;         ///< [s]
-  /// The rule of a member that is an object, by its number. It is asked only where an inflated object depends on others.
+  /// The rule of a member that is an object, by its number. It is asked only where an inflated object depends on
+  /// others.
   std::function<SubstepRule(std::size_t)> rule_of;
 };
 
@@ -36,7 +37,8 @@ bool can_meet_collider(const Surroundings& surroundings, const Object& object);
 class OpenSets {
  public:
   /// The arguments must outlive this.
-  OpenSets(const Surroundings& surroundings, const Settings& settings) : surroundings_(surroundings), settings_(settings) {}
+  OpenSets(const Surroundings& surroundings, const Settings& settings)
+      : surroundings_(surroundings), settings_(settings) {}
 
   /// The substeps in which chains would solve the inflated object with this number, or fewer.
   int substeps_of(std::size_t number);
@@ -49,8 +51,8 @@ class OpenSets {
   std::vector<SetSubsteps> sets_;
 };
 
-/// The sweep of an object that is added to others. It is the last object of `surroundings`; `others` are the sweeps of those before
-/// it, `automatic` for those too small for sweeps to differ.
+/// The sweep of an object that is added to others. It is the last object of `surroundings`; `others` are the sweeps of
+/// those before it, `automatic` for those too small for sweeps to differ.
 Sweep chosen_sweep(const Object& object, const Surroundings& surroundings, const Settings& settings,
                    const std::vector<Sweep>& others);
 

@@ -76,7 +76,8 @@ Object without_constraints(const Object& object, const std::set<std::pair<int, i
 
 namespace {
 
-/// Throws an Error if an object has no mass for each particle, or a link uses a particle that does not exist, or has no rest length.
+/// Throws an Error if an object has no mass for each particle, or a link uses a particle that does not exist, or has no
+/// rest length.
 void require_sound(const Object& object) {
   require_masses(object);
   for (const ConstraintGroup& group : object.constraints) {
@@ -117,8 +118,8 @@ Cluster part_of(const Cluster& cluster, const std::vector<std::size_t>& indices)
   return part;
 }
 
-/// A cluster whose particles are of several pieces becomes one for each piece, of two particles or more. Particles that nothing joins, as
-/// grains, are a piece together.
+/// A cluster whose particles are of several pieces becomes one for each piece, of two particles or more. Particles that
+/// nothing joins, as grains, are a piece together.
 void divide_clusters(Object& object) {
   if (object.clusters.empty()) return;
   constexpr auto unjoined = static_cast<std::size_t>(-1);
@@ -162,8 +163,8 @@ bool is_held_together(const Object& object, const Breaks& at) {
                      [&](const Face& face) { return std::all_of(face.begin(), face.end(), is_held); });
 }
 
-/// The Edit that breaks an object; nothing if no particle splits and no link goes. Held particles are not split, because their copies would
-/// be held in one place.
+/// The Edit that breaks an object; nothing if no particle splits and no link goes. Held particles are not split,
+/// because their copies would be held in one place.
 std::optional<Edit> broken(const Object& object, const Breaks& at) {
   if (is_held_together(object, at)) return {};
   std::optional<Edit> edit;

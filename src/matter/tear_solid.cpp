@@ -26,8 +26,8 @@ double upper_bound(const double (&a)[3][3]) {
   return mean + std::sqrt(squares * 2 / 3);
 }
 
-/// The greatest stretch of a tetrahedron, and its direction in the rest shape: of F^T F, F the deformation gradient. 1 if it is not above
-/// `enough`.
+/// The greatest stretch of a tetrahedron, and its direction in the rest shape: of F^T F, F the deformation gradient. 1
+/// if it is not above `enough`.
 LongTetrahedron greatest_stretch(const Tetrahedron& t, const std::vector<Vec3f>& rest, std::span<const Vec3f> now,
                                  double enough) {
   const auto edges = [&](const auto& positions, Vec3d(&out)[3]) {
@@ -91,8 +91,9 @@ class SolidTear {
       one.number = t;
       if (one.stretch > limit) found.push_back(one);
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const LongTetrahedron& one, const LongTetrahedron& other) { return one.stretch > other.stretch; });
+    std::stable_sort(found.begin(), found.end(), [](const LongTetrahedron& one, const LongTetrahedron& other) {
+      return one.stretch > other.stretch;
+    });
     return found;
   }
 
@@ -121,7 +122,8 @@ class SolidTear {
     for (const int t : around(p)) {
       near.push_back(tetrahedron(t));
       Vec3d sum = place * -4.;
-      for (const int corner : near.back()) sum = sum + convert<double>(object_.positions[static_cast<std::size_t>(corner)]);
+      for (const int corner : near.back())
+        sum = sum + convert<double>(object_.positions[static_cast<std::size_t>(corner)]);
       is_ahead.push_back(dot(sum, direction) > 0 ? 1 : 0);
     }
     std::set<Face> found;

@@ -1,7 +1,8 @@
 // Tears surfaces where edges are too long, and removes links that are.
 //
-// A tear splits one end of an edge: the triangles around it part by the side of a plane through it, across the edge, on which they lie
-// (Mueller et al. 2007, section 4.6). The mesh around it stays as it was, and the ends of the tear are the next to split.
+// A tear splits one end of an edge: the triangles around it part by the side of a plane through it, across the edge, on
+// which they lie (Mueller et al. 2007, section 4.6). The mesh around it stays as it was, and the ends of the tear are
+// the next to split.
 #include <algorithm>
 
 #include "matter/tears.h"
@@ -21,8 +22,8 @@ struct LongLink {
 std::vector<LongLink> long_links(const Object& object, std::span<const Vec3f> positions) {
   std::vector<LongLink> found;
   for_each_link(object, [&](int group, int number, int a, int b, double rest) {
-    const Vec3d d =
-        convert<double>(positions[static_cast<std::size_t>(b)]) - convert<double>(positions[static_cast<std::size_t>(a)]);
+    const Vec3d d = convert<double>(positions[static_cast<std::size_t>(b)]) -
+                    convert<double>(positions[static_cast<std::size_t>(a)]);
     const double stretch = rest > 0 ? std::sqrt(dot(d, d)) / rest : 0;
     if (stretch > static_cast<double>(object.tearing->stretch)) found.push_back({stretch, group, number, a, b});
   });
@@ -67,8 +68,8 @@ class SurfaceTear {
     for (const int t : around(p))
       for (const int other : triangle(t)) {
         if (other == p) continue;
-        const auto count =
-            std::count_if(around(p).begin(), around(p).end(), [&](int one) { return has_corner(triangle(one), other); });
+        const auto count = std::count_if(around(p).begin(), around(p).end(),
+                                         [&](int one) { return has_corner(triangle(one), other); });
         if (count == 1) return true;
       }
     return false;
@@ -151,8 +152,9 @@ class SurfaceTear {
   const Object& object_;
   std::span<const Vec3f> positions_;
   Around around_;
-  std::vector<char> held_, touched_;      ///< by particle
-  std::vector<std::vector<int>> beside_;  ///< by particle: those at the other ends of its links that belong to no triangle
+  std::vector<char> held_, touched_;  ///< by particle
+  std::vector<std::vector<int>>
+      beside_;  ///< by particle: those at the other ends of its links that belong to no triangle
   Breaks breaks_;
 };
 

@@ -23,7 +23,8 @@ struct Breaks {
   bool any() const { return !edges.empty() || !faces.empty() || !links.empty(); }
 };
 
-/// An object without some of its constraints, given by group and number in it, and without the limits of the lengths that go.
+/// An object without some of its constraints, given by group and number in it, and without the limits of the lengths
+/// that go.
 Object without_constraints(const Object& object, const std::set<std::pair<int, int>>& constraints);
 
 /// Where edges and links of a surface or rope are too long (Object::tearing) at these positions.
@@ -52,7 +53,8 @@ void for_each_link(const Object& object, Body&& body) {
     const std::vector<float>& lengths = object.constraints[static_cast<std::size_t>(g)].rest;
     const Vec3d d = convert<double>(object.positions[static_cast<std::size_t>(b)]) -
                     convert<double>(object.positions[static_cast<std::size_t>(a)]);
-    body(g, c, a, b, lengths.empty() ? std::sqrt(dot(d, d)) : static_cast<double>(lengths[static_cast<std::size_t>(c)]));
+    body(g, c, a, b,
+         lengths.empty() ? std::sqrt(dot(d, d)) : static_cast<double>(lengths[static_cast<std::size_t>(c)]));
   });
 }
 

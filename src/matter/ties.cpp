@@ -20,8 +20,8 @@ namespace {
 void require_particles(const Object& object, const std::vector<int>& particles) {
   for (std::size_t i = 0; i < object.positions.size(); ++i)
     if (const Vec3f& p = object.positions[i]; !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      throw Error({.object = object.name, .element = "particle " + std::to_string(i)}, "has a position that is not finite",
-                  "give finite coordinates in metres");
+      throw Error({.object = object.name, .element = "particle " + std::to_string(i)},
+                  "has a position that is not finite", "give finite coordinates in metres");
   if (particles.empty()) throw Error({.object = object.name}, "ties no particles", "give at least one");
   for (const int p : particles)
     if (p < 0 || static_cast<std::size_t>(p) >= object.positions.size())

@@ -11,9 +11,10 @@ namespace pliant {
 
 namespace {
 
-/// Bounds of the yield under the object's weight, and of the distance from particle to target at the start, as shares of the
-/// object's extent. Targets that are 0.6 % of a sheet farther apart than it is wide made tethers gain energy. Chains that start
-/// at targets 3 % away do less harm than chains that pull their particles off the targets, 10 % away more.
+/// Bounds of the yield under the object's weight, and of the distance from particle to target at the start, as shares
+/// of the object's extent. Targets that are 0.6 % of a sheet farther apart than it is wide made tethers gain energy.
+/// Chains that start at targets 3 % away do less harm than chains that pull their particles off the targets, 10 % away
+/// more.
 constexpr double most_yield_of_pin = 0.002, most_gap_of_pin = 0.001;
 constexpr double most_yield_of_rigid = 1e-5, most_gap_of_rigid = 0.03;
 
@@ -23,8 +24,9 @@ double largest_extent(const std::vector<Vec3f>& positions) {
   double extent = 0;
   if (positions.empty()) return extent;
   for (const auto coordinate : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
-    const auto [low, high] = std::minmax_element(
-        positions.begin(), positions.end(), [&](const Vec3f& a, const Vec3f& b) { return a.*coordinate < b.*coordinate; });
+    const auto [low, high] =
+        std::minmax_element(positions.begin(), positions.end(),
+                            [&](const Vec3f& a, const Vec3f& b) { return a.*coordinate < b.*coordinate; });
     extent = std::max(extent, static_cast<double>((*high).*coordinate) - static_cast<double>((*low).*coordinate));
   }
   return extent;

@@ -27,8 +27,8 @@ class AttachmentTest {
   /// True if the attachment acts like a pin: it is firm, and its target is where its particle starts.
   bool is_like_pin(const Attachment& attachment) const;
 
-  /// True if it also yields so little that nobody could measure it, and its target is near where its particle starts. Chains end
-  /// at its target instead of at the particle.
+  /// True if it also yields so little that nobody could measure it, and its target is near where its particle starts.
+  /// Chains end at its target instead of at the particle.
   bool is_rigid(const Attachment& attachment) const;
 
  private:
@@ -39,8 +39,9 @@ class AttachmentTest {
   double extent_, weight_;
 };
 
-/// For each particle of the user the target that a rigid attachment holds it at, else the particle itself; empty if there is no
-/// such attachment. Of two attachments of a particle the later one counts, as it is the last to be projected.
+/// For each particle of the user the target that a rigid attachment holds it at, else the particle itself; empty if
+/// there is no such attachment. Of two attachments of a particle the later one counts, as it is the last to be
+/// projected.
 std::vector<int> held_by_targets(const Object& object, double gravity);
 
 }  // namespace pliant

@@ -1,7 +1,8 @@
 // The block allocator of a State: each object has one contiguous block of particles in one array.
 //
-// No block ever moves. A removed block leaves a hole, which the first later block that fits takes. So removing an object
-// costs no more than its size, and memory stays bounded under repeated additions and removals. Adjacent holes are merged.
+// No block ever moves. A removed block leaves a hole, which the first later block that fits takes. So removing an
+// object costs no more than its size, and memory stays bounded under repeated additions and removals. Adjacent holes
+// are merged.
 #pragma once
 
 #include <iterator>

@@ -30,7 +30,8 @@ void include(CarrierBox& box, const Vec3d& p) {
 
 }  // namespace
 
-CarrierPose::CarrierPose(const Carrier& carrier, double time) : CarrierPose(carrier, time, pose_at(carrier.motion, time)) {}
+CarrierPose::CarrierPose(const Carrier& carrier, double time)
+    : CarrierPose(carrier, time, pose_at(carrier.motion, time)) {}
 
 CarrierPose::CarrierPose(const Carrier& carrier, double time, const Posed& pose)
     : pose_(pose), before_(&carrier.rest), after_(&carrier.rest) {
@@ -56,7 +57,8 @@ double largest_move(const Carrier& carrier, double from, double to) {
     for (int i = 0; i < static_cast<int>(carrier.rest.size()); ++i) look_at(before.place(i), after.place(i));
   } else {
     const Posed before = pose_at(carrier.motion, from), after = pose_at(carrier.motion, to);
-    for (const Vec3d& corner : box_corners_of(carrier.rest).at) look_at(to_world(before, corner), to_world(after, corner));
+    for (const Vec3d& corner : box_corners_of(carrier.rest).at)
+      look_at(to_world(before, corner), to_world(after, corner));
   }
   return sqrt(most);
 }

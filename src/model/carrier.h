@@ -1,6 +1,7 @@
 // The motion of a mesh collider's vertices: deformation by keyframes, then a rigid motion of the whole mesh.
 //
-// The pose is computed once for all vertices, in double precision: float rounding of positions would appear as velocity.
+// The pose is computed once for all vertices, in double precision: float rounding of positions would appear as
+// velocity.
 #pragma once
 
 #include <vector>
@@ -35,7 +36,8 @@ class CarrierPose {
   double share_ = 0;
 };
 
-/// Upper bound of any vertex's displacement between two times [m]; for a rigid mesh, that of its bounding box's corners.
+/// Upper bound of any vertex's displacement between two times [m]; for a rigid mesh, that of its bounding box's
+/// corners.
 double largest_move(const Carrier& carrier, double from, double to);
 
 /// An axis-aligned box in double precision [m].

@@ -20,7 +20,8 @@ bool has_direction(const ConstraintList& list, int i) {
 }
 
 void move_constraint(const ConstraintList& from, int i, ConstraintList& to) {
-  for (std::size_t slot = 0; slot < 2; ++slot) to.stencils.push_back(from.stencils[2 * static_cast<std::size_t>(i) + slot]);
+  for (std::size_t slot = 0; slot < 2; ++slot)
+    to.stencils.push_back(from.stencils[2 * static_cast<std::size_t>(i) + slot]);
   to.rest.push_back(from.rest[i]);
   to.response.push_back(from.response[i]);
   to.damping.push_back(from.damping[i]);
@@ -91,7 +92,8 @@ void append_colour(const ConstraintList& list, const PathColour& colour, float s
       append_step(list, rows, &colour.paths[first], std::min(batch_width, paths - first), step, pool_number, out);
     out.chains.push_back(batch);
     for (int lane = 0; lane < batch_width; ++lane)
-      out.chain_softness.push_back(first + lane < paths ? softness * mobility_of(colour.paths[first + lane], out) : 0.f);
+      out.chain_softness.push_back(first + lane < paths ? softness * mobility_of(colour.paths[first + lane], out)
+                                                        : 0.f);
   }
   batches.last = static_cast<int>(out.chains.size());
   out.phases.push_back(batches);
@@ -110,7 +112,8 @@ std::vector<Tether> tethers_of(const CompiledObject& object, const std::vector<s
   for (std::size_t i = 0; i < near.size(); ++i) {
     if (object.positions[i].w == 0) continue;
     std::vector<NearSource> sorted = near[i];
-    std::sort(sorted.begin(), sorted.end(), [](const NearSource& a, const NearSource& b) { return a.source < b.source; });
+    std::sort(sorted.begin(), sorted.end(),
+              [](const NearSource& a, const NearSource& b) { return a.source < b.source; });
     for (std::size_t s = 0; s < sorted.size(); ++s) {
       const auto anchor = std::lower_bound(anchors.begin(), anchors.end(), sorted[s].source) - anchors.begin();
       const double length = sorted[s].distance * (1 + double(slack));

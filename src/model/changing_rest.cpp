@@ -71,7 +71,8 @@ class PoolScan {
   void add_scaled(const ChangingGroup& group, std::size_t lane) {
     ScaledGroup& scaled = *std::find_if(out_.scaled.begin(), out_.scaled.end(),
                                         [&](const ScaledGroup& other) { return other.group == group.group; });
-    scaled.places.push_back({number_, static_cast<std::int64_t>(lane / batch_width), static_cast<int>(lane % batch_width)});
+    scaled.places.push_back(
+        {number_, static_cast<std::int64_t>(lane / batch_width), static_cast<int>(lane % batch_width)});
     scaled.rest.push_back(rest(0, lane));
   }
 
@@ -183,7 +184,8 @@ std::int64_t flowed_size(const CompiledObject& object) {
   std::int64_t size = 0;
   for (const PlasticPool& plastic : object.changing.plastic)
     for_plastic(plastic, [&](std::size_t, std::int64_t, int) { size += object.pools[at(plastic.pool)].fields; });
-  for (const PlasticCluster& plastic : object.clusters.plastic) size += static_cast<std::int64_t>(plastic.stretch.size());
+  for (const PlasticCluster& plastic : object.clusters.plastic)
+    size += static_cast<std::int64_t>(plastic.stretch.size());
   return size;
 }
 
@@ -210,7 +212,8 @@ void forget_flow(CompiledObject& object) {
         pool.change(field, batch)[lane] = plastic.start[number * at(pool.fields) + at(field)];
     });
   }
-  for (PlasticCluster& plastic : object.clusters.plastic) set_stretch(object.clusters, plastic, PlasticCluster{}.stretch);
+  for (PlasticCluster& plastic : object.clusters.plastic)
+    set_stretch(object.clusters, plastic, PlasticCluster{}.stretch);
 }
 
 }  // namespace pliant

@@ -37,8 +37,8 @@ struct ScaledGroup {
   float factor_at(double time) const;
 };
 
-/// The groups of an object whose rest data change, before its constraints are moved out of it: each with its type, and which constraints
-/// of that type it holds.
+/// The groups of an object whose rest data change, before its constraints are moved out of it: each with its type, and
+/// which constraints of that type it holds.
 struct ChangingGroup {
   int group = 0, type = 0;
   std::int64_t first = 0, last = 0;  ///< half-open
@@ -55,10 +55,12 @@ struct ChangingRest {
 /// Finds the constraints of these groups in the pools of an object that is compiled.
 ChangingRest compile_changing_rest(const std::vector<ChangingGroup>& groups, const CompiledObject& object);
 
-/// True if the particles of an object without frames are free, and joined by its constraints, so that these cannot turn or move it.
+/// True if the particles of an object without frames are free, and joined by its constraints, so that these cannot turn
+/// or move it.
 bool is_one_free_piece(const CompiledObject& object);
 
-/// The factor of a group of the object number `object` at a time [s]: the one that was set in the State, else that of its keyframes.
+/// The factor of a group of the object number `object` at a time [s]: the one that was set in the State, else that of
+/// its keyframes.
 float factor_of(const ScaledGroup& group, const State& state, int object, double time);
 
 /// Multiplies the rest data of a group by a factor. False if they had it.
@@ -67,7 +69,8 @@ bool set_factor(CompiledObject& object, ScaledGroup& group, float factor);
 /// Lets the rest data and the pressure of an object follow their keyframes to a time [s] within a frame.
 void follow_keyframes(CompiledObject& object, const State& state, int number, double time);
 
-/// The present rest data of all plastic constraints of an object, in the order of its pools, then the stretch of its plastic clusters.
+/// The present rest data of all plastic constraints of an object, in the order of its pools, then the stretch of its
+/// plastic clusters.
 void append_flowed(const CompiledObject& object, std::vector<float>& flowed);
 /// How many numbers that are.
 std::int64_t flowed_size(const CompiledObject& object);

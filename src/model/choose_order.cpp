@@ -28,8 +28,8 @@ using Links = std::vector<std::array<int, 2>>;
 /// The pairs of particles that share a constraint, each once: tetrahedra share their edges. If there are two-particle
 /// constraints, only those count: they are the mesh on which larger stencils are built.
 Links links_of(const std::vector<ConstraintList>& lists, std::size_t particles) {
-  const bool pairs =
-      std::any_of(lists.begin(), lists.end(), [](const ConstraintList& list) { return list.in_lanes && list.size == 2; });
+  const bool pairs = std::any_of(lists.begin(), lists.end(),
+                                 [](const ConstraintList& list) { return list.in_lanes && list.size == 2; });
   Links links;
   for (const ConstraintList& list : lists) {
     if (!list.in_lanes || (pairs && list.size != 2)) continue;

@@ -9,7 +9,8 @@ namespace pliant {
 
 namespace {
 
-/// How far a contact stretches in a substep of 1 s before it parts, over the diameter: pull h^2 (2 / mass) / stiffness [1/s^2].
+/// How far a contact stretches in a substep of 1 s before it parts, over the diameter: pull h^2 (2 / mass) / stiffness
+/// [1/s^2].
 double stretch_at_parting(const Grains& grains) {
   constexpr double sphere = 0.52359877559829887;  // pi / 6: volume over the cube of the diameter
   const double diameter = 2 * static_cast<double>(grains.radius);

@@ -34,7 +34,8 @@ float tether_slack(const Object& object, const CompileOptions& options) {
   return options.tether_slack + static_cast<float>(strain_at_pins * strain);
 }
 
-/// The fixed particles to which tethers lead, in ascending order: all but the targets of attachments that yield or pull from afar.
+/// The fixed particles to which tethers lead, in ascending order: all but the targets of attachments that yield or pull
+/// from afar.
 std::vector<int> anchors_of(const Object& object, double gravity, const CompiledObject& of) {
   const AttachmentTest test(object, gravity);
   const auto holds = [&](int storage) {
@@ -76,8 +77,8 @@ double longest_substep(SubstepRule rule, const CompileOptions& options) {
 /// less: there they err by 5 % beyond what the mesh does.
 constexpr double most_of_hinges = 0.02;
 
-/// True if an object bends as a sheet. Matter that is to keep its motion has hinges, which keep it; so have coarse sheets,
-/// and large ones that come apart, for which each tear would build the energy anew.
+/// True if an object bends as a sheet. Matter that is to keep its motion has hinges, which keep it; so have coarse
+/// sheets, and large ones that come apart, for which each tear would build the energy anew.
 bool is_sheet(const Object& object, SubstepRule rule, const CompileOptions& options) {
   constexpr std::size_t most_torn = 10000;
   const bool comes_apart = object.tearing || !object.cuts.empty();
@@ -88,9 +89,10 @@ bool is_sheet(const Object& object, SubstepRule rule, const CompileOptions& opti
   return !has_long_edges(object, static_cast<double>(options.gravity)) && bends_as_sheet(object, h);
 }
 
-/// Compiles an object. `given_away` is that object if its constraints may be moved out of it, else null. `kept`: null if it is scheduled
-/// for the first time.
-CompiledObject compile(const Object& object, Object* given_away, const CompileOptions& options, const KeptSchedule* kept) {
+/// Compiles an object. `given_away` is that object if its constraints may be moved out of it, else null. `kept`: null
+/// if it is scheduled for the first time.
+CompiledObject compile(const Object& object, Object* given_away, const CompileOptions& options,
+                       const KeptSchedule* kept) {
   CompiledObject out;
   out.name = object.name;
   out.sweep = options.sweep;

@@ -17,7 +17,8 @@ Vec3d place(const CompiledObject& object, int particle) {
 }
 
 /// Adds half the cotangent of the angle at `corner` to the edge across it.
-void add_cotangent(const CompiledObject& object, int corner, int a, int b, std::map<std::pair<int, int>, double>& weights) {
+void add_cotangent(const CompiledObject& object, int corner, int a, int b,
+                   std::map<std::pair<int, int>, double>& weights) {
   const Vec3d to_a = place(object, a) - place(object, corner), to_b = place(object, b) - place(object, corner);
   const double across = length(cross(to_a, to_b));
   weights[std::minmax(a, b)] += across > 0 ? 0.5 * dot(to_a, to_b) / across : 0;

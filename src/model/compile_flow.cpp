@@ -1,4 +1,5 @@
-// Makes the layers of emitters: the lattice across the opening, and the speed at which layers of it have the wanted flow.
+// Makes the layers of emitters: the lattice across the opening, and the speed at which layers of it have the wanted
+// flow.
 #include "model/compile_flow.h"
 
 #include <algorithm>
@@ -24,7 +25,8 @@ Across across(const Emitter& emitter) {
   const Vec3f along = unit(emitter.direction);
   Vec3f wanted = emitter.across - along * dot(emitter.across, along);
   if (!(length_squared(wanted) > 0)) wanted = cross(Vec3f{0, 1, 0}, along);
-  if (!(length_squared(wanted) > 1e-6f * (1 + length_squared(emitter.across)))) wanted = Vec3f{1, 0, 0} - along * along.x;
+  if (!(length_squared(wanted) > 1e-6f * (1 + length_squared(emitter.across))))
+    wanted = Vec3f{1, 0, 0} - along * along.x;
   const Vec3f width = unit(wanted);
   return {width, cross(along, width)};
 }
@@ -34,7 +36,8 @@ std::vector<float> places_along(float size, float distance) {
   const int count = std::max(1, static_cast<int>(std::floor(size / distance * (1 + 1e-5f))));
   std::vector<float> places;
   places.reserve(static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) places.push_back(distance * (static_cast<float>(i) - static_cast<float>(count - 1) / 2));
+  for (int i = 0; i < count; ++i)
+    places.push_back(distance * (static_cast<float>(i) - static_cast<float>(count - 1) / 2));
   return places;
 }
 
@@ -73,7 +76,8 @@ EmitterLayer layer_of(const Emitter& emitter, const Object& object) {
 void compile_flow(const Object& object, CompiledObject& out) {
   out.flow = object.flow;
   if (!object.fluid && !object.grains) return;
-  out.emitted_size = object.grains ? 2 * object.grains->radius * room_of_grains : object.fluid->spacing * room_of_liquid;
+  out.emitted_size =
+      object.grains ? 2 * object.grains->radius * room_of_grains : object.fluid->spacing * room_of_liquid;
   out.emitted_jitter = object.grains ? 2 * object.grains->radius * (distance_of_grains - 1) / 2 : 0;
   for (const Emitter& emitter : object.flow.emitters) out.layers.push_back(layer_of(emitter, object));
 }

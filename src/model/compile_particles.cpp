@@ -12,7 +12,8 @@ namespace pliant {
 
 namespace {
 
-/// Moments of inertia of which none is below a share of the largest. The inertia in world axes would have no correct digit else.
+/// Moments of inertia of which none is below a share of the largest. The inertia in world axes would have no correct
+/// digit else.
 Vec3f conditioned(const Vec3f& inertia) {
   constexpr float least_share = 1e-5f;
   const auto finite = [](float moment) { return std::isinf(moment) ? 0.f : moment; };
@@ -60,7 +61,8 @@ void fill_frames(const Object& object, FrameRecords& out) {
 
 void fill_kinematics(const Object& object, CompiledObject& out) {
   for (const Pin& pin : object.pins) {
-    if (pin.motion.moves()) out.kinematics.push_back({out.place[pin.particle], object.positions[pin.particle], pin.motion});
+    if (pin.motion.moves())
+      out.kinematics.push_back({out.place[pin.particle], object.positions[pin.particle], pin.motion});
   }
   for (std::size_t i = 0; i < object.attachments.size(); ++i) {
     const Attachment& attachment = object.attachments[i];
@@ -78,7 +80,8 @@ namespace {
 /// Fills the places and tiles of an object from its order, and the tile of each particle.
 void fill_tiles(const std::vector<int>& tile, CompiledObject& out) {
   out.place.resize(out.order.size());
-  for (int storage = 0; storage < static_cast<int>(out.order.size()); ++storage) out.place[out.order[storage]] = storage;
+  for (int storage = 0; storage < static_cast<int>(out.order.size()); ++storage)
+    out.place[out.order[storage]] = storage;
   for (int storage = 0; storage < static_cast<int>(out.order.size()); ++storage) {
     const std::size_t t = tile[out.order[storage]];
     if (t >= out.tiles.size()) out.tiles.push_back({storage, storage, 0, 0});

@@ -1,4 +1,5 @@
-// The particles and frames of a compiled object: their numbers, tiles and States at the start, and those that follow keyframes.
+// The particles and frames of a compiled object: their numbers, tiles and States at the start, and those that follow
+// keyframes.
 #pragma once
 
 #include <vector>
@@ -11,7 +12,8 @@ namespace pliant {
 /// The positions of the user's particles, then the targets of attachments.
 std::vector<Vec3f> all_positions(const Object& object);
 
-/// Cuts particles into tiles and numbers them tile by tile. `tile` becomes the tile of each particle, by the user's index.
+/// Cuts particles into tiles and numbers them tile by tile. `tile` becomes the tile of each particle, by the user's
+/// index.
 void number_particles(const std::vector<Vec3f>& positions, const std::vector<ConstraintList>& lists, int largest_tile,
                       std::vector<int>& tile, CompiledObject& out);
 /// Numbers particles as an earlier schedule does. Throws an Error if that is not one of so many particles.

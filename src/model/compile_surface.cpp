@@ -13,7 +13,8 @@ namespace pliant {
 
 namespace {
 
-/// True if the volume ever strains its edges. Stresses that stay would turn a free object by themselves (solver/momentum.h).
+/// True if the volume ever strains its edges. Stresses that stay would turn a free object by themselves
+/// (solver/momentum.h).
 bool is_strained(const Volume& volume) {
   if (volume.keyframes.empty()) return volume.pressure != 1;
   return std::any_of(volume.keyframes.begin(), volume.keyframes.end(),
@@ -57,7 +58,8 @@ double pressure_at(const Volume& volume, double time) {
     times.reserve(keys.size());
     for (const PressureKeyframe& key : keys) times.push_back(key.time);
     const TimePlace at = place_in(times, false, time);
-    const auto before = static_cast<double>(keys[at.before].pressure), after = static_cast<double>(keys[at.after].pressure);
+    const auto before = static_cast<double>(keys[at.before].pressure),
+               after = static_cast<double>(keys[at.after].pressure);
     pressure = before + at.share * (after - before);
   }
   if (!(volume.leak > 0 && pressure > 1)) return pressure;
@@ -81,7 +83,8 @@ void fill_volume(const Object& object, int passes, CompiledObject& out) {
     const Vec3f& p = object.positions[i];
     return Vec3<double>{double(p.x) - o.x, double(p.y) - o.y, double(p.z) - o.z};
   };
-  for (const auto& t : object.triangles) six_volumes += dot(cross(from_origin(t[0]), from_origin(t[1])), from_origin(t[2]));
+  for (const auto& t : object.triangles)
+    six_volumes += dot(cross(from_origin(t[0]), from_origin(t[1])), from_origin(t[2]));
   const Stiffness& stiffness = object.volume->stiffness;
   const bool pbd = stiffness.kind == Stiffness::Kind::pbd;
   out.has_volume = true;

@@ -11,7 +11,8 @@ struct CompiledObject;
 struct Object;
 
 struct CompiledAbsorbency {
-  /// An edge along which liquid spreads. Flow through it is diffusivity times `weight` times the difference of what both ends hold on an area.
+  /// An edge along which liquid spreads. Flow through it is diffusivity times `weight` times the difference of what
+  /// both ends hold on an area.
   struct Edge {
     int a = 0, b = 0;  ///< particles in storage order, a < b
     float weight =

@@ -90,7 +90,8 @@ void find_ties(const Object& object, const std::vector<int>& place, CompiledBodi
   // A joint may act on a body's particle alone, as a rack and pinion does on the rack.
   const auto exists = [&](int body) { return body >= 0 && static_cast<std::size_t>(body) < object.bodies.size(); };
   for (const ObjectJoint& joint : object.joints)
-    if (exists(joint.a) && exists(joint.b) && joint.a != joint.b) out.jointed.emplace_back(std::minmax(joint.a, joint.b));
+    if (exists(joint.a) && exists(joint.b) && joint.a != joint.b)
+      out.jointed.emplace_back(std::minmax(joint.a, joint.b));
   sort_once(out.jointed);
   sort_once(out.attached);
 }
@@ -122,8 +123,9 @@ std::vector<double> edge_lengths_of(const Object& object, const std::vector<int>
 }
 
 bool turns(const Motion& motion) {
-  return std::any_of(motion.keyframes.begin(), motion.keyframes.end(),
-                     [](const Keyframe& key) { return key.rotation.x != 0 || key.rotation.y != 0 || key.rotation.z != 0; });
+  return std::any_of(motion.keyframes.begin(), motion.keyframes.end(), [](const Keyframe& key) {
+    return key.rotation.x != 0 || key.rotation.y != 0 || key.rotation.z != 0;
+  });
 }
 
 void find_surface_velocities(const Object& object, CompiledBodies& out) {

@@ -50,7 +50,9 @@ struct CompiledBodies {
 
   bool empty() const { return bodies.empty(); }
   /// True if a particle, by storage index, is the centre of a body. Such particles touch nothing by themselves.
-  bool has_centre(int particle) const { return !is_centre.empty() && is_centre[static_cast<std::size_t>(particle)] != 0; }
+  bool has_centre(int particle) const {
+    return !is_centre.empty() && is_centre[static_cast<std::size_t>(particle)] != 0;
+  }
   std::vector<char> is_centre;  ///< [particle]; empty without bodies
 };
 
@@ -60,8 +62,8 @@ std::string words_of_body(const CompiledBodies& bodies, int body, const std::str
 /// Compiles the bodies of an object. `place` are the storage indices of its particles.
 CompiledBodies compile_bodies(const Object& object, const std::vector<int>& place, int particles);
 
-/// The convex shape of a solid or primitive collider other than a plane. A box or hull points to a polyhedron of `polyhedra`, which
-/// has room for it.
+/// The convex shape of a solid or primitive collider other than a plane. A box or hull points to a polyhedron of
+/// `polyhedra`, which has room for it.
 ConvexShape convex_shape_of(const SolidShape& shape, std::vector<Polyhedron>& polyhedra);
 
 }  // namespace pliant

@@ -80,7 +80,8 @@ std::span<const ClusterMember> members_of(const CompiledClusters& clusters, cons
       .subspan(static_cast<std::size_t>(cluster.first), static_cast<std::size_t>(cluster.last - cluster.first));
 }
 
-/// The orthonormal basis of the moments sum w q q^T of the rest shape, n x n. Sets what else of a cluster follows from them.
+/// The orthonormal basis of the moments sum w q q^T of the rest shape, n x n. Sets what else of a cluster follows from
+/// them.
 std::vector<double> basis_of(std::span<const ClusterMember> members, int n, CompiledCluster& cluster) {
   cluster.means = {};
   for (const ClusterMember& m : members) {
@@ -114,7 +115,8 @@ void add_plastic(const Object& object, const Cluster& from, const std::vector<in
   plastic.cluster = static_cast<int>(out.clusters.size()) - 1;
   plastic.law = *from.plasticity;
   for (const ClusterMember& member : members_of(out, out.clusters.back())) plastic.start.push_back(member.rest);
-  for (const ClusterMember& member : members_of(object, from, place)) plastic.given.push_back(convert<float>(member.rest));
+  for (const ClusterMember& member : members_of(object, from, place))
+    plastic.given.push_back(convert<float>(member.rest));
   out.plastic.push_back(std::move(plastic));
 }
 
@@ -158,8 +160,9 @@ void set_stretch(CompiledClusters& clusters, PlasticCluster& plastic, const std:
                                    stretch[5], stretch[6], stretch[7], stretch[8]};
   for (std::size_t i = 0; i < plastic.start.size(); ++i) {
     const Vec3d& q = plastic.start[i];
-    clusters.members[static_cast<std::size_t>(cluster.first) + i].rest = {
-        s[0] * q.x + s[1] * q.y + s[2] * q.z, s[3] * q.x + s[4] * q.y + s[5] * q.z, s[6] * q.x + s[7] * q.y + s[8] * q.z};
+    clusters.members[static_cast<std::size_t>(cluster.first) + i].rest = {s[0] * q.x + s[1] * q.y + s[2] * q.z,
+                                                                          s[3] * q.x + s[4] * q.y + s[5] * q.z,
+                                                                          s[6] * q.x + s[7] * q.y + s[8] * q.z};
   }
   const int n = moments_of(cluster.mode);
   if (n == 0) return;

@@ -11,8 +11,8 @@
 
 namespace pliant {
 
-/// A rest position about the cluster's centre of mass, over its size: (x, y, z), then x^2, y^2, z^2, x y, y z, z x less their means.
-/// `linear` needs the first three, `quadratic` all nine.
+/// A rest position about the cluster's centre of mass, over its size: (x, y, z), then x^2, y^2, z^2, x y, y z, z x less
+/// their means. `linear` needs the first three, `quadratic` all nine.
 inline constexpr int most_moments = 9;
 
 struct CompiledCluster {
@@ -53,8 +53,8 @@ struct CompiledClusters {
   std::vector<PlasticCluster> plastic;
 };
 
-/// `place` is that of CompiledObject, `inverse_masses` has those of particles in storage order, `passes` is that of CompileOptions. A
-/// particle of infinite mass weighs as much as 10 000 of its cluster.
+/// `place` is that of CompiledObject, `inverse_masses` has those of particles in storage order, `passes` is that of
+/// CompileOptions. A particle of infinite mass weighs as much as 10 000 of its cluster.
 CompiledClusters compile_clusters(const Object& object, const std::vector<int>& place,
                                   const std::vector<float>& inverse_masses, int passes);
 

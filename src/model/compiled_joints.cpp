@@ -81,7 +81,8 @@ CompiledJoint::Motor motor_of(const Object& object, const CompiledObject& compil
     if (k > 0 && !(key.time > motor.keyframes[k - 1].time))
       refuse(object, joint, "has a motor whose keyframe " + std::to_string(k) + " is not after the one before");
   }
-  if (motor.is_torque && motor.to_position) refuse(object, joint, "has a motor to a position that is one of a torque, too");
+  if (motor.is_torque && motor.to_position)
+    refuse(object, joint, "has a motor to a position that is one of a torque, too");
   const auto value = [&](int field) { return pool.blocks[place_of(pool, part, field)]; };
   const float most = value(joint::motor_most), speed = value(joint::motor_speed);
   const float target = motor.is_torque     ? (speed < 0 ? -most : most)

@@ -44,8 +44,8 @@ struct CompiledJoint {
   bool may_break() const { return break_force > 0 || break_torque > 0; }
 };
 
-/// Compiles the joints of an object whose constraints are compiled. Throws an Error if a joint names a body or a constraint that
-/// does not exist.
+/// Compiles the joints of an object whose constraints are compiled. Throws an Error if a joint names a body or a
+/// constraint that does not exist.
 std::vector<CompiledJoint> compile_joints(const Object& object, const CompiledObject& compiled);
 
 /// Sets the target and the greatest torque or force of a motor in the rest data. An angle counts modulo a full turn.

@@ -97,9 +97,10 @@ struct LengthRange {
 
 /// What edits added to an object whose schedule was kept (model/keep_schedule.h).
 struct Additions {
-  bool are_used = false;       ///< true: the schedule was kept
-  int first_particle = 0;      ///< in storage; as many as there are particles if none were added
-  std::vector<char> segments;  ///< 1 for each segment of constraints that were coloured by an edit; may be shorter than all
+  bool are_used = false;   ///< true: the schedule was kept
+  int first_particle = 0;  ///< in storage; as many as there are particles if none were added
+  std::vector<char>
+      segments;  ///< 1 for each segment of constraints that were coloured by an edit; may be shorter than all
 };
 
 /// The output of compile(). It has over thirty members, because each stage of a step reads a few of them.

@@ -42,7 +42,8 @@ std::uint64_t hash_of(const int* particles, std::size_t size) {
   return sum;
 }
 
-/// Finds for each constraint after an edit the one before it that has the same particles. Most are in the same order, so it walks along both.
+/// Finds for each constraint after an edit the one before it that has the same particles. Most are in the same order,
+/// so it walks along both.
 class Match {
  public:
   /// `is_touched`: 1 for particles that are new, or of which there are copies now.
@@ -139,7 +140,8 @@ class Following {
       out_.tile_ends.back() += std::min(room, left);
       left -= std::min(room, left);
     }
-    for (; left > 0; left -= largest_tile) out_.tile_ends.push_back(out_.tile_ends.back() + std::min(left, largest_tile));
+    for (; left > 0; left -= largest_tile)
+      out_.tile_ends.push_back(out_.tile_ends.back() + std::min(left, largest_tile));
   }
 
   /// The particles of constraints before, by type, as the compiled object has them.
@@ -180,7 +182,8 @@ class Following {
         if (numbers[lane] < 0) continue;
         to.are_there[at(numbers[lane])] = 1;
         for (int slot = 0; slot < pool.stencil; ++slot)
-          to.particles[at(numbers[lane]) * to.size + at(slot)] = out_.order[at(particle_of(segment, indices, slot, lane))];
+          to.particles[at(numbers[lane]) * to.size + at(slot)] =
+              out_.order[at(particle_of(segment, indices, slot, lane))];
       }
     }
   }
@@ -266,7 +269,8 @@ bool begins_with(const CompiledObject& before, const Object& after, const std::v
 
 }  // namespace
 
-std::optional<KeptSchedule> follow_edit(const CompiledObject& before, const Object& after, const std::vector<int>& from) {
+std::optional<KeptSchedule> follow_edit(const CompiledObject& before, const Object& after,
+                                        const std::vector<int>& from) {
   if (before.tiles.size() < 2 || before.sweep == Sweep::natural || !begins_with(before, after, from)) return {};
   return Following(before, after, from).make();
 }

@@ -110,7 +110,8 @@ class Gatherer {
       refuse(std::to_string(group.particles.size()) + " particles cannot be divided into stencils of " +
              std::to_string(size));
     if (!group.rest.empty() && group.rest.size() != count * fields)
-      refuse(std::to_string(group.rest.size()) + " rest values where " + std::to_string(count * fields) + " are needed");
+      refuse(std::to_string(group.rest.size()) + " rest values where " + std::to_string(count * fields) +
+             " are needed");
     if (group.rest.empty() && fields > 0 && type.measure == nullptr && count > 0)
       refuse("this type cannot measure its rest data: give `rest`");
     if (!group.compliances.empty() && group.compliances.size() != count)

@@ -138,7 +138,8 @@ class Fans {
     }
   }
 
-  /// The largest fan of free tetrahedra among those of an edge, [first, last); an empty one if fewer than `wanted` are free.
+  /// The largest fan of free tetrahedra among those of an edge, [first, last); an empty one if fewer than `wanted` are
+  /// free.
   Fan largest_at(std::size_t first, std::size_t last, std::size_t wanted) const {
     const auto is_free = [&](const AtEdge& edge) { return is_free_[at(edge.tetrahedron)] != 0; };
     const auto from = edges_.begin() + static_cast<std::ptrdiff_t>(first),
@@ -170,7 +171,8 @@ class Fans {
       fan.tetrahedra[at(fan.count++)] = next->tetrahedron;
       if (!closes) fan.ring[at(fan.ring_size++)] = next->to;
       const int from = next->to;
-      const auto found = std::find_if(free.begin(), free.end(), [&](const AtEdge& other) { return other.from == from; });
+      const auto found =
+          std::find_if(free.begin(), free.end(), [&](const AtEdge& other) { return other.from == from; });
       next = found != free.end() ? &*found : nullptr;
     }
     return fan;

@@ -1,8 +1,9 @@
 // Keeps the schedule of an object over an edit, so that only what the edit reached is scheduled again.
 //
-// Particles that an edit adds are stored after the others, in tiles of their own, so no other particle moves. A constraint that has the
-// same particles as before keeps its colour. Others go into colours that are for them, each into the first in which its particles are free.
-// When these are more than a quarter of all, or such particles are, the object is scheduled from scratch.
+// Particles that an edit adds are stored after the others, in tiles of their own, so no other particle moves. A
+// constraint that has the same particles as before keeps its colour. Others go into colours that are for them, each
+// into the first in which its particles are free. When these are more than a quarter of all, or such particles are, the
+// object is scheduled from scratch.
 #pragma once
 
 #include <optional>
@@ -18,11 +19,13 @@ namespace pliant {
 /// The schedule of a compiled object.
 KeptSchedule schedule_of(const CompiledObject& object);
 
-/// What an edit leaves of the schedule of an object. Nothing if it is better made from scratch: the object is small, particles went or changed places, or
-/// more than a quarter of them were added by edits.
-std::optional<KeptSchedule> follow_edit(const CompiledObject& before, const Object& after, const std::vector<int>& from);
+/// What an edit leaves of the schedule of an object. Nothing if it is better made from scratch: the object is small,
+/// particles went or changed places, or more than a quarter of them were added by edits.
+std::optional<KeptSchedule> follow_edit(const CompiledObject& before, const Object& after,
+                                        const std::vector<int>& from);
 
-/// True if more than a quarter of the constraints in lanes have colours of edits: then the object is better scheduled from scratch.
+/// True if more than a quarter of the constraints in lanes have colours of edits: then the object is better scheduled
+/// from scratch.
 bool has_many_additions(const CompiledObject& object);
 
 /// Throws an Error if a schedule does not fit an object of so many particles, with the targets of its attachments.

@@ -10,8 +10,8 @@ namespace pliant {
 /// The ranges of an object, in the order of its segments.
 std::vector<LengthRange> find_length_ranges(const CompiledObject& object);
 
-/// Calls body(pool, first, last) for the parts of a range whose segments [first, last) are of one pool of distances with
-/// multipliers. PBD stiffness has none.
+/// Calls body(pool, first, last) for the parts of a range whose segments [first, last) are of one pool of distances
+/// with multipliers. PBD stiffness has none.
 template <class Body>
 void for_lengths(const CompiledObject& object, const LengthRange& range, const Body& body) {
   for (int first = range.first; first < range.last;) {

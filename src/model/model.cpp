@@ -180,7 +180,8 @@ void clear_frames(int first, int count, FrameRecords& frames) {
 
 namespace {
 
-/// Sets a channel of an object's particles. Channels are ordered by name, so that their order does not depend on that of objects.
+/// Sets a channel of an object's particles. Channels are ordered by name, so that their order does not depend on that
+/// of objects.
 void fill_channel(const Model& model, int object, const char* name, float value, State& state) {
   auto channel =
       std::find_if(state.channels.begin(), state.channels.end(), [&](const Channel& one) { return one.name >= name; });
@@ -210,7 +211,8 @@ void put_at_start(const Model& model, int object, State& state) {
   const CompiledObject& from = model.objects[object];
   const auto particles = static_cast<std::size_t>(model.particles());
   for (Records* records : {&state.positions, &state.remainders, &state.velocities}) records->resize(particles);
-  if (state.blocks.size() <= static_cast<std::size_t>(object)) state.blocks.resize(static_cast<std::size_t>(object) + 1);
+  if (state.blocks.size() <= static_cast<std::size_t>(object))
+    state.blocks.resize(static_cast<std::size_t>(object) + 1);
   state.blocks[object] = {model.first[object], from.particles, model.generation[object]};
   resize_frames(model, state.frames);
   const auto put = [&](const Records& start, Records& all) {
@@ -223,7 +225,8 @@ void put_at_start(const Model& model, int object, State& state) {
   std::fill_n(state.velocities.begin() + model.first[object], from.particles, Record{});
   std::copy(from.velocities.begin(), from.velocities.end(), state.velocities.begin() + model.first[object]);
   std::fill_n(state.remainders.begin() + model.first[object], from.particles, Record{});
-  for (Channel& channel : state.channels) channel.values.resize(particles * static_cast<std::size_t>(channel.components));
+  for (Channel& channel : state.channels)
+    channel.values.resize(particles * static_cast<std::size_t>(channel.components));
   if (from.gas) fill_channel(model, object, temperature_channel, from.gas->temperature, state);
   if (from.tracers) fill_channel(model, object, age_channel, no_age, state);
   if (from.absorbency.is_used) fill_channel(model, object, water_channel, 0, state);

@@ -125,7 +125,8 @@ Graph merge(const Graph& graph, const std::vector<int>& group, int groups) {
 
 // ---------------------------------------------------------------- levels
 
-/// Lays out rows and neighbours as the slots of a level. Returns the position of each link of the graph: 16 x slot + lane.
+/// Lays out rows and neighbours as the slots of a level. Returns the position of each link of the graph: 16 x slot +
+/// lane.
 std::vector<std::int32_t> lay_out(const Graph& graph, MultigridLevel& level) {
   level.rows = graph.size();
   level.first_slot.assign(1, 0);
@@ -325,7 +326,8 @@ Measures measure(const std::vector<Spring>& springs, const std::vector<Record>& 
 /// The stiffness limit at each particle: each edge of a cross-section carries its share of the object's weight, more
 /// near few pins.
 std::vector<float> stiffness_limits(const std::vector<Spring>& springs, const Graph& graph,
-                                    const std::vector<Record>& positions, const std::vector<char>& fixed, float gravity) {
+                                    const std::vector<Record>& positions, const std::vector<char>& fixed,
+                                    float gravity) {
   const Measures m = measure(springs, positions);
   const double across = std::max(1., static_cast<double>(positions.size()) * m.spacing / std::max(m.extent, 1e-30));
   const double load = m.mass * std::max(double(gravity), least_acceleration);
@@ -381,7 +383,8 @@ void fill_springs(const std::vector<Spring>& springs, const std::vector<Link>& l
 
 }  // namespace
 
-Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::vector<Record>& positions, float gravity) {
+Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::vector<Record>& positions,
+                          float gravity) {
   Multigrid out;
   std::vector<Spring> springs = springs_of(lists);
   const int particles = static_cast<int>(positions.size());

@@ -3,8 +3,8 @@
 // built once; each solve computes their numerical values.
 //
 // A level is a sparse block matrix of 3 x 3 blocks by rows, in layout for sixteen lanes. Sixteen consecutive rows are a
-// batch: row 16 b + 4 (l % 4) + l / 4 is lane l of batch b (math/wide.h). A slot holds one neighbour of each row; missing
-// neighbours refer to the row itself, which adds nothing.
+// batch: row 16 b + 4 (l % 4) + l / 4 is lane l of batch b (math/wide.h). A slot holds one neighbour of each row;
+// missing neighbours refer to the row itself, which adds nothing.
 #pragma once
 
 #include <cstdint>
@@ -29,10 +29,11 @@ struct MultigridLevel {
   AlignedVector<float> stiffness, rest_length;  ///< for each slot, sixteen values [N/m] and [m]
 
   // Coarser levels only: each block is a sum of blocks of the finer level. Slot s adds rounds first_round[s] to
-  // first_round[s + 1]; a round has for each lane the finer block's row_of(slot, lane), or the finer level's no_block().
-  // Anchors are blocks between a row and a fixed particle.
+  // first_round[s + 1]; a round has for each lane the finer block's row_of(slot, lane), or the finer level's
+  // no_block(). Anchors are blocks between a row and a fixed particle.
   std::vector<std::int32_t> first_round, sources;
-  std::vector<std::int32_t> anchor_begin, anchors;  ///< blocks to fixed particles: list starts by 16 x batch + lane; lists
+  std::vector<std::int32_t> anchor_begin,
+      anchors;                         ///< blocks to fixed particles: list starts by 16 x batch + lane; lists
   std::vector<std::int32_t> children;  ///< largest_group x 16 per batch: rows of the finer level, or its nothing()
 
   std::vector<std::int32_t> parent;  ///< by 16 x batch + lane: row of the next level, or its nothing()
@@ -48,7 +49,7 @@ struct MultigridLevel {
 /// The levels of one object. There are none if it has no distance constraint with a positive rest length.
 struct Multigrid {
   std::vector<MultigridLevel> levels;
-  std::vector<std::int32_t> piece;           ///< for each particle, index of its connected component of springs; -1: none
+  std::vector<std::int32_t> piece;  ///< for each particle, index of its connected component of springs; -1: none
   std::vector<std::int32_t> coarsest_piece;  ///< connected component of each row of the last level; -1: none
   int pieces = 0;
   /// Batches of the finest level in which a row has a neighbour of another component, such as a fixed particle.
@@ -65,9 +66,12 @@ PLIANT_HD int lane_place(int row) {
 }
 
 /// The spring stiffness of a distance constraint [N/m]: 1 / compliance, at most `limit`.
-PLIANT_HD float spring_stiffness(float compliance, float limit) { return compliance * limit > 1 ? 1 / compliance : limit; }
+PLIANT_HD float spring_stiffness(float compliance, float limit) {
+  return compliance * limit > 1 ? 1 / compliance : limit;
+}
 
 /// Builds the levels. `positions`: in storage order, inverse mass in w; `gravity`: its magnitude [m/s^2].
-Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::vector<Record>& positions, float gravity);
+Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::vector<Record>& positions,
+                          float gravity);
 
 }  // namespace pliant

@@ -86,8 +86,9 @@ bool swings(const Object& object) {
 /// An inflated object may have up to twice substeps_of_volumes, with which its overstretch stays below 2 %.
 constexpr int most_substeps_of_volumes = 160;
 constexpr double wanted_overstretch = 0.018;
-/// Substeps of a sheet that is meant to stretch and hangs, for each edge along a square of as many particles as one held particle bears.
-/// Measured with 24 to 96 particles a side, held by 1 to 16: forces gather at what is held, and travel along chains of one substep.
+/// Substeps of a sheet that is meant to stretch and hangs, for each edge along a square of as many particles as one
+/// held particle bears. Measured with 24 to 96 particles a side, held by 1 to 16: forces gather at what is held, and
+/// travel along chains of one substep.
 constexpr double substeps_per_edge_of_stretching = 1.6;
 /// Beyond this overstretch an inflated object would jitter: its edges gain energy from the volume that pushes them.
 constexpr double most_overstretch_of_volumes = 0.08;
@@ -117,14 +118,17 @@ double mean_mass(const Object& object) {
   return count > 0 ? sum / count : 0;
 }
 
-/// The substeps of a sheet that is meant to stretch and solved by chains. The law of the State cannot tell its strain from overstretch.
+/// The substeps of a sheet that is meant to stretch and solved by chains. The law of the State cannot tell its strain
+/// from overstretch.
 int substeps_of_stretching(const Object& object) {
   const std::size_t held = object.pins.size() + object.attachments.size() +
                            static_cast<std::size_t>(std::count_if(object.masses.begin(), object.masses.end(),
                                                                   [](float m) { return std::isinf(m); }));
   if (held == 0 || object.triangles.empty()) return substeps_of_others;
-  const double borne = static_cast<double>(object.positions.size()) / static_cast<double>(std::max<std::size_t>(held, 2));
-  const int quarter = static_cast<int>(std::ceil(std::min(substeps_per_edge_of_stretching * std::sqrt(borne) / 4, 1e4)));
+  const double borne =
+      static_cast<double>(object.positions.size()) / static_cast<double>(std::max<std::size_t>(held, 2));
+  const int quarter =
+      static_cast<int>(std::ceil(std::min(substeps_per_edge_of_stretching * std::sqrt(borne) / 4, 1e4)));
   return std::clamp(4 * quarter, substeps_of_others, most_substeps_of_volumes);
 }
 
@@ -141,8 +145,8 @@ std::vector<std::vector<int>> classes_of(const std::vector<SetMember>& members) 
   for (int i = 0; i < static_cast<int>(members.size()); ++i) {
     const SetMember& m = members[i];
     const std::size_t number = numbers
-                                   .try_emplace({m.groups, m.mask, m.collides, m.is_collider, m.spacing, m.speed_of_sound,
-                                                 m.is_of_grains, m.is_of_gas, m.place},
+                                   .try_emplace({m.groups, m.mask, m.collides, m.is_collider, m.spacing,
+                                                 m.speed_of_sound, m.is_of_grains, m.is_of_gas, m.place},
                                                 classes.size())
                                    .first->second;
     if (number == classes.size()) classes.emplace_back();
@@ -200,7 +204,8 @@ bool can_follow_volume(const Object& object, double substep) {
   return overstretch_of_inflated(object, substep) <= most_overstretch_of_volumes;
 }
 
-/// The heights between which an object's particles are at the start [m]. Those that may be emitted are taken to lie in a cube with them.
+/// The heights between which an object's particles are at the start [m]. Those that may be emitted are taken to lie in
+/// a cube with them.
 struct Heights {
   float low = 0, high = 0;
 };
@@ -215,8 +220,8 @@ Heights heights_of(const Object& object) {
   }
   if (start == object.positions.size()) return of;
   const float size = object.fluid ? object.fluid->spacing : 2 * object.grains->radius;
-  of.high = std::max(of.high,
-                     of.low + size * static_cast<float>(pliant::pow(static_cast<double>(object.positions.size()), 1. / 3)));
+  of.high = std::max(
+      of.high, of.low + size * static_cast<float>(pliant::pow(static_cast<double>(object.positions.size()), 1. / 3)));
   return of;
 }
 
@@ -228,8 +233,9 @@ double depth_of(const Object& object) {
 
 namespace {
 
-/// The height of a pile without mass scaling whose lowest contact yields as much as under any pile with it [m]. A grain over others of
-/// r = exp(-k d) times its weight bears (1 + r) / (1 - r) times what one grain moves it, instead of two for each that lies on it.
+/// The height of a pile without mass scaling whose lowest contact yields as much as under any pile with it [m]. A grain
+/// over others of r = exp(-k d) times its weight bears (1 + r) / (1 - r) times what one grain moves it, instead of two
+/// for each that lies on it.
 double height_borne(const Grains& grains) {
   const double diameter = 2 * static_cast<double>(grains.radius);
   const double ratio = pliant::exp(-static_cast<double>(grains.mass_scaling) * diameter);
@@ -250,14 +256,16 @@ int substeps_of_grains(const GrainHeights& grains, double height) {
   constexpr double overlap = 0.03, stiffness = static_cast<double>(stiffness_of_grains);  // over the diameter
   const double diameter = static_cast<double>(grains.diameter), frame_time = static_cast<double>(grains.frame_time);
   const double depth = std::max(height, 10 * diameter);
-  // A grain bears `depth / diameter` others, each of which falls by g h^2 in a substep; it yields by twice that over the stiffness.
+  // A grain bears `depth / diameter` others, each of which falls by g h^2 in a substep; it yields by twice that over
+  // the stiffness.
   const double h = diameter * std::sqrt(overlap * stiffness / (2 * least_acceleration * depth));
   return std::clamp(static_cast<int>(std::ceil(std::min(frame_time / h, 1e4))), 8, 1000);
 }
 
 namespace {
 
-/// The largest acceleration of what weighs in an object of fluid [m/s^2]. A gas weighs what its weight differs from that of air.
+/// The largest acceleration of what weighs in an object of fluid [m/s^2]. A gas weighs what its weight differs from
+/// that of air.
 double acceleration_of_fluid(const Object& object) {
   constexpr double least = 0.2;  // of gravity: what moves presses too
   if (!object.gas) return least_acceleration;
@@ -296,9 +304,9 @@ int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_
   if (object.tracers) return 1;
   if (object.fluid) return std::max(substeps_of_fluid(object, frame_time), substeps_of_tension(object, frame_time));
   if (object.grains)
-    return std::max(
-        substeps_of_grains(heights_of_grains(object, frame_time), std::min(depth_of(object), height_borne(*object.grains))),
-        substeps_of_cohesion(object, frame_time));
+    return std::max(substeps_of_grains(heights_of_grains(object, frame_time),
+                                       std::min(depth_of(object), height_borne(*object.grains))),
+                    substeps_of_cohesion(object, frame_time));
   if (is_soft_body(object)) return substeps_of_soft_body(object, frame_time);
   const bool is_of_bodies = !object.bodies.empty() && object.bodies.size() == object.positions.size();
   if (is_of_bodies && !has_converted(object)) return substeps_of_bodies;
@@ -374,7 +382,8 @@ std::vector<int> find_sets(const std::vector<SetMember>& members) {
 
 namespace {
 
-/// The heights of a set's grains at the start. They come to lie upon one another: no higher than all together, nor than the sum of each.
+/// The heights of a set's grains at the start. They come to lie upon one another: no higher than all together, nor than
+/// the sum of each.
 struct SetHeight {
   double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0;
 

@@ -1,4 +1,5 @@
-// Sets of objects that can meet. All objects of a set have the same substeps, which objects of other sets do not affect.
+// Sets of objects that can meet. All objects of a set have the same substeps, which objects of other sets do not
+// affect.
 //
 // Two objects are in one set if groups, masks and `collides` let their surfaces touch, directly or through other
 // objects. In a World they must also be near (solver/near_sets.h). Mesh colliders as triangles join the sets that they
@@ -19,43 +20,48 @@ inline constexpr int substeps_of_multigrid = 10, substeps_of_others = 20;
 
 /// Substeps of sets of rigid bodies alone: boxes of a wall of 30 rows sink by 1 cm, 3 with 16.
 inline constexpr int substeps_of_bodies = 8;
-/// The least substeps of sets of rigid bodies and what deforms: with them a ball that lands on cloth bounces less each time.
+/// The least substeps of sets of rigid bodies and what deforms: with them a ball that lands on cloth bounces less each
+/// time.
 inline constexpr int substeps_of_coupled = 40;
 
 /// Pins or anchors within this share of an object's extent lie together: it swings about them.
 inline constexpr double swinging_share = 0.25;
 
 /// The largest number of substeps of any object; chosen_settings(scene) has 0 substeps if objects differ.
-inline int most_substeps_of(const Settings& chosen) { return chosen.substeps > 0 ? chosen.substeps : substeps_of_others; }
+inline int most_substeps_of(const Settings& chosen) {
+  return chosen.substeps > 0 ? chosen.substeps : substeps_of_others;
+}
 
 /// The substeps that an object needs by itself. An object with PBD stiffness between 0 and 1 gets substeps_of_others,
 /// the largest default: its stiffness is converted for a fixed number of projections, which no set may change. With
 /// `multigrid`, objects are disturbed that can touch, that are blown about by wind or force fields, whose pins move, or
 /// that swing about pins which lie together; others need half as many.
-/// An inflated object needs more the longer the frame is [s]. A sheet that is meant to stretch and hangs from few of its many particles
-/// needs more too, if chains solve it.
+/// An inflated object needs more the longer the frame is [s]. A sheet that is meant to stretch and hangs from few of
+/// its many particles needs more too, if chains solve it.
 int own_substeps(const Object& object, Sweep sweep, bool is_blown, double frame_time = 1.0 / 60);
 
-/// The strain of an object's edges at its target volume if it grows alike in all directions: pressure^(1/3) - 1. 0 if its pressure
-/// is 1 or less.
+/// The strain of an object's edges at its target volume if it grows alike in all directions: pressure^(1/3) - 1. 0 if
+/// its pressure is 1 or less.
 double strain_of_inflated(const Object& object);
 
-/// Substeps of chains where there is a volume, which is corrected after the lengths and pushes them out again: an edge in a
-/// hundred of a balloon is 5 % too long with 20, 0.6 % with 80.
+/// Substeps of chains where there is a volume, which is corrected after the lengths and pushes them out again: an edge
+/// in a hundred of a balloon is 5 % too long with 20, 0.6 % with 80.
 inline constexpr int substeps_of_volumes = 80;
 
-/// The overstretch (p99) that chains leave in an inflated object at rest, in substeps of the given duration [s]. Lengths and
-/// volume are projected in turn, and each turn leaves a share h^2 / (compliance mass) of the strain: 1.8 times that, measured over
-/// stiffnesses of 1 : 36 and pressures of 1.02 to 2. Infinite if edges are rigid.
+/// The overstretch (p99) that chains leave in an inflated object at rest, in substeps of the given duration [s].
+/// Lengths and volume are projected in turn, and each turn leaves a share h^2 / (compliance mass) of the strain: 1.8
+/// times that, measured over stiffnesses of 1 : 36 and pressures of 1.02 to 2. Infinite if edges are rigid.
 double overstretch_of_inflated(const Object& object, double substep = 1.0 / 60 / substeps_of_volumes);
 
-/// False for an inflated object whose edges resist its volume in substeps of the given duration [s]: both cannot be met.
+/// False for an inflated object whose edges resist its volume in substeps of the given duration [s]: both cannot be
+/// met.
 bool can_follow_volume(const Object& object, double substep = 1.0 / 60 / substeps_of_volumes);
 
-/// The substeps of a liquid, with which its density is 0.35 % too high on average when it rests. The error is the depth of what lies
-/// above a particle, times the square of the substep.
+/// The substeps of a liquid, with which its density is 0.35 % too high on average when it rests. The error is the depth
+/// of what lies above a particle, times the square of the substep.
 int substeps_of_fluid(const Object& object, double frame_time);
-/// The substeps that the surface tension of a liquid needs: of 0.05 sqrt(density spacing^3 / tension), of a capillary wave of the spacing.
+/// The substeps that the surface tension of a liquid needs: of 0.05 sqrt(density spacing^3 / tension), of a capillary
+/// wave of the spacing.
 int substeps_of_tension(const Object& object, double frame_time);
 
 /// The share of its overlap that a contact of two grains removes in an iteration (solver/grains/grain_formulas.h).
@@ -71,8 +77,8 @@ struct GrainHeights {
 /// Empty for what has no grains.
 GrainHeights heights_of_grains(const Object& object, double frame_time);
 
-/// The substeps of grains below which others lie up to a height [m], in all, so that those at the bottom overlap by 3 % of their
-/// diameter at rest.
+/// The substeps of grains below which others lie up to a height [m], in all, so that those at the bottom overlap by 3 %
+/// of their diameter at rest.
 int substeps_of_grains(const GrainHeights& grains, double height);
 
 /// True if wind or a force field acts on objects.
@@ -82,15 +88,15 @@ bool blows(const Wind& wind, const std::vector<ForceField>& forces);
 enum class SubstepRule {
   any,       ///< at least own_substeps; the rule of others in the set
   by_state,  ///< by the State of each quarter of a frame (solver/substep_law.h), unless one of the set needs a fixed number
-  /// The same in every frame, where rigid bodies or grains can meet what deforms: contact stores energy in proportion to 1 / h^2, so a
-  /// smaller h in the middle of an impact would increase it.
+  /// The same in every frame, where rigid bodies or grains can meet what deforms: contact stores energy in proportion
+  /// to 1 / h^2, so a smaller h in the middle of an impact would increase it.
   constant,
   fixed,  ///< own_substeps, because PBD stiffness is converted for that number
 };
 
-/// The mean strain of an object's distances under a load: its weight, which in a sheet the particles of one row share [-].
-/// Without triangles, the strain of its stiffest group of distances, as links are in a rope.
-/// Empty if it has no distances with a compliance.
+/// The mean strain of an object's distances under a load: its weight, which in a sheet the particles of one row share
+/// [-]. Without triangles, the strain of its stiffest group of distances, as links are in a rope. Empty if it has no
+/// distances with a compliance.
 std::optional<double> strain_by_weight(const Object& object, double gravity);
 
 /// True if an object's weight strains its distances so much that its stretch counts as intended.

@@ -21,10 +21,11 @@ enum class Law : std::int32_t { compliant, damped, pbd };
 inline constexpr int batch_width = 16;
 inline constexpr int most_slots = 8, most_components = 6, most_rest_fields = 32;  ///< limits of a constraint type
 
-/// A range of batches of one pool that share no particle and are projected together. Ties of one body share that and nothing else.
+/// A range of batches of one pool that share no particle and are projected together. Ties of one body share that and
+/// nothing else.
 struct Segment {
   std::int32_t pool = 0;
-  std::int32_t runs = 0;         ///< bit s: slot s is contiguous, so a batch stores four indices for it instead of sixteen
+  std::int32_t runs = 0;  ///< bit s: slot s is contiguous, so a batch stores four indices for it instead of sixteen
   std::int32_t first_batch = 0;  ///< index of its first batch in the pool
   std::int32_t batches = 0;
   std::int32_t last_count =
@@ -46,8 +47,8 @@ struct Pool {
   std::int32_t batches = 0;
   std::int64_t constraints = 0;
   std::vector<std::int32_t> indices;
-  AlignedVector<float> blocks;       ///< rows of sixteen for each batch: rest data, then alpha or k', then beta if damped
-  AlignedVector<float> constants;    ///< rows that are the same for all constraints
+  AlignedVector<float> blocks;     ///< rows of sixteen for each batch: rest data, then alpha or k', then beta if damped
+  AlignedVector<float> constants;  ///< rows that are the same for all constraints
   std::vector<std::int32_t> origin;  ///< for each lane: index among the object's constraints of this type; -1: padding
 
   /// The sixteen floats of a row for a batch, and the distance to those of the next batch. A row that is equal for all

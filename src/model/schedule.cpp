@@ -64,8 +64,8 @@ ByTile split_by_tile(ConstraintList& list, const std::vector<int>& tile_of, int 
   return split;
 }
 
-/// The constraints in the lanes of a batch. With groups of four, lane 4 l + j has member l of group j (see math/wide.h).
-/// Lanes beyond the last constraint repeat the first one; they are read, but never written.
+/// The constraints in the lanes of a batch. With groups of four, lane 4 l + j has member l of group j (see
+/// math/wide.h). Lanes beyond the last constraint repeat the first one; they are read, but never written.
 struct BatchMembers {
   std::array<int, batch_width> member{};
   std::array<bool, batch_width> is_valid{};
@@ -80,7 +80,8 @@ struct BatchMembers {
   }
 };
 
-void append_batch(const ConstraintList& list, const std::vector<Row>& rows, const Colour& colour, int batch, Pool& pool) {
+void append_batch(const ConstraintList& list, const std::vector<Row>& rows, const Colour& colour, int batch,
+                  Pool& pool) {
   const BatchMembers members(colour, batch);
   const std::size_t block = pool.blocks.size();
   pool.blocks.resize(block + pool.block_floats);
@@ -100,8 +101,8 @@ void append_batch(const ConstraintList& list, const std::vector<Row>& rows, cons
 }
 
 /// Appends batches [first, last) of a colour to a pool, and returns them as a segment.
-Segment append_segment(const ConstraintList& list, const std::vector<Row>& rows, const Colour& colour, int first, int last,
-                       int pool_number, Pool& pool) {
+Segment append_segment(const ConstraintList& list, const std::vector<Row>& rows, const Colour& colour, int first,
+                       int last, int pool_number, Pool& pool) {
   const int count = static_cast<int>(colour.members.size());
   Segment segment;
   segment.pool = pool_number;
@@ -208,7 +209,8 @@ void add_pieces(const ListSchedule& from, std::size_t list, std::size_t of_solid
                 std::vector<Piece>& out) {
   constexpr double last_of_all = 1 - 1e-12;
   const auto is_added = [&](int end) { return from.are_added[static_cast<std::size_t>(end) - 1] != 0; };
-  const auto kept = static_cast<double>(std::count_if(ends.begin(), ends.end(), [&](int end) { return !is_added(end); }));
+  const auto kept =
+      static_cast<double>(std::count_if(ends.begin(), ends.end(), [&](int end) { return !is_added(end); }));
   double number = 0.5;
   for (const int end : ends) {
     double place = static_cast<double>(list);
@@ -243,8 +245,8 @@ void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
   for (std::size_t t = 0; t < out.tiles.size(); ++t) {
     out.tiles[t].first_segment = static_cast<int>(out.segments.size());
     const auto ends = [&](std::size_t i) {
-      std::vector<int> each(schedules[i].tile_end.empty() ? 0
-                                                          : static_cast<std::size_t>(schedules[i].tile_end[t] - next[i]));
+      std::vector<int> each(
+          schedules[i].tile_end.empty() ? 0 : static_cast<std::size_t>(schedules[i].tile_end[t] - next[i]));
       std::iota(each.begin(), each.end(), next[i] + 1);
       return each;
     };
@@ -259,7 +261,8 @@ void merge(const std::vector<ListSchedule>& schedules, CompiledObject& out) {
   }
 }
 
-/// True if a later step of compile() reads the list: chains, stencils, or, for distance constraints, tethers or multigrid.
+/// True if a later step of compile() reads the list: chains, stencils, or, for distance constraints, tethers or
+/// multigrid.
 bool is_needed_later(const ConstraintList& list, bool keeps_lengths) {
   return list.chained || !list.in_lanes || (is_length(list.type) && keeps_lengths);
 }

@@ -1,5 +1,5 @@
-// Bending of flat sheets: one quadratic energy of the whole sheet instead of one constraint a hinge, unless edges are so
-// long that they fold one by one (sheet_choice.h).
+// Bending of flat sheets: one quadratic energy of the whole sheet instead of one constraint a hinge, unless edges are
+// so long that they fold one by one (sheet_choice.h).
 //
 // A sweep over hinges does not converge where edges are shorter than the bending length of a substep,
 // l = (h^2 B / rho)^(1/4): it sags too much by a factor 1 + 2.3 (l / edge)^4. A substep solves
@@ -13,9 +13,10 @@
 // so each component of k has three coordinates, and K applies to each coordinate alike. docs/internals/bending.md
 // compares this energy with others.
 //
-// The solve is a multigrid cycle or, where a substep bends over less than an edge, a polynomial of one or two terms. Each level keeps a quarter to a third of the vertices of the finer one and
-// interpolates linearly between them. Coarse stiffness and mass are Galerkin products, so a cycle is never softer than
-// M + h^2 K, and moves and turns what no force bends as it should: with lumped coarse masses a sheet fell at 0.8 g.
+// The solve is a multigrid cycle or, where a substep bends over less than an edge, a polynomial of one or two terms.
+// Each level keeps a quarter to a third of the vertices of the finer one and interpolates linearly between them. Coarse
+// stiffness and mass are Galerkin products, so a cycle is never softer than M + h^2 K, and moves and turns what no
+// force bends as it should: with lumped coarse masses a sheet fell at 0.8 g.
 #pragma once
 
 #include <array>
@@ -35,8 +36,8 @@ inline constexpr int sheet_block = 1024;
 inline constexpr int coarsest_sheet_rows = 32;
 
 /// The matrices of one level in compressed rows. Rows with the same offsets and, but for rounding, the same values
-/// share a pattern: a grid of 256 x 256 has 1 102 of them, which a cache holds. A pattern has first the columns below the
-/// row in its block, then those above it in its block, then those of other blocks, each part ascending.
+/// share a pattern: a grid of 256 x 256 has 1 102 of them, which a cache holds. A pattern has first the columns below
+/// the row in its block, then those above it in its block, then those of other blocks, each part ascending.
 struct SheetLevel {
   int rows = 0;
   std::vector<std::int32_t> pattern;                ///< of each row
@@ -90,8 +91,8 @@ struct SheetFacts {
 SheetFacts facts_of_sheet(const Object& object);
 
 /// Builds the energy and levels. `place`: storage index of each particle of the object; `positions`: in storage order,
-/// inverse mass in w; `held`: held_by_targets (model/attachments.h). Particles that a rigid attachment holds are clamped
-/// as pinned ones are. Reads no constraints of the object.
+/// inverse mass in w; `held`: held_by_targets (model/attachments.h). Particles that a rigid attachment holds are
+/// clamped as pinned ones are. Reads no constraints of the object.
 SheetBending build_sheet(const Object& object, const SheetFacts& facts, const std::vector<int>& place,
                          std::vector<Record> positions, const std::vector<int>& held);
 

@@ -1,4 +1,5 @@
-// Which sheets bend as a whole, and what their hinges say of the material (model/sheet_bending.h, model/sheet_choice.h).
+// Which sheets bend as a whole, and what their hinges say of the material (model/sheet_bending.h,
+// model/sheet_choice.h).
 #include <algorithm>
 #include <cmath>
 
@@ -213,7 +214,8 @@ double mean_hinge(const Object& object) {
   for (const ConstraintGroup& group : object.constraints) {
     if (!is_hinge(group.type)) continue;
     for (std::size_t i = 0; 4 * i + 3 < group.particles.size(); ++i) {
-      edges += length(rest_position(object, group.particles[4 * i + 1]) - rest_position(object, group.particles[4 * i]));
+      edges +=
+          length(rest_position(object, group.particles[4 * i + 1]) - rest_position(object, group.particles[4 * i]));
       hinges += 1;
     }
   }

@@ -45,7 +45,8 @@ void sort_by_distance(std::vector<Candidate>& all) {
   const double length_unit = std::sqrt(largest) * 1e-6;
   const auto whole = [](double value) { return std::floor(value + 0.3); };
   const auto key = [&](const Candidate& c) {
-    return std::make_tuple(whole(c.squared / (largest * 1e-6)), whole(c.x / length_unit), whole(c.z / length_unit), c.row);
+    return std::make_tuple(whole(c.squared / (largest * 1e-6)), whole(c.x / length_unit), whole(c.z / length_unit),
+                           c.row);
   };
   std::sort(all.begin(), all.end(), [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); });
 }
@@ -122,8 +123,8 @@ std::vector<Interpolation> interpolate_all(const SheetDraft& draft, const std::v
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (draft.around[i].empty()) continue;
     const int row = static_cast<int>(i);
-    out[i] =
-        is_kept[i] != 0 ? Interpolation{{row, row, row}, {1, 0, 0}} : interpolate(candidates_of(draft, is_kept, row, seen));
+    out[i] = is_kept[i] != 0 ? Interpolation{{row, row, row}, {1, 0, 0}}
+                             : interpolate(candidates_of(draft, is_kept, row, seen));
     for (double& weight : out[i].weight)
       if (std::fabs(weight) < 1e-9) weight = 0;
   }
@@ -225,8 +226,8 @@ SheetLevel lay_out(const SheetDraft& draft, const SparseRows& k, bool is_finest)
   return out;
 }
 
-void set_parents(const std::vector<Interpolation>& by, const std::vector<char>& is_fixed, const std::vector<int>& number,
-                 int rows, SheetLevel& level) {
+void set_parents(const std::vector<Interpolation>& by, const std::vector<char>& is_fixed,
+                 const std::vector<int>& number, int rows, SheetLevel& level) {
   std::vector<std::vector<std::pair<int, float>>> children(at(rows));
   for (std::size_t i = 0; i < by.size(); ++i) {
     std::array<std::int32_t, 3> parent{};

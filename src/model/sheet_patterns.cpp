@@ -86,7 +86,8 @@ class PatternTable {
     if (std::fabs(diagonals_[at(p)] - row.diagonal) > most) return false;
     for (std::size_t k = 0; k < row.offset.size(); ++k) {
       const Values& value = values_[begin + k];
-      if (level_.offset[begin + k] != row.offset[k] || std::fabs(value.stiffness - row.stiffness[k]) > most) return false;
+      if (level_.offset[begin + k] != row.offset[k] || std::fabs(value.stiffness - row.stiffness[k]) > most)
+        return false;
       if (of_masses_ && std::fabs(value.mass - row.mass[k]) > most_mass) return false;
     }
     return true;

@@ -20,14 +20,15 @@ namespace {
 /// with longer substeps yields more than its modulus says: with twice as long ones by 15 % (docs/internals/solids.md).
 constexpr double edges_per_substep = 0.25;
 constexpr int fewest_soft_substeps = 20;
-/// What a tetrahedron of a cube of side a, cut into six, has: sum of squared gradients of its four barycentric coordinates, times a^2; and
-/// the mean of its squared edges over a^2.
+/// What a tetrahedron of a cube of side a, cut into six, has: sum of squared gradients of its four barycentric
+/// coordinates, times a^2; and the mean of its squared edges over a^2.
 constexpr double gradients_of_cube = 6, edges_of_cube = 5. / 3;
-/// The share of the tetrahedra for which substeps are short enough. Flat ones that are left are stiff in themselves: what is left to
-/// sweeps is that they move with their neighbours.
+/// The share of the tetrahedra for which substeps are short enough. Flat ones that are left are stiff in themselves:
+/// what is left to sweeps is that they move with their neighbours.
 constexpr double share_of_tetrahedra = 0.75;
 
-/// A tetrahedron: its volume, its shear modulus, and 1 over the square of a length that a flat or a short one has small.
+/// A tetrahedron: its volume, its shear modulus, and 1 over the square of a length that a flat or a short one has
+/// small.
 struct Measured {
   const int* corners;
   double volume, modulus, per_length_squared;
@@ -57,7 +58,8 @@ struct MeasuredSolid {
   double of_volume = 0;               ///< sum of stiffness over those on volume
 };
 
-/// Adds the modulus of fibres to the shear modulus of their tetrahedra: a third, as of an incompressible solid's Young's modulus.
+/// Adds the modulus of fibres to the shear modulus of their tetrahedra: a third, as of an incompressible solid's
+/// Young's modulus.
 void stiffen_by_fibres(const Object& object, MeasuredSolid& solid) {
   std::map<std::array<int, 4>, Measured*> by_corners;
   const auto corners = [](const int* first) { return std::array<int, 4>{first[0], first[1], first[2], first[3]}; };

@@ -25,7 +25,7 @@ struct SweepArguments {
   float h = 0, inverse_h = 0, inverse_h2 = 0;
   bool keeps_energy = false;  ///< Settings::Integrator::energy
   bool first_pass = true;     ///< true in the first pass of a substep, in which multipliers start at zero
-  float lead = 0;             ///< share of its own inverse mass that lowers a compliance, where is_led (solver/project.h)
+  float lead = 0;  ///< share of its own inverse mass that lowers a compliance, where is_led (solver/project.h)
 
   // For sweep_general only:
   float relaxation = 1;                  ///< factor omega of every multiplier change

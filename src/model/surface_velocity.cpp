@@ -18,7 +18,8 @@ const Vec3f& set_or(const std::map<Key, Vec3f>& all, const Key& key, const Vec3f
 }  // namespace
 
 Vec3f surface_velocity_of_collider(const Model& model, const Control& control, int collider) {
-  return set_or(control.surfaces.colliders, collider, model.colliders[static_cast<std::size_t>(collider)].surface_velocity);
+  return set_or(control.surfaces.colliders, collider,
+                model.colliders[static_cast<std::size_t>(collider)].surface_velocity);
 }
 
 Vec3f surface_velocity_of_mesh(const Model& model, const Control& control, int object, double time) {

@@ -15,8 +15,8 @@ struct TiedBodies {
   std::vector<int> singles;                      ///< the other ties, ascending
 };
 
-/// Finds the bodies with at least three ties, which hold it at more than a hinge. A second tie of a particle to the same body is
-/// single.
+/// Finds the bodies with at least three ties, which hold it at more than a hinge. A second tie of a particle to the
+/// same body is single.
 TiedBodies find_tied_bodies(const ConstraintList& ties, int particles);
 
 }  // namespace pliant

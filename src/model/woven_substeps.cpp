@@ -64,10 +64,12 @@ bool is_of_triangles(const ConstraintGroup& group) {
 /// Empty (rate_squared 0) if the group is rigid, damped by PBD, or lacks data.
 WovenGroup measured_group(const Object& object, const ConstraintGroup& group, double height) {
   const std::size_t fields = group.type == TriangleStretch::name ? 3 : 4, count = group.particles.size() / 3;
-  if (count == 0 || group.rest.size() < fields * count || group.stiffness.kind != Stiffness::Kind::compliance) return {};
+  if (count == 0 || group.rest.size() < fields * count || group.stiffness.kind != Stiffness::Kind::compliance)
+    return {};
   double rates = 0, compliances = 0, measured = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double alpha = static_cast<double>(i < group.compliances.size() ? group.compliances[i] : group.stiffness.value);
+    const double alpha =
+        static_cast<double>(i < group.compliances.size() ? group.compliances[i] : group.stiffness.value);
     if (!(alpha > 0)) continue;
     rates += inverse_mass(object, group, i, fields) / (2 * alpha);
     compliances += alpha;

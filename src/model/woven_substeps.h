@@ -9,9 +9,9 @@ namespace pliant {
 bool is_woven(const Object& object);
 
 /// The substeps of a frame [s] with which one pass holds the triangles of woven cloth within 3 % of their stiffness; no
-/// upper bound. Stiff ones, which strain by less than 0.05 % under the object's weight, may strain by 0.05 % more. 0 if the
-/// object is not woven. `is_led`: false where a substep has several passes or another method (solver/project.h), which
-/// leave 10 %.
+/// upper bound. Stiff ones, which strain by less than 0.05 % under the object's weight, may strain by 0.05 % more. 0 if
+/// the object is not woven. `is_led`: false where a substep has several passes or another method (solver/project.h),
+/// which leave 10 %.
 double needed_substeps_of_woven(const Object& object, double frame_time, bool is_led = true);
 
 /// The same, rounded up, at most 160.

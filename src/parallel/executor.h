@@ -73,7 +73,8 @@ class Executor {
   /// Runs f in the thread pool, so that loops within f start without waking threads. Wrap a whole step in it.
   void enter(FunctionRef<void()> f);
 
-  /// Calls body(i) for each i in [0, n), timed under `name` unless it is null. n = 1 or one thread: the caller does all.
+  /// Calls body(i) for each i in [0, n), timed under `name` unless it is null. n = 1 or one thread: the caller does
+  /// all.
   void parallel_for(const char* name, int n, FunctionRef<void(int)> body);
 
   /// Calls body(i, thread) once for each i in [0, n), where bodies contain loops of their own. `thread` is in

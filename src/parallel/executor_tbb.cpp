@@ -109,8 +109,8 @@ void Executor::parallel_for(const char* name, int n, FunctionRef<void(int)> body
     tbb::task_group_context context;
     run_on_all_threads(n, body, context);
   } else {
-    // Isolated: a thread that waits for the end of this loop must not start another body of side_by_side meanwhile, which
-    // would use the same scratch memory. An exception in another body must not end this loop either.
+    // Isolated: a thread that waits for the end of this loop must not start another body of side_by_side meanwhile,
+    // which would use the same scratch memory. An exception in another body must not end this loop either.
     tbb::task_group_context context(tbb::task_group_context::isolated);
     tbb::this_task_arena::isolate([&] { run_on_all_threads(n, body, context); });
   }

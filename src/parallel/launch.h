@@ -1,9 +1,9 @@
 // A data-parallel loop on any backend: launch(backend, "name",
 // n, functor) calls functor(i) once for every i in [0, n).
 //
-// A functor is plain data with a PLIANT_HD operator()(int) const for one item. On the host, threads share blocks of items;
-// on a CUDA device the functor is the body of a kernel (launch_cuda.h). No item may read what another writes, so the order
-// of items is irrelevant and the bits are the same everywhere.
+// A functor is plain data with a PLIANT_HD operator()(int) const for one item. On the host, threads share blocks of
+// items; on a CUDA device the functor is the body of a kernel (launch_cuda.h). No item may read what another writes, so
+// the order of items is irrelevant and the bits are the same everywhere.
 #pragma once
 
 #include <algorithm>

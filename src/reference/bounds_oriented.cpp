@@ -117,7 +117,8 @@ OrientedBoxBounds OrientedBoxBounds::grown(float margin) const {
 float OrientedBoxBounds::distance_bound(const Vec3f& p) const {
   const Vec3d d = convert<double>(p) - convert<double>(centre);
   const Axes own = axes_of(*this);
-  const double half[3] = {static_cast<double>(extents.x), static_cast<double>(extents.y), static_cast<double>(extents.z)};
+  const double half[3] = {static_cast<double>(extents.x), static_cast<double>(extents.y),
+                          static_cast<double>(extents.z)};
   double squared = 0;
   for (int k = 0; k < 3; ++k) {
     const double outside = max(abs(dot(own.axis[k], d)) - half[k], 0.0);

@@ -24,8 +24,8 @@ CandidateFinder::CandidateFinder(ContactElements elements) : elements_(std::move
   edge_edges_.start.resize(edge_boxes_.size() + 1);
 }
 
-void CandidateFinder::find(Executor& executor, const std::vector<Vec3f>& from, const std::vector<Vec3f>& to, float radius,
-                           bool rebuild) {
+void CandidateFinder::find(Executor& executor, const std::vector<Vec3f>& from, const std::vector<Vec3f>& to,
+                           float radius, bool rebuild) {
   fit_boxes(executor, from, to, radius);
   fit_trees(executor, rebuild || !built_);
   built_ = true;

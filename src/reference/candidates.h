@@ -3,8 +3,8 @@
 // Each vertex has a swept box, grown by half the radius; edges and triangles have the union of their vertices' boxes.
 // Vertices are searched in a BVH of triangles, edges in a BVH of edges, in packets of eight neighbours: one descent for
 // eight, then eight boxes at once. (Enumerating pairs of triangles and their owned primitives was no faster, with more
-// code: docs/internals/broadphase.md.) One thread writes each packet's lists: counts, then offsets, then lists. They are
-// sorted and do not depend on the number of threads.
+// code: docs/internals/broadphase.md.) One thread writes each packet's lists: counts, then offsets, then lists. They
+// are sorted and do not depend on the number of threads.
 //
 // Memory grows with the result and is reused: a frame with no more candidates than before allocates nothing.
 #pragma once

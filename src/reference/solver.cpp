@@ -22,7 +22,8 @@ class AnyConstraint {
  public:
   virtual ~AnyConstraint() = default;
   virtual void start_substep() = 0;
-  /// Projects the constraint once. `start` has the positions before the substep; `projections` is their number per step.
+  /// Projects the constraint once. `start` has the positions before the substep; `projections` is their number per
+  /// step.
   virtual void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, const Pass& pass) = 0;
   virtual double value(const std::vector<Particle>& particles) const = 0;
   virtual double multiplier() const = 0;
@@ -107,7 +108,8 @@ class Constraint final : public AnyConstraint {
     }
     if (weight == 0) return;
     if constexpr (measures_strain<T>)
-      if (pass.is_first && hardness_.pbd < 0 && hardness_.damping > 0) return project_strain(particles, x, motion, pass);
+      if (pass.is_first && hardness_.pbd < 0 && hardness_.damping > 0)
+        return project_strain(particles, x, motion, pass);
     const double change =
         hardness_.pbd >= 0 ? pbd_change(c, weight, pass.projections) : xpbd_change(c, weight, along, pass);
     multiplier_ += change;
@@ -164,7 +166,8 @@ class Constraint final : public AnyConstraint {
     const double alpha = hardness_.compliance / (pass.h * pass.h);
     const double gamma = hardness_.compliance * hardness_.damping / pass.h;
     const double rigid = (1 + gamma) * weight;
-    const double denominator = is_led<T> && pass.is_only ? std::max(rigid + alpha - lead * rigid, rigid) : rigid + alpha;
+    const double denominator =
+        is_led<T> && pass.is_only ? std::max(rigid + alpha - lead * rigid, rigid) : rigid + alpha;
     return (-c - alpha * multiplier_ - gamma * motion) / denominator;
   }
 
@@ -230,9 +233,13 @@ int Solver::add(const std::string& type, const std::vector<int>& stencil, const 
   return constraint_count() - 1;
 }
 
-double Solver::value(int constraint) const { return constraints_[static_cast<std::size_t>(constraint)]->value(particles); }
+double Solver::value(int constraint) const {
+  return constraints_[static_cast<std::size_t>(constraint)]->value(particles);
+}
 
-double Solver::multiplier(int constraint) const { return constraints_[static_cast<std::size_t>(constraint)]->multiplier(); }
+double Solver::multiplier(int constraint) const {
+  return constraints_[static_cast<std::size_t>(constraint)]->multiplier();
+}
 
 void Solver::step(double dt) {
   for (int i = 0; i < substeps; ++i) substep(dt / substeps);

@@ -94,7 +94,8 @@ void SpatialHash::self_pairs(const Visit& visit) const {
     for (std::uint32_t i = start_[place]; i < start_[place + 1]; ++i)
       for (std::uint32_t k = i + 1; k < start_[place + 1]; ++k) {
         const Entry &a = entries_[i], &b = entries_[k];
-        if (a.cell == b.cell && overlap(box(a.id), box(b.id)) && home(box(a.id), box(b.id)) == a.cell) visit(a.id, b.id);
+        if (a.cell == b.cell && overlap(box(a.id), box(b.id)) && home(box(a.id), box(b.id)) == a.cell)
+          visit(a.id, b.id);
       }
   for (const int a : large_)
     for (int b = 0; b < static_cast<int>(boxes_.size()); ++b) {

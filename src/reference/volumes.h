@@ -34,7 +34,8 @@ struct OrientedBoxBounds {
 };
 bool overlap(const OrientedBoxBounds& a, const OrientedBoxBounds& b);
 
-/// A k-DOP: bounds along K / 2 fixed directions: the axes with the diagonals of a cube (K = 14) or of its faces (K = 18).
+/// A k-DOP: bounds along K / 2 fixed directions: the axes with the diagonals of a cube (K = 14) or of its faces (K =
+/// 18).
 template <int K>
 struct KDopBounds {
   static_assert(K == 14 || K == 18, "the directions are those of a cube");

@@ -12,7 +12,8 @@ namespace pliant {
 /// as for a flat plate: zero for a plate edge-on to the stream. `response` is 2 h
 /// times the mean inverse mass of the corners. The force is divided by 1 + response
 /// |f| / |u|, because drag can at most stop the relative motion in a step.
-PLIANT_HD Vec3f air_force(const Vec3f (&x)[3], const Vec3f& u, float air_density, float drag, float lift, float response) {
+PLIANT_HD Vec3f air_force(const Vec3f (&x)[3], const Vec3f& u, float air_density, float drag, float lift,
+                          float response) {
   const Vec3f doubled = cross(x[1] - x[0], x[2] - x[0]);
   const float doubled_area = length(doubled), speed = length(u);
   if (!(doubled_area > 0) || !(speed > 0)) return {};
@@ -65,9 +66,9 @@ struct AirOnParticle {
   }
 };
 
-/// The force of the air on a cylinder of this length and radius along a unit vector [N], with u the relative velocity of the air
-/// and v its part across: rho/2 c_drag 2 r l |v| v, so nothing along the cylinder (Taylor 1952, without skin friction). `response`
-/// is 2 h times the inverse mass, as above.
+/// The force of the air on a cylinder of this length and radius along a unit vector [N], with u the relative velocity
+/// of the air and v its part across: rho/2 c_drag 2 r l |v| v, so nothing along the cylinder (Taylor 1952, without skin
+/// friction). `response` is 2 h times the inverse mass, as above.
 PLIANT_HD Vec3f air_force_on_cylinder(const Vec3f& u, const Vec3f& axis, float length_of_it, float radius,
                                       float air_density, float drag, float response) {
   const Vec3f across = u - axis * dot(u, axis);

@@ -12,7 +12,8 @@ namespace pliant {
 
 namespace {
 
-/// The deformation of a cluster's present rest shape, F = sum w (x - c) q^T (sum w q q^T)^-1. All zero if that shape has no volume.
+/// The deformation of a cluster's present rest shape, F = sum w (x - c) q^T (sum w q q^T)^-1. All zero if that shape
+/// has no volume.
 Matrix3d deformation(const CompiledClusters& clusters, const CompiledCluster& cluster, const SweepArguments& a) {
   const Record& origin = a.positions[clusters.members[cluster.first].particle];
   const auto place = [&](int particle) {

@@ -38,8 +38,9 @@ struct Fit {
   }
 };
 
-/// Replaces the linear part of a deformation, which is given in an orthonormal basis, by the closest one with the volume of the rest shape.
-/// The closest, so that the pull to it is the gradient of half the squared distance and makes no energy.
+/// Replaces the linear part of a deformation, which is given in an orthonormal basis, by the closest one with the
+/// volume of the rest shape. The closest, so that the pull to it is the gradient of half the squared distance and makes
+/// no energy.
 void keep_volume(double (&fitted)[3][most_moments], const double* basis, int n, double size) {
   Matrix3d linear;
   for (int i = 0; i < 3; ++i)
@@ -50,7 +51,8 @@ void keep_volume(double (&fitted)[3][most_moments], const double* basis, int n, 
 }
 
 /// Adds `share` of the fitted deformation to (1 - share) of the rotation that `fit` has.
-void add_deformation(const CompiledCluster& cluster, const double* basis, const double (&sums)[3][most_moments], Fit& fit) {
+void add_deformation(const CompiledCluster& cluster, const double* basis, const double (&sums)[3][most_moments],
+                     Fit& fit) {
   const int n = moments_of(cluster.mode);
   double fitted[3][most_moments] = {};  // sums basis^T
   for (int i = 0; i < 3; ++i)
@@ -115,8 +117,9 @@ struct Yield {
   }
 };
 
-/// A cluster in a substep. Corrections are zero to first order in the torque about the positions at the substep's start, as the velocities
-/// that they change act there: with the torque about the prediction alone, which the rotation makes zero, a spin would decay by omega^2 h.
+/// A cluster in a substep. Corrections are zero to first order in the torque about the positions at the substep's
+/// start, as the velocities that they change act there: with the torque about the prediction alone, which the rotation
+/// makes zero, a spin would decay by omega^2 h.
 class Projection {
  public:
   Projection(const CompiledClusters& clusters, const CompiledCluster& cluster, const SweepArguments& a,
@@ -167,8 +170,9 @@ class Projection {
 
   Vec3d start(int member) const { return starts_.at(clusters_.members[member].particle) - start_centre_; }
 
-  /// Finds what makes corrections free of torque about the start: a small rotation of all goals. Where none does, because the shape is far from
-  /// its goals (mirrored, say), the closest torque-free corrections: those less a rotation of the start.
+  /// Finds what makes corrections free of torque about the start: a small rotation of all goals. Where none does,
+  /// because the shape is far from its goals (mirrored, say), the closest torque-free corrections: those less a
+  /// rotation of the start.
   void settle() {
     constexpr double largest = 0.2;  // [rad]
     if (find_settle(1e-9 * cluster_.size * cluster_.size) && dot(settle_, settle_) < largest * largest) return;
@@ -179,7 +183,8 @@ class Projection {
     find_settle(0);
   }
 
-  /// Sets settle_ = d so that d cross the arms have the torque of the pulls. False, and zero, where the arms have less than the least moment.
+  /// Sets settle_ = d so that d cross the arms have the torque of the pulls. False, and zero, where the arms have less
+  /// than the least moment.
   bool find_settle(double least) {
     Vec3d torque{};
     double rows[3][3] = {};
@@ -223,7 +228,8 @@ class Projection {
 
 void project_cluster(const CompiledClusters& clusters, int number, const SweepArguments& a, Vec3f* multipliers) {
   const CompiledCluster& cluster = clusters.clusters[number];
-  if (multipliers != nullptr && a.first_pass) std::fill(multipliers + cluster.first, multipliers + cluster.last, Vec3f{});
+  if (multipliers != nullptr && a.first_pass)
+    std::fill(multipliers + cluster.first, multipliers + cluster.last, Vec3f{});
   const Projection projection(clusters, cluster, a, multipliers);
   for (int m = cluster.first; m < cluster.last; ++m) {
     const int particle = clusters.members[m].particle;

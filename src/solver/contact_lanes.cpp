@@ -52,7 +52,8 @@ PLIANT_HD void store_masked(Record* base, const std::int32_t* index, const Regis
 }
 
 /// Projects the contacts number[0] to number[lanes - 1]. All sixteen entries of `number` must be valid indices.
-PLIANT_HD void project_batch(Contact* contacts, const std::int32_t* number, int lanes, Record* displacements, float yield) {
+PLIANT_HD void project_batch(Contact* contacts, const std::int32_t* number, int lanes, Record* displacements,
+                             float yield) {
   std::int32_t index[16];
   for (int lane = 0; lane < 16; ++lane) index[lane] = number[lane < lanes ? lane : 0] * quads;
   const Points points = load_points(contacts, index);
@@ -63,7 +64,8 @@ PLIANT_HD void project_batch(Contact* contacts, const std::int32_t* number, int 
     before[slot] = load_indexed(displacements, points.at[slot]);
     moved += from_registers(before[slot]).position * weights.at[slot];
   }
-  const WideRecords plane = load_quad(contacts, normal_gap, index), carried = load_quad(contacts, carried_approach, index),
+  const WideRecords plane = load_quad(contacts, normal_gap, index),
+                    carried = load_quad(contacts, carried_approach, index),
                     sum = load_quad(contacts, friction_push, index), coefficients = load_quad(contacts, numbers, index),
                     motion = load_quad(contacts, motion_collider, index);
   ContactSums<Wide> sums{sum.position, sum.w};

@@ -9,7 +9,8 @@ namespace pliant {
 namespace {
 
 Vec3d place_of(const Record& position, const Record& displacement) {
-  return {double(position.x) + displacement.x, double(position.y) + displacement.y, double(position.z) + displacement.z};
+  return {double(position.x) + displacement.x, double(position.y) + displacement.y,
+          double(position.z) + displacement.z};
 }
 
 /// Reads the particles that a contact's point indices refer to.
@@ -71,7 +72,8 @@ void add_push(const ContactPush& push, ContactLog& log) {
   add_to(log.bodies[std::minmax(on, by)], push, on <= by ? 1 : -1);
 }
 
-void add_pressure(const ContactSide& on, const ContactSide& by, const Vec3d& impulse, const Vec3d& at, ContactLog& log) {
+void add_pressure(const ContactSide& on, const ContactSide& by, const Vec3d& impulse, const Vec3d& at,
+                  ContactLog& log) {
   const double size = length(impulse);
   const auto add = [&](ContactSum& sum, double sign) {
     sum.impulse += size;

@@ -8,7 +8,8 @@
 
 namespace pliant {
 
-/// The number of a primitive collider as a body: -1 - its index. Objects and mesh colliders have their index in the Model.
+/// The number of a primitive collider as a body: -1 - its index. Objects and mesh colliders have their index in the
+/// Model.
 inline constexpr int body_of_collider(int collider) { return -1 - collider; }
 
 /// Sums over the contacts between two bodies in a frame.

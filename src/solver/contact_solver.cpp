@@ -71,11 +71,13 @@ void ContactSolver::begin(const ContactKernels& kernels, const std::vector<Conta
   sections_[1].colour(contacts, leading, contacts.size(), positions, points);
 }
 
-ContactSolver ContactSolver::only(const std::vector<Contact>& contacts, FunctionRef<bool(const Contact&)> is_kept) const {
+ContactSolver ContactSolver::only(const std::vector<Contact>& contacts,
+                                  FunctionRef<bool(const Contact&)> is_kept) const {
   ContactSolver out;
   out.kernels_ = kernels_;
   for (std::size_t k = 0; k < sections_.size(); ++k)
-    out.sections_[k] = sections_[k].only([&](std::int32_t i) { return is_kept(contacts[static_cast<std::size_t>(i)]); });
+    out.sections_[k] =
+        sections_[k].only([&](std::int32_t i) { return is_kept(contacts[static_cast<std::size_t>(i)]); });
   return out;
 }
 

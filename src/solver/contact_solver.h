@@ -1,8 +1,8 @@
 // Projects the contacts of a substep on all threads.
 //
-// Contacts have a total order. In that order each gets the first of 64 colours that none of its points has, so contacts of
-// a colour share no dynamic point. Those without a free colour form the tail, which is projected serially at the end.
-// Colours depend on the contacts alone, so threads and instruction set do not change any bits.
+// Contacts have a total order. In that order each gets the first of 64 colours that none of its points has, so contacts
+// of a colour share no dynamic point. Those without a free colour form the tail, which is projected serially at the
+// end. Colours depend on the contacts alone, so threads and instruction set do not change any bits.
 //
 // Contacts of static neighbour pairs are projected before all others, because the last projection prevails: in a mixed
 // order, static neighbours would undo the corrections between stacked layers.
@@ -21,7 +21,8 @@ namespace pliant {
 /// Contacts sorted by colour.
 class ContactColours {
  public:
-  /// Colours contacts [first, last). Their point indices are below `points`. Points of infinite mass may occur repeatedly.
+  /// Colours contacts [first, last). Their point indices are below `points`. Points of infinite mass may occur
+  /// repeatedly.
   void colour(const std::vector<Contact>& contacts, std::size_t first, std::size_t last, const Record* positions,
               std::size_t points);
   /// A copy with only the contacts for which `is_kept(index)` is true, in the same order.

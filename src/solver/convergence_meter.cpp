@@ -68,7 +68,8 @@ EstimatedObject estimated_object(const MeasuredFrame& frame, int object) {
 }
 
 /// Loads the slots; points are relative to the first one, with what their positions could not represent.
-void load_estimated(const EstimatedObject& of, const Pool& pool, const std::int32_t* slots, StencilArrays<float>& arrays) {
+void load_estimated(const EstimatedObject& of, const Pool& pool, const std::int32_t* slots,
+                    StencilArrays<float>& arrays) {
   const std::int32_t first = slots[0];
   for (int slot = 0; slot < pool.stencil; ++slot) {
     if (slots[slot] >= of.object.particles) {

@@ -27,7 +27,8 @@ struct DampedRow {
 /// imposed.
 inline DampedRow damped_row(float compliance, float inverse_mass, float target, float coast) {
   if (!(compliance > 0)) return {compliance, target};
-  const auto end = static_cast<float>(weight_of_end(static_cast<double>(inverse_mass) / static_cast<double>(compliance)));
+  const auto end =
+      static_cast<float>(weight_of_end(static_cast<double>(inverse_mass) / static_cast<double>(compliance)));
   return {compliance / end, (target - (1 - end) * coast) / end};
 }
 

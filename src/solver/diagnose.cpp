@@ -22,12 +22,14 @@ std::string describe(const CompiledObject& object, const Pool& pool, const Segme
       continue;
     }
     const int user = object.order[number];
-    particles += (slot == 0 ? "" : ", ") + (user < object.user_particles
-                                                ? std::to_string(user)
-                                                : "target of attachment " + std::to_string(user - object.user_particles));
+    particles +=
+        (slot == 0 ? "" : ", ") + (user < object.user_particles
+                                       ? std::to_string(user)
+                                       : "target of attachment " + std::to_string(user - object.user_particles));
   }
   const int constraint = pool.origin[static_cast<std::size_t>(segment.first_batch + batch) * batch_width + lane];
-  return constraint_type(pool.type).name + " constraint " + std::to_string(constraint) + " (particles " + particles + ")";
+  return constraint_type(pool.type).name + " constraint " + std::to_string(constraint) + " (particles " + particles +
+         ")";
 }
 
 /// Describes the first constraint of a segment that has a non-finite particle; nullopt if there is none.
@@ -67,9 +69,9 @@ std::optional<std::string> replay_stencils(const StepContext& context, const Com
   for (Record& q : orientations) q = is_finite(q) && q.w - q.w == 0 ? q : Record{0, 0, 0, 1};
   for (int s = colour.first; s < colour.last; ++s) {
     Records corrections(orientations.size());
-    project_segment(
-        object, object.segments[s], arguments,
-        {orientations.data(), all.inverse_inertias.data() + first, orientations.data(), none.data(), corrections.data()});
+    project_segment(object, object.segments[s], arguments,
+                    {orientations.data(), all.inverse_inertias.data() + first, orientations.data(), none.data(),
+                     corrections.data()});
     if (auto culprit = find_culprit(object, object.segments[s], arguments.displacements)) return culprit;
   }
   return std::nullopt;
@@ -77,8 +79,8 @@ std::optional<std::string> replay_stencils(const StepContext& context, const Com
 
 /// Replays one phase of an object and describes the first faulty constraint. Returns nullopt for tiles, which are
 /// replayed one by one, and for drivers that can name no constraint.
-std::optional<std::string> replay_phase(const StepContext& context, const CompiledObject& object, const ObjectPhase& phase,
-                                        const SweepArguments& arguments) {
+std::optional<std::string> replay_phase(const StepContext& context, const CompiledObject& object,
+                                        const ObjectPhase& phase, const SweepArguments& arguments) {
   if (phase.driver == Driver::inter_tile) return replay(context, object, phase.first, phase.last, arguments);
   if (phase.driver == Driver::stencil) return replay_stencils(context, object, phase, arguments);
   if (phase.driver != Driver::chain) return std::nullopt;
@@ -118,7 +120,8 @@ std::vector<int> bad_tasks(const Substep& s) {
 
 /// Describes the origin of non-finite values in the given tiles of one object. The tiles are replayed together, because
 /// a faulty inter-tile constraint makes all tiles of its particles non-finite.
-std::string explain(const Substep& s, const CompiledObject& object, const std::vector<int>& bad, SweepArguments arguments) {
+std::string explain(const Substep& s, const CompiledObject& object, const std::vector<int>& bad,
+                    SweepArguments arguments) {
   const StepContext& context = s.context;
   const std::string particle = first_bad_particle(object, tile_of(s, bad.front()), arguments.displacements);
   Records displacements(arguments.displacements, arguments.displacements + object.particles);
@@ -162,7 +165,8 @@ void name_bad_frame(const StepContext& context, NonFinite& found) {
   }
 }
 
-/// Replaces non-finite values of the State: displacements, velocities and residues by zero, orientations by the identity.
+/// Replaces non-finite values of the State: displacements, velocities and residues by zero, orientations by the
+/// identity.
 void make_finite(const StepContext& context) {
   for (Record& d : context.workspace.displacements) d = is_finite(d) ? d : Record{};
   for (Record& v : context.state.velocities) v = is_finite(v) ? v : Record{};

@@ -63,7 +63,8 @@ Swept swept(const std::vector<Target>& targets, const PlannedFrame& frame) {
   return out;
 }
 
-/// The swept box and largest displacement of mesh collider `c`, moved by keyframes or by the user; zero if it is static.
+/// The swept box and largest displacement of mesh collider `c`, moved by keyframes or by the user; zero if it is
+/// static.
 Swept swept(const Model& model, const Control& control, int c, const PlannedFrame& frame) {
   const Carrier& carrier = model.objects[c].carrier;
   if (const ObjectControl* given = control.object(c); given != nullptr && !given->targets.empty())
@@ -88,8 +89,8 @@ std::string too_fast(const CompiledObject& collider, const CompiledObject& objec
                      int substeps) {
   char text[160];
   std::snprintf(text, sizeof text,
-                "moves %.3g m per substep, with %d substeps in this frame, and keeps %.3g m from object '", move, substeps,
-                thickness);
+                "moves %.3g m per substep, with %d substeps in this frame, and keeps %.3g m from object '", move,
+                substeps, thickness);
   return "collider '" + collider.name + "': " + text + object.name +
          "': it may pass through; increase the thickness or the setting most_substeps";
 }
@@ -102,8 +103,8 @@ struct ColliderDemand {
 
 std::string divides(const Model& model, const ColliderDemand& demand, int planned, int substeps) {
   char text[160];
-  std::snprintf(text, sizeof text, "the frame has %d substeps instead of %d and takes about %.1f times as long", substeps,
-                planned, static_cast<double>(substeps) / planned);
+  std::snprintf(text, sizeof text, "the frame has %d substeps instead of %d and takes about %.1f times as long",
+                substeps, planned, static_cast<double>(substeps) / planned);
   return "collider '" + model.objects[demand.collider].name + "' moves fast near object '" +
          model.objects[demand.object].name + "': " + text +
          "; a slower collider or a greater thickness needs fewer substeps";
@@ -134,7 +135,8 @@ int divided_substeps(const Model& model, const Control& control, const PairModel
       substeps = std::max(substeps, std::min(rounded, most));
       if (wanted > demand.substeps) demand = {wanted, c, o};
       if (wanted > most)
-        warnings.push_back(too_fast(collider, model.objects[o], sweep.largest * frame.substeps / most, thickness, most));
+        warnings.push_back(
+            too_fast(collider, model.objects[o], sweep.largest * frame.substeps / most, thickness, most));
     }
   }
   const int usual = std::max(frame.substeps, frame.usual_substeps);

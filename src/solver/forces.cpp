@@ -17,7 +17,8 @@ void push(Record& velocity, const Vec3f& change) {
   velocity = {velocity.x + change.x, velocity.y + change.y, velocity.z + change.z, 0};
 }
 
-/// The wind on an object's bodies that are a single capsule, as the segments of rods are. Caps do not count, since those of segments overlap.
+/// The wind on an object's bodies that are a single capsule, as the segments of rods are. Caps do not count, since
+/// those of segments overlap.
 void apply_air_to_capsules(const Model& model, int o, const Vec3f& air, const Vec3f& gravity, float h, State& state,
                            Executor& executor) {
   const CompiledObject& object = model.objects[o];
@@ -145,7 +146,8 @@ LeftOut apply_in_order(const Model& model, FieldRun run, const FieldTarget& to) 
   return first;
 }
 
-/// Applies fields to an object's particles tile by tile, on all threads. Particles are independent, so bits are the same.
+/// Applies fields to an object's particles tile by tile, on all threads. Particles are independent, so bits are the
+/// same.
 LeftOut apply_by_tiles(const Model& model, FieldRun run, const FieldTarget& to, Executor& executor) {
   const CompiledObject& object = to.object;
   std::vector<LeftOut> of_tiles(object.tiles.size());
@@ -184,15 +186,15 @@ void apply_fields(const Model& model, const FieldTarget& to, bool on_all_threads
 
 void apply_fields(const Model& model, State& state, Executor& executor, double time, float h,
                   FunctionRef<Vec3f(int)> gravity, EachObject each, std::vector<std::string>& warnings) {
-  const bool on_all_threads =
-      std::all_of(model.forces.begin(), model.forces.end(), [](const ForceField& field) { return field.on_all_threads; });
+  const bool on_all_threads = std::all_of(model.forces.begin(), model.forces.end(),
+                                          [](const ForceField& field) { return field.on_all_threads; });
   each([&](int o) {
     const CompiledObject& object = model.objects[o];
     if (object.is_collider) return;
-    apply_fields(
-        model,
-        {object, state.positions.data() + model.first[o], state.velocities.data() + model.first[o], gravity(o), time, h},
-        on_all_threads, executor, warnings);
+    apply_fields(model,
+                 {object, state.positions.data() + model.first[o], state.velocities.data() + model.first[o], gravity(o),
+                  time, h},
+                 on_all_threads, executor, warnings);
   });
 }
 
@@ -221,7 +223,8 @@ bool has_forces(const Model& model, const Control& control) {
 Vec3f wind_at(const Wind& wind, double time) {
   if (wind.gust == 0) return wind.velocity;
   const double phase = time / wind.gust_period;
-  const double turn = phase - __builtin_floor(phase);  // floor, because no integer type holds every phase; turn in [0, 1)
+  const double turn =
+      phase - __builtin_floor(phase);  // floor, because no integer type holds every phase; turn in [0, 1)
   return wind.velocity * (1 + wind.gust * static_cast<float>(sin(turn * 6.283185307179586)));
 }
 

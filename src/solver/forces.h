@@ -17,9 +17,9 @@ bool has_forces(const Model& model, const Control& control);
 /// The objects of a substep: calls its argument for each.
 using EachObject = FunctionRef<void(FunctionRef<void(int)>)>;
 
-/// Adds h f / m to the velocity of every dynamic particle of the given objects. `gravity(object)` is the part of gravity that
-/// velocities do not include yet [m/s]. `takes_part(object)` is true for the given objects.
-/// Non-finite forces are skipped and named in `warnings`.
+/// Adds h f / m to the velocity of every dynamic particle of the given objects. `gravity(object)` is the part of
+/// gravity that velocities do not include yet [m/s]. `takes_part(object)` is true for the given objects. Non-finite
+/// forces are skipped and named in `warnings`.
 void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
                   FunctionRef<Vec3f(int)> gravity, EachObject each, FunctionRef<bool(int)> takes_part,
                   std::vector<std::string>& warnings);

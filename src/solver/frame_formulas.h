@@ -57,8 +57,8 @@ struct Lanes {
   PLIANT_HD void store(Record* base, const Quat<R>& q) const { store(base, {q.x, q.y, q.z}, q.w); }
 };
 
-/// Euler's equations without torque in principal axes: dw/dt = I^-1 ((I w) x w), whose components are factor.x w_y w_z and so on.
-/// Factors are zero if rotation about an axis is locked.
+/// Euler's equations without torque in principal axes: dw/dt = I^-1 ((I w) x w), whose components are factor.x w_y w_z
+/// and so on. Factors are zero if rotation about an axis is locked.
 template <class R>
 PLIANT_HD Vec3<R> gyroscopic_factors(const Vec3<R>& inverse, const Vec3<R>& inertia) {
   const R zero(0.f);
@@ -87,23 +87,25 @@ PLIANT_HD Vec3<R> inertia_of(const Vec3<R>& inverse) {
   return {one / max(inverse.x, least), one / max(inverse.y, least), one / max(inverse.z, least)};
 }
 
-/// By how much the angular velocity w of a frame changes, in its axes, when it is turned by theta (in its axes) without torque:
-/// angular momentum L stays in the world, so in the frame it turns back, by 2 (s v x L + v x (v x L)) with the quaternion (v, s). An
-/// increment, so that what is not turned does not round. Zero if rotation about an axis is locked.
+/// By how much the angular velocity w of a frame changes, in its axes, when it is turned by theta (in its axes) without
+/// torque: angular momentum L stays in the world, so in the frame it turns back, by 2 (s v x L + v x (v x L)) with the
+/// quaternion (v, s). An increment, so that what is not turned does not round. Zero if rotation about an axis is
+/// locked.
 template <class R>
 PLIANT_HD Vec3<R> turned_back(const Vec3<R>& inverse, const Vec3<R>& theta, const Vec3<R>& w) {
   const R zero(0.f), half(0.5f);
   const Vec3<R> inertia = inertia_of(inverse);
   const auto turns = min(min(inverse.x, inverse.y), inverse.z) > zero;
   const Quat<R> back = normalise(Quat<R>{-(half * theta.x), -(half * theta.y), -(half * theta.z), R(1.f)});
-  const Vec3<R> v{back.x, back.y, back.z}, across = cross(v, Vec3<R>{w.x * inertia.x, w.y * inertia.y, w.z * inertia.z});
+  const Vec3<R> v{back.x, back.y, back.z},
+      across = cross(v, Vec3<R>{w.x * inertia.x, w.y * inertia.y, w.z * inertia.z});
   const Vec3<R> change = (across * back.w + cross(v, across)) * R(2.f);
   return select(turns, Vec3<R>{change.x * inverse.x, change.y * inverse.y, change.z * inverse.z},
                 Vec3<R>{zero, zero, zero});
 }
 
-/// By how much the angular velocity w of a frame changes in h without torque, in its axes, by the implicit midpoint rule, which keeps
-/// energy. Zero beyond a radian per step, where Newton's method may diverge.
+/// By how much the angular velocity w of a frame changes in h without torque, in its axes, by the implicit midpoint
+/// rule, which keeps energy. Zero beyond a radian per step, where Newton's method may diverge.
 template <class R>
 PLIANT_HD Vec3<R> gyroscopic_change(const Vec3<R>& factors, const Vec3<R>& w, const R& h) {
   const Vec3<R> none{R(0.f), R(0.f), R(0.f)};
@@ -113,15 +115,17 @@ PLIANT_HD Vec3<R> gyroscopic_change(const Vec3<R>& factors, const Vec3<R>& w, co
   return select(length_squared(w) * (h * h) < R(1.f), change, none);
 }
 
-/// The free motion of a symmetric top that turns by more than a radian in h, or is round: it turns about its angular momentum, and then about its own
-/// axis. Energy and angular momentum stay whatever the angle of the latter, so that is not exact.
+/// The free motion of a symmetric top that turns by more than a radian in h, or is round: it turns about its angular
+/// momentum, and then about its own axis. Energy and angular momentum stay whatever the angle of the latter, so that is
+/// not exact.
 template <class R>
 struct Spinning {
   using Applies = decltype(R{} > R{});
-  bool anywhere;    ///< in some lane; if not, what follows is not set
-  Applies applies;  ///< false where two moments of inertia do not agree to 1e-4, or the frame turns slowly and is not round
-  Vec3<R> angle;    ///< about the angular momentum [rad]
-  Quat<R> twist;    ///< about the axis
+  bool anywhere;  ///< in some lane; if not, what follows is not set
+  Applies
+      applies;  ///< false where two moments of inertia do not agree to 1e-4, or the frame turns slowly and is not round
+  Vec3<R> angle;  ///< about the angular momentum [rad]
+  Quat<R> twist;  ///< about the axis
 
   PLIANT_HD Spinning(const Vec3<R>& inverse, const Vec3<R>& round, const Vec3<R>& w, const R& h) {
     const R zero(0.f), one(1.f), half(0.5f), close(1e-4f);
@@ -159,7 +163,8 @@ PLIANT_HD FreeTurn<R> free_turn(const Quat<R>& q, const Vec3<R>& inverse, const 
   // Taylor series of the quaternion exponential. The next terms are below a float's precision up to half a radian per
   // substep.
   const R t = length_squared(angle) * R(0.25f), imaginary = half * (one - t * R(1 / 6.f));
-  const Quat<R> turn{angle.x * imaginary, angle.y * imaginary, angle.z * imaginary, one - t * half + t * t * R(1 / 24.f)};
+  const Quat<R> turn{angle.x * imaginary, angle.y * imaginary, angle.z * imaginary,
+                     one - t * half + t * t * R(1 / 24.f)};
   const FreeTurn<R> slow{normalise(multiply(q, turn)), rotate(q, angle), w + change};
   if (!fast.anywhere) return slow;
   const Quat<R> spun = multiply(slow.orientation, fast.twist), &turned = slow.orientation;
@@ -188,9 +193,9 @@ PLIANT_HD Vec3<R> local(const Quat<R>& orientation, const Vec3<R>& v) {
   return rotate(conjugate(orientation), v);
 }
 
-/// How contacts see a body that has turned since the frame's start: as it was then, so its arms to the contacts and its inertia, which are
-/// those of the frame's start, fit one another. Contacts turn with the body, but not about an axis about which it is round: the place
-/// where a ball touches the ground stays below its centre.
+/// How contacts see a body that has turned since the frame's start: as it was then, so its arms to the contacts and its
+/// inertia, which are those of the frame's start, fit one another. Contacts turn with the body, but not about an axis
+/// about which it is round: the place where a ball touches the ground stays below its centre.
 template <class R>
 struct Turned {
   using IsRound = decltype(R{} > R{});
@@ -211,7 +216,9 @@ struct Turned {
     twist = normalise(Quat<R>{turn.x * round.x, turn.y * round.y, turn.z * round.z, turn.w});
   }
   /// From the body's axes to those in which contacts are, and back.
-  PLIANT_HD Vec3<R> from_body(const Vec3<R>& v) const { return any_is_round ? select(is_round, rotate(twist, v), v) : v; }
+  PLIANT_HD Vec3<R> from_body(const Vec3<R>& v) const {
+    return any_is_round ? select(is_round, rotate(twist, v), v) : v;
+  }
   PLIANT_HD Vec3<R> to_body(const Vec3<R>& v) const { return any_is_round ? select(is_round, local(twist, v), v) : v; }
   /// The turn from start to now without the twist, in the body's axes [rad].
   PLIANT_HD Vec3<R> swing() const {
@@ -229,18 +236,21 @@ struct Turned {
   PLIANT_HD Vec3<R> to_world(const Vec3<R>& v) const { return rotate(now, to_body(v)); }
 };
 
-/// True where a body is turned so far, for its inertia, that angular momentum which stays in the world while it turns would bring more
-/// than a hundredth of its energy. Of bodies that are round about an axis, only those that are slender along it.
+/// True where a body is turned so far, for its inertia, that angular momentum which stays in the world while it turns
+/// would bring more than a hundredth of its energy. Of bodies that are round about an axis, only those that are slender
+/// along it.
 template <class R>
 PLIANT_HD auto is_large_turn(const Vec3<R>& inverse, const Vec3<R>& round, const Vec3<R>& theta) {
-  const R most = max(max(inverse.x, inverse.y), inverse.z), least = min(min(inverse.x, inverse.y), inverse.z), zero(0.f);
+  const R most = max(max(inverse.x, inverse.y), inverse.z), least = min(min(inverse.x, inverse.y), inverse.z),
+          zero(0.f);
   const R excess = length_squared(theta) * (most - least),
           slender = select(dot(round, inverse) > R(10.f) * least, excess, zero);
   return select((round.x + round.y) + round.z > zero, slender, excess) > R(0.02f) * least;
 }
 
-/// The angular velocity after a substep in which a frame that ends with `w` without torque is turned by theta at the start, in its axes. Keeps
-/// the energy that it has with the latter, whatever its inertia; angular momentum to first order in the angle.
+/// The angular velocity after a substep in which a frame that ends with `w` without torque is turned by theta at the
+/// start, in its axes. Keeps the energy that it has with the latter, whatever its inertia; angular momentum to first
+/// order in the angle.
 template <class R>
 PLIANT_HD Vec3<R> pushed_at_start(const Vec3<R>& inverse, const Vec3<R>& round, const Vec3<R>& w, const Vec3<R>& theta,
                                   const R& h) {

@@ -83,10 +83,10 @@ float distance(const PointBounds& a, const BoundingBox<float>& b) {
 float height(const PointBounds& box, const Pose<float>& pose) {
   float lowest = 1e30f;
   for (int corner = 0; corner < 8; ++corner)
-    lowest =
-        min(lowest, to_local(pose, {(corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
-                                    (corner & 4) != 0 ? box.high.z : box.low.z})
-                        .y);
+    lowest = min(lowest,
+                 to_local(pose, {(corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
+                                 (corner & 4) != 0 ? box.high.z : box.low.z})
+                     .y);
   return lowest;
 }
 

@@ -16,7 +16,8 @@ const FreeBodies& free_objects(Substep& s);
 /// True if an object is free.
 bool is_free(Substep& s, int object);
 
-/// The least distance of a box of an object's particles from a solid in the substep [m]; infinite where they do not meet.
+/// The least distance of a box of an object's particles from a solid in the substep [m]; infinite where they do not
+/// meet.
 float distance_from_solid(const CompiledObject& object, const PointBounds& box, const MovingCollider& solid);
 
 /// Before the update: takes what is not to become velocity out of the displacements of this substep.

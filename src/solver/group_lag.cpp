@@ -66,7 +66,8 @@ std::vector<LaggingGroup> lagging_groups(Substep& s, std::vector<int>& number) {
   const FreeBodies& free = free_objects(s);
   std::vector<Vec3d> lost(free.size()), lost_of_root(free.size());
   std::vector<int> root(free.size(), -1), of_root(free.size(), -1);
-  for_objects(s, [&](int o) { root[at(o)] = s.has_pairs() ? s.pairs->group_of(o, free[at(o)].group) : free[at(o)].group; });
+  for_objects(
+      s, [&](int o) { root[at(o)] = s.has_pairs() ? s.pairs->group_of(o, free[at(o)].group) : free[at(o)].group; });
   for (const auto& [particle, d] : s.own->without_velocity)
     lost[at(s.model.object_of(particle))] += convert<double>(d) * (1 / double(s.state.positions[at(particle)].w));
   for_objects(s, [&](int o) {

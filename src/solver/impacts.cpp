@@ -26,8 +26,8 @@ const std::vector<Contact>& find_contacts_ahead(const Substep& s, int task, floa
   return scratch.more_contacts;
 }
 
-/// Writes the velocities of a tile's particles after their impacts, and counts these. What approaches more slowly than gravity
-/// accelerates it within `seconds` only rests.
+/// Writes the velocities of a tile's particles after their impacts, and counts these. What approaches more slowly than
+/// gravity accelerates it within `seconds` only rests.
 void stop_at_colliders(const Substep& s, int task, float seconds) {
   const int first = s.model.first[s.model.tiles()[task].object];
   const Tile& tile = tile_of(s, task);

@@ -16,7 +16,8 @@ struct JointLoadSums {
 
 struct Substep;
 
-/// Adds the loads of all joints of the substep's objects, after its solve. Sums of an earlier step start again from zero.
+/// Adds the loads of all joints of the substep's objects, after its solve. Sums of an earlier step start again from
+/// zero.
 void add_joint_loads(const Substep& s);
 
 }  // namespace pliant

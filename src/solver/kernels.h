@@ -50,7 +50,8 @@ struct StepKernels {
   /// Does update, then predict, in one pass over memory, for substeps without a stage between them.
   void (*advance)(const AdvanceArguments& arguments, PointBounds* bounds);
 
-  /// Writes the ascending indices of particles near a solid to `near`, which must have room for all. Returns their number.
+  /// Writes the ascending indices of particles near a solid to `near`, which must have room for all. Returns their
+  /// number.
   int (*find_near)(const NearQuery& query, std::int32_t* near);
 };
 
@@ -58,9 +59,9 @@ PLIANT_DECLARE_LEVELS(SweepKernels, sweep_kernels)
 PLIANT_DECLARE_LEVELS(StepKernels, step_kernels)
 const SweepKernels& sweep_kernels_sequential();
 
-/// Like SweepKernels::sweep, with relaxation. If arguments.corrections is set, stores corrections there instead of applying them:
-/// that of a batch's `slot` and `lane` at record 16 (size batch + slot) + correction_place(lane) of its pool's array. One constraint after
-/// another on every level: no default uses it (Jacobi sweeps, relaxation).
+/// Like SweepKernels::sweep, with relaxation. If arguments.corrections is set, stores corrections there instead of
+/// applying them: that of a batch's `slot` and `lane` at record 16 (size batch + slot) + correction_place(lane) of its
+/// pool's array. One constraint after another on every level: no default uses it (Jacobi sweeps, relaxation).
 void sweep_general(const Pool* pools, const Segment* first, const Segment* last, const SweepArguments& arguments);
 
 const StepKernels& step_kernels_sequential();

@@ -1,4 +1,5 @@
-// The sweep over segments of any type: calls the sweep of each segment's type (sweep_in_lanes.h) of the level that is being compiled.
+// The sweep over segments of any type: calls the sweep of each segment's type (sweep_in_lanes.h) of the level that is
+// being compiled.
 #include "constraints/in_lanes.h"
 #include "math/levels.h"
 #include "solver/kernels.h"
@@ -9,7 +10,8 @@ inline namespace PLIANT_LEVEL_ISA {
 namespace {
 
 template <class... Types>
-void sweep_any(TypeList<Types...>, const Pool& pool, const Segment& segment, float* multipliers, const SweepArguments& a) {
+void sweep_any(TypeList<Types...>, const Pool& pool, const Segment& segment, float* multipliers,
+               const SweepArguments& a) {
   using Function = void (*)(const Pool&, const Segment&, float*, const SweepArguments&);
   static_assert((in_lanes<Types> && ...), "other types are projected one at a time");
   static constexpr Function table[] = {&SweepOf<Types>::sweep...};

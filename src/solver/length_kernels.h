@@ -1,5 +1,5 @@
-// The search for distance constraints that are longer than their force explains: SIMD kernels for each instruction set, and
-// a scalar twin with the same bits.
+// The search for distance constraints that are longer than their force explains: SIMD kernels for each instruction set,
+// and a scalar twin with the same bits.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,9 @@ struct DemandQuery {
 };
 
 struct LengthKernels {
-  /// Calls found(context, some, count) for the constraints of segments [first, last) with a positive rest length, a free
-  /// particle and an overstretch above the query's, in order. The segments are of one pool of a length type (registry.h).
+  /// Calls found(context, some, count) for the constraints of segments [first, last) with a positive rest length, a
+  /// free particle and an overstretch above the query's, in order. The segments are of one pool of a length type
+  /// (registry.h).
   void (*find_long)(const Pool& pool, const Segment* segments, int first, int last, const LengthQuery& query,
                     FoundLengthCallback found, void* context);
 

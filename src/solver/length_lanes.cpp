@@ -52,7 +52,8 @@ struct Batch {
 
 /// The length that forces explain, by lane.
 template <std::int32_t runs>
-PLIANT_HD Wide explained(const Batch<runs>& of, const float* multipliers, const Vec3<Wide>& across, const LengthQuery& q) {
+PLIANT_HD Wide explained(const Batch<runs>& of, const float* multipliers, const Vec3<Wide>& across,
+                         const LengthQuery& q) {
   const Wide compliance = of.row(1);
   const Wide elastic =
       explained_by_force(compliance, load_wide(multipliers + of.number() * batch_width), Wide(q.inverse_h2));
@@ -81,7 +82,8 @@ struct Reports {
 
 /// Reports the constraints of a batch whose values exceed `above`.
 template <std::int32_t runs>
-PLIANT_HD void report(const Batch<runs>& of, const Wide& values, float above, const Record* positions, Reports& reports) {
+PLIANT_HD void report(const Batch<runs>& of, const Wide& values, float above, const Record* positions,
+                      Reports& reports) {
   std::uint32_t bits = lane_bits(values > Wide(above)) & of.valid();
   if (bits == 0) return;
   bits &= lane_bits(of.row(0) > Wide(0.f)) & of.ends.free(positions);

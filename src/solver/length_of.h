@@ -35,12 +35,13 @@ PLIANT_HD R explained_by_damping(const Vec3<R>& across, const Vec3<R>& speed, co
 template <class R>
 PLIANT_HD R least_squared(const R& rest, const R& above, const R& explained) {
   const R slack = R(4e-6f);  // sixty-four roundings
-  const R least = max(rest * (R(1.f) + above - slack * (R(1.f) + abs(above))) - explained - slack * abs(explained), R(0.f));
+  const R least =
+      max(rest * (R(1.f) + above - slack * (R(1.f) + abs(above))) - explained - slack * abs(explained), R(0.f));
   return least * least;
 }
 
-/// The substeps that a distance constraint demands: in proportion to its strain, or to the angle that it turns by, whichever
-/// are more.
+/// The substeps that a distance constraint demands: in proportion to its strain, or to the angle that it turns by,
+/// whichever are more.
 template <class R>
 PLIANT_HD R demand(const Vec3<R>& across, const Vec3<R>& speed, const R& rest, const R& by_stretch, const R& by_turn) {
   const R squared = max(length_squared(across), R(1e-30f)), along = dot(across, speed);

@@ -1,4 +1,5 @@
-// The search for long distances in scalar floats, one constraint after another: the readable reference of length_lanes.cpp.
+// The search for long distances in scalar floats, one constraint after another: the readable reference of
+// length_lanes.cpp.
 #include "solver/length_kernels.h"
 #include "solver/length_of.h"
 
@@ -11,8 +12,8 @@ Vec3f between(const Record* base, int from, int to) {
 }
 
 /// The length that forces explain [m].
-float explained(const Pool& pool, std::int64_t batch, int lane, float multiplier, const Vec3f& across, const Vec3f& speed,
-                const LengthQuery& q) {
+float explained(const Pool& pool, std::int64_t batch, int lane, float multiplier, const Vec3f& across,
+                const Vec3f& speed, const LengthQuery& q) {
   const float compliance = pool.row(1, batch)[lane];
   const float elastic = explained_by_force(compliance, multiplier, q.inverse_h2);
   if (pool.law != Law::damped || q.velocities == nullptr) return elastic;
@@ -20,7 +21,8 @@ float explained(const Pool& pool, std::int64_t batch, int lane, float multiplier
 }
 
 /// True if the constraint in a lane has a rest length above zero and a free particle.
-bool counts(const Pool& pool, const Segment& segment, const std::int32_t* index, int b, int lane, const Record* positions) {
+bool counts(const Pool& pool, const Segment& segment, const std::int32_t* index, int b, int lane,
+            const Record* positions) {
   if (!lane_is_valid(segment, b, lane) || !(pool.row(0, std::int64_t{segment.first_batch} + b)[lane] > 0)) return false;
   return positions[particle_of(segment, index, 0, lane)].w > 0 || positions[particle_of(segment, index, 1, lane)].w > 0;
 }

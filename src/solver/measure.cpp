@@ -66,7 +66,8 @@ void add_residuals(const StateView& view, int type, ErrorSum& sum) {
   });
 }
 
-ErrorSum volume_errors(const Model& model, const State& state, const Workspace& workspace, FunctionRef<float(int)> h_of) {
+ErrorSum volume_errors(const Model& model, const State& state, const Workspace& workspace,
+                       FunctionRef<float(int)> h_of) {
   ErrorSum volumes;
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     const CompiledObject& object = model.objects[o];
@@ -80,7 +81,8 @@ ErrorSum volume_errors(const Model& model, const State& state, const Workspace& 
   return volumes;
 }
 
-void add_ratios(const CompiledObject& object, const Record* positions, int type, std::vector<float>& ratios, double& sum) {
+void add_ratios(const CompiledObject& object, const Record* positions, int type, std::vector<float>& ratios,
+                double& sum) {
   for_constraints(object, type, [&](const ConstraintPlace& at, const std::int32_t* particle) {
     const float rest = at.value(0);
     if (!(rest > 0)) return;
@@ -134,7 +136,8 @@ double measure_volume(const CompiledObject& object, const Record* positions) {
     const Record &x = positions[particle], &first = positions[0];
     return Vec3d{double(x.x) - first.x, double(x.y) - first.y, double(x.z) - first.z};
   };
-  for (const auto& t : object.surface.triangles) six += dot(from_first(t[0]), cross(from_first(t[1]), from_first(t[2])));
+  for (const auto& t : object.surface.triangles)
+    six += dot(from_first(t[0]), cross(from_first(t[1]), from_first(t[2])));
   return six / 6;
 }
 

@@ -107,13 +107,16 @@ void remove(const RigidStep& step, const AdvanceArguments& a) {
 RigidStep rigid_step(const RigidSums& sums) {
   const Vec3d centre = sums.first * (1 / sums.mass), push = sums.corrections.linear;
   const auto about_centre = [&](double sum, double a, double b) { return sum - sums.mass * a * b; };
-  const Vec3d squares{about_centre(sums.squares.x, centre.x, centre.x), about_centre(sums.squares.y, centre.y, centre.y),
+  const Vec3d squares{about_centre(sums.squares.x, centre.x, centre.x),
+                      about_centre(sums.squares.y, centre.y, centre.y),
                       about_centre(sums.squares.z, centre.z, centre.z)};
-  const Vec3d products{about_centre(sums.products.x, centre.y, centre.z), about_centre(sums.products.y, centre.z, centre.x),
+  const Vec3d products{about_centre(sums.products.x, centre.y, centre.z),
+                       about_centre(sums.products.y, centre.z, centre.x),
                        about_centre(sums.products.z, centre.x, centre.y)};
   const Vec3d moments{squares.y + squares.z, squares.z + squares.x, squares.x + squares.y};
-  const Vec3d inertia[3] = {
-      {moments.x, -products.z, -products.y}, {-products.z, moments.y, -products.x}, {-products.y, -products.x, moments.z}};
+  const Vec3d inertia[3] = {{moments.x, -products.z, -products.y},
+                            {-products.z, moments.y, -products.x},
+                            {-products.y, -products.x, moments.z}};
   const Vec3d rotation = solve_by_cramer(inertia, sums.corrections.angular - cross(centre, push));
   const Vec3d translation = push * (1 / sums.mass) - cross(rotation, centre);
   return is_finite(rotation) && is_finite(translation) ? RigidStep{translation, rotation} : RigidStep{};
@@ -128,7 +131,8 @@ void note_momentum(Substep& s, Since since, const std::vector<char>* only) {
     });
     return;
   }
-  for_tiles_of(inflated, s, [&](int task) { s.work.tiles[task].noted = sums_of(particles(s, task), since).corrections; });
+  for_tiles_of(inflated, s,
+               [&](int task) { s.work.tiles[task].noted = sums_of(particles(s, task), since).corrections; });
 }
 
 void note_impulse_on_body(Substep& s, int object, const Vec3f& place, const Vec3f& impulse) {

@@ -7,7 +7,16 @@
 namespace pliant::motion_formulas {
 
 /// The Records of a BodyMotion.
-enum BodyRecord : int { velocity, spin, inertia_diagonal, inertia_rest, displacement, rotation, kept_velocity, kept_spin };
+enum BodyRecord : int {
+  velocity,
+  spin,
+  inertia_diagonal,
+  inertia_rest,
+  displacement,
+  rotation,
+  kept_velocity,
+  kept_spin
+};
 
 template <class R, int lanes>
 struct BodyLanes {
@@ -26,7 +35,8 @@ struct BodyLanes {
 
 /// The elements of R diag(inverse) R^T in world axes, as BodyMotion has them.
 template <class R, int lanes>
-PLIANT_HD void store_inertia(const BodyArrays& a, const BodyLanes<R, lanes>& at, const Quat<R>& q, const Vec3<R>& inverse) {
+PLIANT_HD void store_inertia(const BodyArrays& a, const BodyLanes<R, lanes>& at, const Quat<R>& q,
+                             const Vec3<R>& inverse) {
   const R zero(0.f), one(1.f);
   const Vec3<R> x = rotate(q, Vec3<R>{one, zero, zero}), y = rotate(q, Vec3<R>{zero, one, zero}),
                 z = rotate(q, Vec3<R>{zero, zero, one});
@@ -76,7 +86,8 @@ PLIANT_HD void load_predicted(const BodyArrays& a, const BodyLanes<R, lanes>& at
   at.motion.store(at.row(a, spin), rotate(body.start, turns), R(0.f));
 }
 
-/// How the motion has changed since it was kept; rotation in the axes of `body` at the frame's start. Adds that to what contacts did.
+/// How the motion has changed since it was kept; rotation in the axes of `body` at the frame's start. Adds that to what
+/// contacts did.
 template <class R, int lanes>
 PLIANT_HD void take_change(const BodyArrays& a, const BodyLanes<R, lanes>& at, Vec3<R>& moved, Vec3<R>& turned) {
   moved = at.motion.vector(at.row(a, velocity)) - at.motion.vector(at.row(a, kept_velocity));
@@ -108,8 +119,8 @@ PLIANT_HD void load_velocities(const BodyArrays& a, const BodyLanes<R, lanes>& a
   const R zero(0.f);
   const RecordOf<R> x = at.particle.load(a.positions);
   const Turned<R> body = turned_of(a, at);
-  const Vec3<R> moved =
-      (x.xyz - at.body.vector(a.start_positions)) + (at.particle.vector(a.remainders) - at.body.vector(a.start_remainders));
+  const Vec3<R> moved = (x.xyz - at.body.vector(a.start_positions)) +
+                        (at.particle.vector(a.remainders) - at.body.vector(a.start_remainders));
   const Vec3<R> turn = at.frame.vector(a.of_frames.predicted) + at.frame.vector(a.of_frames.corrections);
   const Vec3<R> summed = at.motion.vector(at.row(a, rotation)) + rotate(body.start, body.from_world(turn));
   const Vec3<R> turned = body.any_is_round ? select(body.is_round, rotate(body.start, body.swing()), summed) : summed;
@@ -117,7 +128,8 @@ PLIANT_HD void load_velocities(const BodyArrays& a, const BodyLanes<R, lanes>& a
   at.motion.store(at.row(a, rotation), turned, zero);
   const Vec3<R> g{R(gravity.x), R(gravity.y), R(gravity.z)};
   const Vec3<R> v = at.particle.vector(a.velocities) + select(x.w > zero, g, Vec3<R>{zero, zero, zero});
-  // Contacts push at the substep's start, and angular momentum that they bring stays in the world while the prediction turns the body.
+  // Contacts push at the substep's start, and angular momentum that they bring stays in the world while the prediction
+  // turns the body.
   const RecordOf<R> spins = at.frame.load(a.of_frames.angular_velocities);
   const Vec3<R> inverse = at.frame.vector(a.of_frames.inverse_inertias);
   const Vec3<R> across = body.across(local(body.now, at.frame.vector(a.of_frames.predicted)));

@@ -1,5 +1,5 @@
-// How frames turn, and how the motions of bodies are gathered for their contacts and scattered after them, for sixteen at a time, one
-// table for each instruction set level as in solver/kernels.h. All tables give the same bits.
+// How frames turn, and how the motions of bodies are gathered for their contacts and scattered after them, for sixteen
+// at a time, one table for each instruction set level as in solver/kernels.h. All tables give the same bits.
 #pragma once
 
 #include <cstdint>
@@ -36,17 +36,19 @@ struct BodyArrays {
 struct MotionKernels {
   /// Starts a substep of h seconds: orientations follow angular velocities, which follow the gyroscopic torque.
   void (*predict_frames)(const FrameArrays& arrays, int first, int last, float h);
-  /// Ends a substep of h seconds: angular velocities change by `share` of the corrections over h. Returns true if all are finite.
+  /// Ends a substep of h seconds: angular velocities change by `share` of the corrections over h. Returns true if all
+  /// are finite.
   bool (*update_frames)(const FrameArrays& arrays, int first, int last, float h, float share);
 
   /// Gathers the masses and inertia of bodies [first, last).
   void (*load_inertia)(const BodyArrays& arrays, int first, int last);
-  /// Gathers their predicted motions, and keeps them in BodyMotion. If `is_first` in the substep, they start with what contacts did
-  /// in the last one, times `share`.
+  /// Gathers their predicted motions, and keeps them in BodyMotion. If `is_first` in the substep, they start with what
+  /// contacts did in the last one, times `share`.
   void (*load_predicted)(const BodyArrays& arrays, int first, int last, float h, bool is_first, float share);
   /// Adds to the predicted motion of bodies what contacts changed since load_predicted.
   void (*store_predicted)(const BodyArrays& arrays, int first, int last, float h);
-  /// Gathers the velocities of bodies, plus `gravity` [m/s] of those that are not fixed, and how far they have moved in the frame.
+  /// Gathers the velocities of bodies, plus `gravity` [m/s] of those that are not fixed, and how far they have moved in
+  /// the frame.
   void (*load_velocities)(const BodyArrays& arrays, int first, int last, const Vec3f& gravity);
   /// Adds to the velocities of bodies what contacts changed since load_velocities.
   void (*store_velocities)(const BodyArrays& arrays, int first, int last);

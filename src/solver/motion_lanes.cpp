@@ -1,4 +1,5 @@
-// Motion of frames and bodies in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
+// Motion of frames and bodies in sixteen SIMD lanes, compiled per instruction set level under the rules of
+// solver/lanes.cpp.
 #include "solver/motion_loops.h"
 #include "solver/motion_wide.h"
 

@@ -1,12 +1,13 @@
-// The functions of MotionKernels as loops over formulas (motion_formulas.h), for R in so many lanes. Include it where the records of R
-// can be loaded.
+// The functions of MotionKernels as loops over formulas (motion_formulas.h), for R in so many lanes. Include it where
+// the records of R can be loaded.
 #pragma once
 
 #include "solver/motion_formulas.h"
 
 namespace pliant::motion_formulas {
 
-/// `Unit` is a type of an unnamed namespace, so that the linker never mixes the code of two levels; void for the sequential reference.
+/// `Unit` is a type of an unnamed namespace, so that the linker never mixes the code of two levels; void for the
+/// sequential reference.
 template <class R, int lanes, class Unit>
 struct Loops {
   using At = Lanes<R, lanes>;
@@ -37,7 +38,8 @@ struct Loops {
   }
 
   static constexpr MotionKernels table{
-      &predict, &update, &gather_inertia, &gather_predicted, &scatter_predicted, &gather_velocities, &scatter_velocities};
+      &predict,           &update, &gather_inertia, &gather_predicted, &scatter_predicted, &gather_velocities,
+      &scatter_velocities};
 };
 
 }  // namespace pliant::motion_formulas

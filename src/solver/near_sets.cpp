@@ -74,7 +74,9 @@ struct FrameStart {
   }
   double end() const { return state.time + dt; }
   /// Times at which what follows keyframes is looked at: it may come back within the frame.
-  std::array<double, 4> times() const { return {state.time + dt / 4, state.time + dt / 2, state.time + dt * 3 / 4, end()}; }
+  std::array<double, 4> times() const {
+    return {state.time + dt / 4, state.time + dt / 2, state.time + dt * 3 / 4, end()};
+  }
 };
 
 /// The largest displacement of an object's kinematic particles [m].
@@ -105,8 +107,8 @@ double acceleration_by_user(const FrameStart& f, int o) {
   const ObjectControl* given = f.control.object(o);
   double most = 0;
   for (std::size_t i = 0; given != nullptr && i < given->forces.size(); ++i)
-    most =
-        std::max(most, static_cast<double>(length(given->forces[i]) * f.state.positions[at(f.model.first[at(o)]) + i].w));
+    most = std::max(most,
+                    static_cast<double>(length(given->forces[i]) * f.state.positions[at(f.model.first[at(o)]) + i].w));
   return most;
 }
 
@@ -168,7 +170,8 @@ std::vector<Reach> moving_colliders(const FrameStart& f) {
 }
 
 /// The members that are near each other, by index in `among`.
-Forest join_near(const std::vector<SetMember>& members, const std::vector<int>& among, const std::vector<Reach>& reaches) {
+Forest join_near(const std::vector<SetMember>& members, const std::vector<int>& among,
+                 const std::vector<Reach>& reaches) {
   Forest forest(among.size());
   const auto meet = [&](int i, int j) { return can_meet(members[at(among[at(i)])], members[at(among[at(j)])]); };
   int gas = -1;  // what is mixed into gases is not divided

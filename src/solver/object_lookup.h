@@ -1,4 +1,5 @@
-// Which object a particle belongs to, for many particles in a row: neighbours mostly belong to the object of the last one.
+// Which object a particle belongs to, for many particles in a row: neighbours mostly belong to the object of the last
+// one.
 #pragma once
 
 #include "model/model.h"

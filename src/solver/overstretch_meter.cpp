@@ -11,8 +11,8 @@ namespace pliant {
 
 namespace {
 
-/// The threshold of the next frame leaves up to this many times the constraints that the percentile needs. If it left fewer
-/// than one and a quarter as many, it decreases.
+/// The threshold of the next frame leaves up to this many times the constraints that the percentile needs. If it left
+/// fewer than one and a quarter as many, it decreases.
 constexpr std::size_t listed = 2;
 constexpr float decrease = 0.8f;
 /// A threshold that is taken from a value is a little less, so that it finds that value again.
@@ -38,7 +38,8 @@ std::size_t number_beyond(std::int64_t constraints) {
   return static_cast<std::size_t>(constraints - below);
 }
 
-/// The user's number of a particle; for the target of an attachment, at which chains may end, that of the attached particle.
+/// The user's number of a particle; for the target of an attachment, at which chains may end, that of the attached
+/// particle.
 int user_particle(const CompiledObject& object, int storage) {
   int user = object.order[static_cast<std::size_t>(storage)];
   if (user < object.user_particles) return user;
@@ -57,7 +58,8 @@ int user_particle(const CompiledObject& object, int storage) {
 Overstretch OverstretchMeter::measure(const MeasuredFrame& frame, Executor* executor) {
   Overstretch measured;
   list_tasks(frame.model);
-  for (const Task& task : tasks_) measured.constraints += frame.model.objects[task.object].lengths[task.item].constraints;
+  for (const Task& task : tasks_)
+    measured.constraints += frame.model.objects[task.object].lengths[task.item].constraints;
   if (measured.constraints == 0) return measured;
   const std::size_t beyond = number_beyond(measured.constraints);
   std::size_t found = find(frame, executor);

@@ -1,8 +1,8 @@
 // The overstretch of a frame: 99th percentile and maximum over all distance constraints, exactly.
 //
-// Only the constraints above a threshold are listed, about two in a hundred, and counted in a histogram, which tells where
-// the percentile is. The threshold follows from the frame before; it saves work and changes no figure, because the search
-// is repeated with a lower one if it found too few.
+// Only the constraints above a threshold are listed, about two in a hundred, and counted in a histogram, which tells
+// where the percentile is. The threshold follows from the frame before; it saves work and changes no figure, because
+// the search is repeated with a lower one if it found too few.
 #pragma once
 
 #include <array>

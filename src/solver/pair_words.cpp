@@ -57,7 +57,8 @@ std::string words_of(const Model& model, const UnresolvablePairs& pairs) {
   const std::string of = a == b ? " and itself: " : " and " + name_of(model, b) + ": ";
   return name_of(model, a) + of + words_of(model, pairs.first) +
          (pairs.count > 1 ? " and " + std::to_string(pairs.count - 1) + " more pairs were" : " were") +
-         " unresolvable in this frame: no step limit keeps them apart, because they touched, or pins or colliders pinched "
+         " unresolvable in this frame: no step limit keeps them apart, because they touched, or pins or colliders "
+         "pinched "
          "them, so "
          "they may pass through one another; give them more room, a greater thickness, or more substeps";
 }

@@ -59,8 +59,8 @@ PLIANT_HD void predict_four(FourParticles& p, const WideGravity& gravity, const 
 }
 
 PLIANT_HD FourParticles load_four(const AdvanceArguments& a, int i) {
-  return {load_wide(floats(a.positions + i)), load_wide(floats(a.displacements + i)), load_wide(floats(a.remainders + i)),
-          load_wide(floats(a.velocities + i))};
+  return {load_wide(floats(a.positions + i)), load_wide(floats(a.displacements + i)),
+          load_wide(floats(a.remainders + i)), load_wide(floats(a.velocities + i))};
 }
 
 PLIANT_HD void store_four(const AdvanceArguments& a, int i, const FourParticles& p) {
@@ -141,7 +141,8 @@ PLIANT_HD void advance_all(const AdvanceArguments& a, WideBounds& bounds) {
   }
 }
 
-/// Predicts all particles, after their update if `updates`, and finds the bounds of their motion unless `bounds` is null.
+/// Predicts all particles, after their update if `updates`, and finds the bounds of their motion unless `bounds` is
+/// null.
 template <bool updates>
 PLIANT_HD void predict_all(const AdvanceArguments& a, PointBounds* bounds) {
   WideBounds wide;
@@ -200,8 +201,8 @@ int find_near(const NearQuery& q, std::int32_t* near) {
   for (; i + batch_width <= q.last; i += batch_width) {
     const std::int32_t runs[4] = {i, i + 4, i + 8, i + 12};
     float lanes[batch_width];
-    store_wide(lanes,
-               nearness(q, from_registers(load_runs(q.positions, runs)), from_registers(load_runs(q.displacements, runs))));
+    store_wide(lanes, nearness(q, from_registers(load_runs(q.positions, runs)),
+                               from_registers(load_runs(q.displacements, runs))));
     for (int k = 0; k < batch_width; ++k) {
       near[count] = i + k;
       count += lanes[4 * (k % 4) + k / 4] >= 0 ? 1 : 0;

@@ -46,10 +46,10 @@ PLIANT_HD R within_trust(const R& denominator, const R& numerator, const R& mass
   }
 }
 
-/// The denominator of a solid's or a woven triangle's constraint in a sweep of one pass: its compliance is lowered by the share `lead` of
-/// `rigid`, the denominator without compliance, and not below zero. Such a sweep treats neighbours that come later as
-/// if they were at rest, so a static load moves each constraint as if its compliance were greater by about half of
-/// `rigid` (docs/internals/solids.md, woven.md).
+/// The denominator of a solid's or a woven triangle's constraint in a sweep of one pass: its compliance is lowered by
+/// the share `lead` of `rigid`, the denominator without compliance, and not below zero. Such a sweep treats neighbours
+/// that come later as if they were at rest, so a static load moves each constraint as if its compliance were greater by
+/// about half of `rigid` (docs/internals/solids.md, woven.md).
 template <class R>
 PLIANT_HD R led(const R& denominator, const R& rigid, const R& lead) {
   return max(denominator - lead * rigid, rigid);
@@ -172,7 +172,8 @@ PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_coun
     change = numerator / max(within_trust<T>(denominator, numerator, mass), R(smallest_denominator));
   }
   if constexpr (general) change = change * R(a.relaxation);
-  if constexpr (keeps_multiplier) response.multiplier = response.multiplier + (general ? change * response.share : change);
+  if constexpr (keeps_multiplier)
+    response.multiplier = response.multiplier + (general ? change * response.share : change);
   PLIANT_UNROLL
   for (int slot = 0; slot < slot_count<T>; ++slot) correction[slot] = gradient[slot] * (w[slot] * change);
   if constexpr (law == Law::damped && measures_strain<T>) {

@@ -24,7 +24,8 @@ void for_range(Substep& s, const char* name, int first, int last, FunctionRef<vo
 void for_frames(Substep& s, const char* name, FunctionRef<void(int, int)> body) {
   if (s.part == nullptr) return for_range(s, name, 0, s.model.frames(), body);
   for_objects(s, [&](int o) {
-    if (s.model.objects[o].frames.size() > 0) for_range(s, name, s.model.first_frame[o], s.model.end_of_frames(o), body);
+    if (s.model.objects[o].frames.size() > 0)
+      for_range(s, name, s.model.first_frame[o], s.model.end_of_frames(o), body);
   });
 }
 
@@ -59,10 +60,13 @@ void drive_frames(const Substep& s, const FrameArrays& arrays) {
 }  // namespace
 
 FrameArrays frame_arrays(const Substep& s) {
-  return {
-      s.state.frames.orientations.data(), s.state.frames.angular_velocities.data(), s.state.frames.inverse_inertias.data(),
-      s.work.frames.starts.data(),        s.work.frames.predicted.data(),           s.work.frames.corrections.data(),
-      s.work.frames.round.data()};
+  return {s.state.frames.orientations.data(),
+          s.state.frames.angular_velocities.data(),
+          s.state.frames.inverse_inertias.data(),
+          s.work.frames.starts.data(),
+          s.work.frames.predicted.data(),
+          s.work.frames.corrections.data(),
+          s.work.frames.round.data()};
 }
 
 void predict_frames(Substep& s) {

@@ -128,15 +128,15 @@ void assemble(const ConstraintPlace& at, const float* multipliers, const SweepAr
   }
 }
 
-/// For types that act on motion: C becomes the displacement of C since the substep's start less that at the imposed speed.
-/// The compliance is a speed over a force; with it, the row is a damper.
+/// For types that act on motion: C becomes the displacement of C since the substep's start less that at the imposed
+/// speed. The compliance is a speed over a force; with it, the row is a damper.
 void assemble_motion(const ConstraintPlace& at, const float* multipliers, const SweepArguments& a, Work& work) {
   const Pool& pool = at.pool;
   const float compliance = pool.law == Law::pbd ? 0 : min(at.value(pool.fields) * a.inverse_h, largest_compliance);
   for (int i = 0; i < pool.components; ++i) {
     const float mass = coupling(pool, work, i, i);
-    const DampedRow row =
-        damped_row(compliance, mass, work.bounds[3 * i + 2] * a.h, compliance > 0 ? along(pool, work, i, work.coast) : 0);
+    const DampedRow row = damped_row(compliance, mass, work.bounds[3 * i + 2] * a.h,
+                                     compliance > 0 ? along(pool, work, i, work.coast) : 0);
     work.change[i] = row.target - motion_along(pool, work, i);
     if (multipliers != nullptr && !a.first_pass)
       work.change[i] = work.change[i] - row.compliance * multipliers[i * batch_width];
@@ -195,7 +195,8 @@ void apply(const CompiledObject& object, const SweepArguments& a, const FrameArg
     const SlotMass& mass = work.mass[slot];
     if (mass.is_frame) {
       Vec3f torque{};
-      for (int row = 0; row < pool.components; ++row) torque += work.arrays.gradient(pool, row, slot) * work.change[row];
+      for (int row = 0; row < pool.components; ++row)
+        torque += work.arrays.gradient(pool, row, slot) * work.change[row];
       const std::int32_t frame = number[slot] - object.particles;
       rotate_frame(mass.times(torque), f.orientations[frame], f.corrections[frame]);
       continue;

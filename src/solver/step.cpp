@@ -49,7 +49,8 @@ Substep* first_to_end(std::vector<Substep>& groups) {
   return first;
 }
 
-/// True if the current substeps of all groups end with that of `s`, the first to end. Only there can a frame be stopped.
+/// True if the current substeps of all groups end with that of `s`, the first to end. Only there can a frame be
+/// stopped.
 bool all_end_together(const std::vector<Substep>& groups, const Substep& s) {
   return std::none_of(groups.begin(), groups.end(), [&](const Substep& other) { return ends_before(s, other); });
 }

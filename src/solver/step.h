@@ -28,11 +28,11 @@ struct StepContext {
   bool record_residuals = false;
   const std::atomic<bool>* stop = nullptr;  ///< stop request: the frame ends as soon as all groups reach one time
   bool separate_phases = false;             ///< Settings::separate_phases
-  double tolerance = 0;                     ///< Settings::tolerance; if > 0, call prepare_residual first, and use one group
-  std::span<const GroupFrame> groups{};     ///< groups with different numbers of substeps
-  OverstretchMeter* meter = nullptr;        ///< fills Report::overstretch if the frame is completed; null: not measured
-  SleepOptions sleep{};                     ///< Settings::sleep
-  bool keeps_energy = false;                ///< Settings::integrator is `energy`
+  double tolerance = 0;  ///< Settings::tolerance; if > 0, call prepare_residual first, and use one group
+  std::span<const GroupFrame> groups{};  ///< groups with different numbers of substeps
+  OverstretchMeter* meter = nullptr;     ///< fills Report::overstretch if the frame is completed; null: not measured
+  SleepOptions sleep{};                  ///< Settings::sleep
+  bool keeps_energy = false;             ///< Settings::integrator is `energy`
   /// The objects of `model`, whose rest data and pressures substeps change; null: none has any that change.
   std::vector<CompiledObject>* changing = nullptr;
   ConvergenceMeter* estimator = nullptr;  ///< estimates the frame if it is completed; null: not estimated

@@ -34,7 +34,8 @@ SweepArguments arguments(const Substep& s, int object, bool first_pass) {
   a.velocities = (changes_velocities(s) ? s.work.velocities_before : s.state.velocities).data() + first;
   a.gravity = gravity_for(s, s.work.gravity[object].settled);
   a.keeps_energy = s.context.keeps_energy;
-  const bool is_stored = !s.work.multiplier_pointers[object].empty() && (s.is_last() || s.work.stores_in_last[object] == 0);
+  const bool is_stored =
+      !s.work.multiplier_pointers[object].empty() && (s.is_last() || s.work.stores_in_last[object] == 0);
   const auto& pointers = s.is_last() ? s.work.multiplier_pointers : s.work.pointers_before_last;
   a.multipliers = is_stored ? pointers[object].data() : nullptr;
   const auto& skipped = s.work.joints[object].skipped;

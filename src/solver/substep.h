@@ -33,10 +33,10 @@ struct Substep {
   int planned = 1;                     ///< substeps in the whole frame
   int substeps = 1;                    ///< substeps to make; fewer than planned if the frame is stopped
   double time_after = 0;               ///< time at the substep's end [s]
-  bool sweeps_on_entry = false;        ///< true if predict runs the first sweep over tiles, each while it is in the cache
-  bool update_is_due = false;          ///< true if update is deferred to the next predict (stages/advance.cpp)
-  bool frames_are_finite = true;       ///< orientations after the last update, for objects that take part
-  std::int64_t iterations_made = 0;    ///< iterations made in this frame
+  bool sweeps_on_entry = false;      ///< true if predict runs the first sweep over tiles, each while it is in the cache
+  bool update_is_due = false;        ///< true if update is deferred to the next predict (stages/advance.cpp)
+  bool frames_are_finite = true;     ///< orientations after the last update, for objects that take part
+  std::int64_t iterations_made = 0;  ///< iterations made in this frame
   const SweepGroup* group =
       nullptr;  ///< the sweep group that is being iterated; null: loops over swept objects visit every object
 
@@ -94,7 +94,9 @@ AdvanceArguments object_particles(const Substep& s, int object);
 PairParticles all_particles(const Substep& s);
 
 /// The object to which the tile of a task belongs; tile_of returns the tile.
-inline const CompiledObject& object_of(const Substep& s, int task) { return s.model.objects[s.model.tiles()[task].object]; }
+inline const CompiledObject& object_of(const Substep& s, int task) {
+  return s.model.objects[s.model.tiles()[task].object];
+}
 inline const Tile& tile_of(const Substep& s, int task) { return object_of(s, task).tiles[s.model.tiles()[task].item]; }
 
 /// True if an object takes part in this substep.

@@ -16,8 +16,8 @@ namespace pliant {
 
 namespace {
 
-/// The substeps for tethers of `edges` edges: edges^1.5 over this. Hung by two corners, cloth of 64, 128, 256 and 512 rows
-/// needs some 4, 10, 27 and 77 (docs/internals/default_settings_tried.md).
+/// The substeps for tethers of `edges` edges: edges^1.5 over this. Hung by two corners, cloth of 64, 128, 256 and 512
+/// rows needs some 4, 10, 27 and 77 (docs/internals/default_settings_tried.md).
 constexpr double edges_to_hang = 150;
 constexpr int most_to_hang = 100;
 
@@ -41,8 +41,8 @@ SetMember member_of(const CompiledObject& object) {
 /// after another does not mend.
 bool limits_lengths(Sweep sweep) { return solves_chains(sweep) || sweep == Sweep::multigrid; }
 
-/// True if the object is cloth that hangs by tethers; without a fixed particle there are none. A rope is not counted, nor cloth
-/// that swings about one place: its free end swings fast, and few substeps let it stretch.
+/// True if the object is cloth that hangs by tethers; without a fixed particle there are none. A rope is not counted,
+/// nor cloth that swings about one place: its free end swings fast, and few substeps let it stretch.
 bool hangs(const CompiledObject& object) {
   if (object.sweep != Sweep::tethered_chains || object.surface.triangles.empty()) return false;
   std::vector<Vec3f> all, anchors;
@@ -156,8 +156,8 @@ void take_over(SubstepGroup& from, SubstepGroup& group) {
   group.phases = std::move(from.phases);
 }
 
-/// Copies phases to the groups that have none, each with the tasks of its objects. Phases whose tasks are found in each substep have
-/// no tasks, and all groups get them. `of_object` is the group of each object, or -1.
+/// Copies phases to the groups that have none, each with the tasks of its objects. Phases whose tasks are found in each
+/// substep have no tasks, and all groups get them. `of_object` is the group of each object, or -1.
 void divide_phases(const Model& model, const std::vector<int>& of_object, std::vector<SubstepGroup>& groups) {
   std::vector<const Phase*> last(groups.size(), nullptr);  // the last phase of which each group has a part
   std::vector<char> is_done(groups.size());
@@ -177,7 +177,8 @@ void divide_phases(const Model& model, const std::vector<int>& of_object, std::v
   }
 }
 
-/// Sets that share a group have the same key, in ascending order of substeps; each set that follows its State has its own.
+/// Sets that share a group have the same key, in ascending order of substeps; each set that follows its State has its
+/// own.
 int key_of(const SetSubsteps& set) {
   constexpr int most = 10000;  // Settings::substeps
   return set.by_state ? most + 1 + set.set : set.substeps;
@@ -207,7 +208,8 @@ GroupKeys find_keys(const Model& model, const std::vector<int>* given) {
   if (keys.substeps.empty()) keys.substeps.emplace(0, SetSubsteps{0, substeps_of_others});
   // A collider beside a set that follows its State has a group of its own, so that the set gets the bits that it gets
   // alone.
-  if (keys.substeps.begin()->second.by_state && has_lone_collider(model, keys)) keys.substeps.emplace(1, SetSubsteps{0, 1});
+  if (keys.substeps.begin()->second.by_state && has_lone_collider(model, keys))
+    keys.substeps.emplace(1, SetSubsteps{0, 1});
   for (int& key : keys.of_object) key = key > 0 ? key : keys.substeps.begin()->first;
   return keys;
 }

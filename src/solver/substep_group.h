@@ -1,5 +1,5 @@
-// A substep group: all sets of objects (model/object_sets.h) that have the same number of substeps in a frame, or one set
-// whose substeps follow its State (substep_law.h).
+// A substep group: all sets of objects (model/object_sets.h) that have the same number of substeps in a frame, or one
+// set whose substeps follow its State (substep_law.h).
 //
 // Groups share nothing within a frame, so each gets the bits that it gets alone, also if they run side by side. Where
 // they take turns, the group whose substep ends first always goes next, so that a frame can be stopped where all groups
@@ -34,7 +34,7 @@ struct SubstepGroup {
   std::vector<int> objects{}, tiles{};  ///< ascending; indices of Model::objects and Model::tiles()
   std::vector<Phase> phases{};          ///< phases with the tasks of these objects only
   std::vector<Sweep> sweeps{};          ///< sweeps that these objects use
-  std::vector<Task> lengths{};          ///< also where it has all: objects solved by chains, and each of their LengthRanges
+  std::vector<Task> lengths{};  ///< also where it has all: objects solved by chains, and each of their LengthRanges
   std::unique_ptr<BodySolver> bodies{};   ///< also where it has all; null without rigid bodies
   std::unique_ptr<FluidSolver> fluids{};  ///< likewise; null without liquids
   std::unique_ptr<GrainSolver> grains{};  ///< likewise; null without grains

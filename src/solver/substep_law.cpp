@@ -12,13 +12,13 @@ namespace pliant {
 
 namespace {
 
-/// Substeps per frame for each unit of strain, and for each radian that a constraint turns by in a frame. Measured: with
-/// fewer, folds pass 2 % of strain at their impact (docs/internals/default_settings_tried.md).
+/// Substeps per frame for each unit of strain, and for each radian that a constraint turns by in a frame. Measured:
+/// with fewer, folds pass 2 % of strain at their impact (docs/internals/default_settings_tried.md).
 constexpr double substeps_per_strain = 5000, substeps_per_radian = 20;
 /// Tethers leave no long errors, and an impact on a primitive collider moves few particles.
 constexpr double substeps_per_strain_hanging = 1000;
-/// Substeps decrease to no less than this share from one quarter to the next. The strain of a swinging rope goes with the
-/// square of the substep: left to demand alone, few and many substeps would alternate, and each change do work.
+/// Substeps decrease to no less than this share from one quarter to the next. The strain of a swinging rope goes with
+/// the square of the substep: left to demand alone, few and many substeps would alternate, and each change do work.
 constexpr double slowest_decrease = 1 / 1.1;
 constexpr double first_substeps = 40, first_of_hanging = 10;  ///< before the first quarter
 /// The share of constraints that may demand more.
@@ -27,7 +27,8 @@ constexpr double share_beyond = 0.01;
 /// strain with too few substeps is released when more follow.
 constexpr double share_beyond_of_impact = 0.001;
 
-/// How strain and rotation of constraints are turned into a demand for substeps, and the velocities that it is found from.
+/// How strain and rotation of constraints are turned into a demand for substeps, and the velocities that it is found
+/// from.
 struct Demand {
   const Record* velocities = nullptr;  ///< of all particles of the State
   double per_strain = 0, per_radian = 0;
@@ -114,8 +115,8 @@ void begin_quarter_with(Substep& s, double substeps, double before) {
 /// True if all objects of the group hang by tethers that hold, and meet no surface.
 bool hangs(const Substep& s) {
   bool all = s.least_hanging > 0 && !s.has_pairs();
-  for_present(s,
-              [&](int o) { all = all && tethers_hold(s.model.objects[o], s.state.positions.data() + s.model.first[o]); });
+  for_present(
+      s, [&](int o) { all = all && tethers_hold(s.model.objects[o], s.state.positions.data() + s.model.first[o]); });
   return all;
 }
 

@@ -1,9 +1,10 @@
-// The sweep over the constraints of one type in lanes. src/solver/CMakeLists.txt makes a unit of each type of constraints/in_lanes.h that
-// includes this header first and says PLIANT_SWEEP_IN_LANES(Type); it is compiled once for each instruction set level
-// (cmake/PliantLanes.cmake). lanes.cpp puts them together.
+// The sweep over the constraints of one type in lanes. src/solver/CMakeLists.txt makes a unit of each type of
+// constraints/in_lanes.h that includes this header first and says PLIANT_SWEEP_IN_LANES(Type); it is compiled once for
+// each instruction set level (cmake/PliantLanes.cmake). lanes.cpp puts them together.
 //
-// The sixteen constraints of a batch are projected a native vector at a time. They share no particle, so this is one order of many.
-// The units use only always-inlined functions and the inline namespace of their level, so that the linker never mixes code of two levels.
+// The sixteen constraints of a batch are projected a native vector at a time. They share no particle, so this is one
+// order of many. The units use only always-inlined functions and the inline namespace of their level, so that the
+// linker never mixes code of two levels.
 #pragma once
 
 #define PLIANT_ONE_REGISTER
@@ -28,12 +29,12 @@ inline constexpr std::int32_t any_set = -1;
 /// Which lanes of a batch are stored: all but in the last batch of a segment.
 struct ValidLanes {
   std::int32_t
-      count;   ///< the first groups of four lanes if all slots of the segment are contiguous, the first lanes if none is
+      count;  ///< the first groups of four lanes if all slots of the segment are contiguous, the first lanes if none is
   bool whole;  ///< all sixteen; always if some slots are contiguous and others are not (topology/colouring.cpp)
 };
 
-/// The particles of one slot for the lanes of one register. A batch of sixteen stores the indices of a slot in lane order; a contiguous
-/// slot stores four, of which number j is the first of lanes j, 4 + j, 8 + j and 12 + j.
+/// The particles of one slot for the lanes of one register. A batch of sixteen stores the indices of a slot in lane
+/// order; a contiguous slot stores four, of which number j is the first of lanes j, 4 + j, 8 + j and 12 + j.
 template <int size, std::int32_t fixed>
 struct SlotIndices {
   std::int32_t runs;
@@ -97,7 +98,8 @@ struct RowPointers {
 
 /// The displacements of a slot's particles in a substep at the velocities of its start, as coast_of.
 template <int size, std::int32_t fixed>
-PLIANT_HD Vec3<Wide> load_coast(const SweepArguments& a, const SlotIndices<size, fixed>& slots, int slot, const Wide& w) {
+PLIANT_HD Vec3<Wide> load_coast(const SweepArguments& a, const SlotIndices<size, fixed>& slots, int slot,
+                                const Wide& w) {
   const Vec3<Wide> v = from_registers(slots.load(a.velocities, slot)).position;
   const auto falls = w > Wide(0.f);
   const Wide zero(0.f), h(a.h);
@@ -109,8 +111,8 @@ PLIANT_HD Vec3<Wide> load_coast(const SweepArguments& a, const SlotIndices<size,
 /// `is_damped`: the pool has dampings.
 template <class T, Law law, bool keeps_multipliers, bool keeps_energy, std::int32_t fixed, int row_count>
 PLIANT_HD void project_register(bool is_damped, const RowPointers<row_count>& rows,
-                                const SlotIndices<slot_count<T>, fixed>& slots, float* multiplier, const ValidLanes& valid,
-                                const SweepArguments& a) {
+                                const SlotIndices<slot_count<T>, fixed>& slots, float* multiplier,
+                                const ValidLanes& valid, const SweepArguments& a) {
   constexpr int fields = static_cast<int>(sizeof(typename T::template Params<float>) / sizeof(float));
   Vec3<Wide> x[slot_count<T>];
   Wide w[slot_count<T>];
@@ -191,7 +193,8 @@ void sweep_either(const Pool& pool, const Segment& segment, float* multipliers, 
   } else if (segment.runs == 0) {
     with(std::integral_constant<std::int32_t, 0>{});
   } else if constexpr (slot_count<T> == 2) {
-    segment.runs == 1 ? with(std::integral_constant<std::int32_t, 1>{}) : with(std::integral_constant<std::int32_t, 2>{});
+    segment.runs == 1 ? with(std::integral_constant<std::int32_t, 1>{})
+                      : with(std::integral_constant<std::int32_t, 2>{});
   } else {
     with(std::integral_constant<std::int32_t, any_set>{});
   }

@@ -18,8 +18,8 @@
 
 namespace pliant {
 
-/// Projects the volume constraints of some objects once. `tasks` are the indices in Model::tiles() of all tiles of these objects,
-/// ascending. `arguments(object)` gives an object's particles.
+/// Projects the volume constraints of some objects once. `tasks` are the indices in Model::tiles() of all tiles of
+/// these objects, ascending. `arguments(object)` gives an object's particles.
 void project_volumes(const Model& model, Workspace& workspace, Executor& executor,
                      FunctionRef<SweepArguments(int)> arguments, const std::vector<int>& tasks);
 

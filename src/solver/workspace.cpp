@@ -9,8 +9,8 @@ namespace pliant {
 
 namespace {
 
-/// True if a pool's multipliers must be stored. Rigid constraints move the same without them; PBD constraints have none.
-/// Constraints projected one at a time keep theirs: bounds need them, and they are the reactions of joints.
+/// True if a pool's multipliers must be stored. Rigid constraints move the same without them; PBD constraints have
+/// none. Constraints projected one at a time keep theirs: bounds need them, and they are the reactions of joints.
 bool needs_multipliers(const Pool& pool) {
   if (!pool.in_lanes) return pool.law != Law::pbd;
   const std::size_t response = pool.row_offset.size() - (pool.law == Law::damped ? 2 : 1);
@@ -82,7 +82,8 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
   for (std::size_t pool = 0; pool < workspace.pointers_before_last[object].size(); ++pool)
     if (kept <= Multipliers::lengths && !from.pools[pool].is_length && from.pools[pool].in_lanes)
       workspace.pointers_before_last[object][pool] = nullptr;
-  const bool has_stencils = std::any_of(from.pools.begin(), from.pools.end(), [](const Pool& p) { return !p.in_lanes; });
+  const bool has_stencils =
+      std::any_of(from.pools.begin(), from.pools.end(), [](const Pool& p) { return !p.in_lanes; });
   workspace.stores_in_last[object] = kept == Multipliers::lengths_in_last && !has_stencils ? 1 : 0;
   workspace.volume_multipliers[object] = 0;
   workspace.cluster_multipliers[object].assign(from.clusters.has_multipliers ? from.clusters.members.size() : 0, {});
@@ -98,7 +99,8 @@ void prepare(const Model& model, int object, Multipliers kept, Workspace& worksp
 }
 
 void prepare_sweeps(const Model& model, const Settings& settings, int threads, Workspace& workspace) {
-  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o) prepare_sweep(model, o, settings, threads, workspace);
+  for (int o = 0; o < static_cast<int>(model.objects.size()); ++o)
+    prepare_sweep(model, o, settings, threads, workspace);
 }
 
 void prepare_sweep(const Model& model, int object, const Settings& settings, int threads, Workspace& workspace) {

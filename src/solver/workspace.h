@@ -53,8 +53,9 @@ inline float velocity_kept(float h, float rate) {
 
 /// For how long gravity of this frame has acted on an object's particles, reduced by damping [s].
 struct FrameGravity {
-  double finished = 0, begun = 0, settled = 0;  ///< time in the ending substep; in the starting one; already in velocities
-  float kept = 1;                               ///< factor by which damping reduces a velocity in a substep
+  double finished = 0, begun = 0,
+         settled = 0;  ///< time in the ending substep; in the starting one; already in velocities
+  float kept = 1;      ///< factor by which damping reduces a velocity in a substep
 
   void next(float h) {
     finished = begun;
@@ -75,8 +76,8 @@ struct ImpactScratch {
   std::vector<char> goes_on, again;
 };
 
-/// Scratch data of a substep of a group. Nothing lasts for the next one, so groups that take turns share it; groups that run
-/// side by side have one for each thread.
+/// Scratch data of a substep of a group. Nothing lasts for the next one, so groups that take turns share it; groups
+/// that run side by side have one for each thread.
 struct SubstepScratch {
   std::vector<MovingCollider> colliders;
   ContactSolver contact_solver;         ///< projects contacts between surfaces
@@ -94,15 +95,16 @@ struct SubstepScratch {
 
 /// Memory that a World reuses from step to step. Over fifteen members: each stage of a substep has buffers of its own.
 struct Workspace {
-  Records displacements;                                       ///< displacements since the substep's start [m]
-  std::vector<std::vector<AlignedVector<float>>> multipliers;  ///< [object][pool], one float per lane; empty if not stored
+  Records displacements;  ///< displacements since the substep's start [m]
+  std::vector<std::vector<AlignedVector<float>>>
+      multipliers;  ///< [object][pool], one float per lane; empty if not stored
   std::vector<std::vector<float*>> multiplier_pointers;
   std::vector<char> stores_in_last;  ///< [object] 1: multipliers are stored in the last substep of a frame only
   std::vector<ObjectJoints> joints;  ///< [object]
   FrameScratch frames;
   std::vector<std::vector<Vec3f>> cluster_multipliers;  ///< [object][member of a cluster]; empty if not stored [m]
   std::vector<double> volume_multipliers;               ///< multiplier of each object's volume constraint
-  Records volume_gradients;                         ///< gradient at each particle, if any object has a volume constraint
+  Records volume_gradients;  ///< gradient at each particle, if any object has a volume constraint
   std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object][triangle], if there is air
   std::vector<TileScratch> tiles;                   ///< scratch data of each tile of the model
   std::vector<SubstepScratch> of_thread;            ///< [0] also for groups that take turns
@@ -117,11 +119,12 @@ struct Workspace {
   Records predicted;                       ///< predicted displacements, kept if residuals are recorded
   std::unique_ptr<SurfaceContact> pairs;   ///< contact between surfaces; null if no dynamic surface can touch another
   ShapeContacts shape_contacts;            ///< finds contacts of edges and triangles with primitive colliders
-  bool look_for_tangles = true;  ///< true: the next frame searches all initial intersections (first frame, restored State)
-  Records velocities_before;     ///< of the substep's start, before forces change them; only where there are forces [m/s]
-  Records expected_velocities;   ///< velocities after the impacts of the next quarter (impacts.h) [m/s]
-  std::vector<float> last_h;     ///< length of each object's last substep [s]; 0: none yet
-  ResidualScratch residual;      ///< the residual for Settings::tolerance
+  bool look_for_tangles =
+      true;                   ///< true: the next frame searches all initial intersections (first frame, restored State)
+  Records velocities_before;  ///< of the substep's start, before forces change them; only where there are forces [m/s]
+  Records expected_velocities;  ///< velocities after the impacts of the next quarter (impacts.h) [m/s]
+  std::vector<float> last_h;    ///< length of each object's last substep [s]; 0: none yet
+  ResidualScratch residual;     ///< the residual for Settings::tolerance
   /// As multiplier_pointers, of substeps before the last of a frame: null where only that one stores them.
   std::vector<std::vector<float*>> pointers_before_last;
 };

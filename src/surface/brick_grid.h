@@ -5,13 +5,15 @@
 
 namespace pliant::surface {
 
-/// The block itself and its seven neighbours above; bit a of the index means one block up along axis a. -1 where there is none.
+/// The block itself and its seven neighbours above; bit a of the index means one block up along axis a. -1 where there
+/// is none.
 using Neighbours = std::array<int, 8>;
 
 /// The neighbours of all blocks.
 std::vector<Neighbours> find_neighbours(const Field& field, Executor& executor);
 
-/// Bricks by z, y and x, three along each axis, as 8 block + brick; the first two along each are the block's own. -1 where there is none.
+/// Bricks by z, y and x, three along each axis, as 8 block + brick; the first two along each are the block's own. -1
+/// where there is none.
 using BrickGrid = std::array<int, 27>;
 
 BrickGrid bricks_above(const Neighbours& neighbours);

@@ -31,8 +31,8 @@ bool share_a_face(int a, int b) {
                      [&](const auto& face) { return is_on_face(a, face) && is_on_face(b, face); });
 }
 
-/// The edge that follows each crossed edge along its loop: on each face, a run of inside corners is entered at one edge and left at
-/// another.
+/// The edge that follows each crossed edge along its loop: on each face, a run of inside corners is entered at one edge
+/// and left at another.
 std::array<std::uint8_t, 12> successors(int inside) {
   const auto is_inside = [&](int corner) { return (inside >> corner & 1) != 0; };
   std::array<std::uint8_t, 12> next{};
@@ -50,7 +50,8 @@ std::array<std::uint8_t, 12> successors(int inside) {
 
 using Polygon = std::vector<int>;
 
-/// Triangulates the part first..last of a loop, whose closing edge is given. False if each way has a diagonal in a face.
+/// Triangulates the part first..last of a loop, whose closing edge is given. False if each way has a diagonal in a
+/// face.
 bool triangulate(const Polygon& loop, std::size_t first, std::size_t last, CubeCase& result) {
   if (last - first < 2) return true;
   const auto is_allowed = [&](std::size_t a, std::size_t b) { return b - a < 2 || !share_a_face(loop[a], loop[b]); };
@@ -77,7 +78,8 @@ CubeCase make_case(int inside) {
     if (is_crossed) result.crossed.at(result.crossed_count++) = static_cast<std::uint8_t>(start);
     if (!is_crossed || is_done[static_cast<std::size_t>(start)]) continue;
     Polygon loop;
-    for (int edge = start; !is_done[static_cast<std::size_t>(edge)]; edge = result.next[static_cast<std::size_t>(edge)]) {
+    for (int edge = start; !is_done[static_cast<std::size_t>(edge)];
+         edge = result.next[static_cast<std::size_t>(edge)]) {
       is_done[static_cast<std::size_t>(edge)] = true;
       loop.push_back(edge);
     }

@@ -1,9 +1,10 @@
 // The triangles of marching cubes (Lorensen and Cline 1987) for each of the 256 cases of a cell.
 //
-// The table is computed. On each face of the cell, segments cut off each run of inside corners, so two inside corners across a
-// diagonal are separated. The rule depends on the face alone, so the cells on both sides agree, and the mesh is closed. Segments form
-// loops, one through each edge that the surface crosses. Loops are triangulated without diagonals that lie in a face of the cell,
-// because the next cell could have the same diagonal, and an edge would get four triangles.
+// The table is computed. On each face of the cell, segments cut off each run of inside corners, so two inside corners
+// across a diagonal are separated. The rule depends on the face alone, so the cells on both sides agree, and the mesh
+// is closed. Segments form loops, one through each edge that the surface crosses. Loops are triangulated without
+// diagonals that lie in a face of the cell, because the next cell could have the same diagonal, and an edge would get
+// four triangles.
 #pragma once
 
 #include <array>
@@ -13,7 +14,8 @@ namespace pliant::surface {
 
 inline constexpr int most_triangles = 5;  ///< of one case
 
-/// Corner c of a cell is at (c & 1, c >> 1 & 1, c >> 2 & 1). Edge 4 a + n is along axis a, from corner edge_start(edge).
+/// Corner c of a cell is at (c & 1, c >> 1 & 1, c >> 2 & 1). Edge 4 a + n is along axis a, from corner
+/// edge_start(edge).
 struct CubeCase {
   std::uint8_t count = 0;  ///< of triangles
   std::uint8_t crossed_count = 0;

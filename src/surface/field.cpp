@@ -88,7 +88,8 @@ Box box_of(const Vec3f& low, int side, float cell) {
 
 /// True if all nodes in a box are in enclosed cells of particles: the surface is far.
 bool is_deep(const ParticleCells& cells, const Box& box) {
-  const float per_side = 1 / cells.side, margin = 1e-3f * cells.side;  // a node between two cells may count as in either
+  const float per_side = 1 / cells.side,
+              margin = 1e-3f * cells.side;  // a node between two cells may count as in either
   const Vec3f more{margin, margin, margin};
   const Cell low = cell_at(box.low + more, per_side), high = cell_at(box.high + more, per_side);
   for (int z = low.z; z <= high.z; ++z)
@@ -184,10 +185,11 @@ Field make_field(const ParticleCells& cells, const Splats& splats, float cell, E
   field.blocks.resize(reached.keys.size());
   constexpr int blocks_at_a_time = 16;
   const Sources from{cells, splats, reached, kernels, cell};
-  for_ranges(executor, "surface: field", static_cast<int>(reached.keys.size()), blocks_at_a_time, [&](int first, int last) {
-    KernelList list;
-    for (int block = first; block < last; ++block) evaluate(from, block, list, field.blocks[at(block)]);
-  });
+  for_ranges(executor, "surface: field", static_cast<int>(reached.keys.size()), blocks_at_a_time,
+             [&](int first, int last) {
+               KernelList list;
+               for (int block = first; block < last; ++block) evaluate(from, block, list, field.blocks[at(block)]);
+             });
   field.keys = std::move(reached.keys);
   return field;
 }

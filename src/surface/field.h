@@ -1,7 +1,8 @@
-// The field whose level is the surface: the sum of all kernels at the nodes of a sparse grid. It is about 1 inside and 0 outside.
+// The field whose level is the surface: the sum of all kernels at the nodes of a sparse grid. It is about 1 inside and
+// 0 outside.
 //
-// Blocks of 8 x 8 x 8 nodes exist only where kernels reach. Of the eight bricks of 4 x 4 x 4 nodes in a block, those that no kernel
-// reaches are 0 everywhere, those deep inside the liquid are 1, and neither has storage.
+// Blocks of 8 x 8 x 8 nodes exist only where kernels reach. Of the eight bricks of 4 x 4 x 4 nodes in a block, those
+// that no kernel reaches are 0 everywhere, those deep inside the liquid are 1, and neither has storage.
 #pragma once
 
 #include <array>
@@ -14,8 +15,9 @@ namespace pliant::surface {
 
 inline constexpr int block_side = 8;  ///< nodes along an axis
 inline constexpr int block_bricks = 8;
-/// At a flat surface half the sum would be right if all kernels had one size. Those at the surface are smaller, so at this level the
-/// surface lies half a spacing above the outermost particles of a lattice, within a fiftieth of a spacing.
+/// At a flat surface half the sum would be right if all kernels had one size. Those at the surface are smaller, so at
+/// this level the surface lies half a spacing above the outermost particles of a lattice, within a fiftieth of a
+/// spacing.
 inline constexpr float surface_level = 0.54f;
 
 /// A bit for each node of a brick, by z, y and x.

@@ -23,7 +23,8 @@ struct alignas(16) Vertex {
   friend Vertex operator*(const Vertex& a, float s) { return {a.x * s, a.y * s, a.z * s, a.unused * s}; }
 };
 
-/// Each vertex lies on an edge of the grid. On each of the four faces at that edge the surface joins it to one other vertex.
+/// Each vertex lies on an edge of the grid. On each of the four faces at that edge the surface joins it to one other
+/// vertex.
 using Links = std::array<int, 4>;
 
 struct LinkedMesh {

@@ -1,4 +1,5 @@
-// The surface of a liquid: particles are sorted into cells, get kernels, and these are summed on a sparse grid, whose level becomes a mesh.
+// The surface of a liquid: particles are sorted into cells, get kernels, and these are summed on a sparse grid, whose
+// level becomes a mesh.
 #include "pliant/surface.h"
 
 #include <cmath>
@@ -19,7 +20,8 @@ void require(bool is_right, const char* option, const std::string& advice) {
 
 void require_options(const SurfaceOptions& options) {
   const float spacing = options.spacing;
-  require(spacing > 1e-9f && spacing < 1e9f, "spacing", "give the distance of particles at rest in metres, 1e-9 to 1e9");
+  require(spacing > 1e-9f && spacing < 1e9f, "spacing",
+          "give the distance of particles at rest in metres, 1e-9 to 1e9");
   const bool is_right = options.cell == 0 || (options.cell >= spacing / 8 && options.cell <= spacing);
   require(is_right, "cell", "give 0, or an eighth of the spacing to the spacing");
   require(options.smoothing >= 0 && options.smoothing <= 100, "smoothing", "give 0 to 100 passes");

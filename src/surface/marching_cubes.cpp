@@ -1,7 +1,8 @@
 // Marching cubes by bricks of 4 x 4 x 4 nodes, of which a word of 64 bits says which are inside.
 //
-// Each crossed edge of the grid belongs to the brick of its first node, and is a vertex of the mesh. Vertices of a brick are numbered by
-// axis and node, so a count of bits finds the vertex of an edge, and blocks are independent of each other.
+// Each crossed edge of the grid belongs to the brick of its first node, and is a vertex of the mesh. Vertices of a
+// brick are numbered by axis and node, so a count of bits finds the vertex of an edge, and blocks are independent of
+// each other.
 #include "surface/marching_cubes.h"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace pliant::surface {
 
 namespace {
 
-constexpr float least_share = 0.02f;  ///< of an edge between a vertex and a node, so that no triangle has two equal corners
+constexpr float least_share =
+    0.02f;  ///< of an edge between a vertex and a node, so that no triangle has two equal corners
 
 /// The crossed edges of a brick, by axis, and the number of the first vertex of each axis.
 struct BrickEdges {
@@ -87,7 +89,8 @@ void count(Workspace& w, int block) {
 void add_vertices(const Workspace& w, const AroundBrick<int>& around, int axis, const Cell& corner,
                   const BrickEdges& edges) {
   const double cell = static_cast<double>(w.field.cell);
-  const float *const own = values_of(w.field, around[0]), *const above = values_of(w.field, around[std::size_t{1} << axis]);
+  const float *const own = values_of(w.field, around[0]), *const above =
+                                                              values_of(w.field, around[std::size_t{1} << axis]);
   const int stride = 1 << (2 * axis), last = 3 * stride;  // of nodes along the axis
   Vertex* to = &w.mesh.vertices[at(edges.first[at(axis)])];
   for (NodeSet bits = edges.crossed[at(axis)]; bits != 0; bits &= bits - 1) {
@@ -95,11 +98,12 @@ void add_vertices(const Workspace& w, const AroundBrick<int>& around, int axis, 
     const float from = own[node];
     const float next = (node & last) == last ? above[node - last] : own[node + stride];
     const float share = std::clamp((surface_level - from) / (next - from), least_share, 1 - least_share);
-    std::array<double, 3> place{static_cast<double>(corner.x + (node & 3)), static_cast<double>(corner.y + (node >> 2 & 3)),
+    std::array<double, 3> place{static_cast<double>(corner.x + (node & 3)),
+                                static_cast<double>(corner.y + (node >> 2 & 3)),
                                 static_cast<double>(corner.z + (node >> 4))};
     place[at(axis)] += static_cast<double>(share);
-    *to++ = {static_cast<float>(place[0] * cell), static_cast<float>(place[1] * cell), static_cast<float>(place[2] * cell),
-             0};
+    *to++ = {static_cast<float>(place[0] * cell), static_cast<float>(place[1] * cell),
+             static_cast<float>(place[2] * cell), 0};
   }
 }
 
@@ -110,7 +114,8 @@ void add_vertices(Workspace& w, int block) {
   for (int brick = 0; brick < block_bricks; ++brick) {
     BrickEdges& edges = w.edges[at(block_bricks * block + brick)];
     const AroundBrick<int> around = around_brick(grid, brick);
-    const Cell corner{block_side * cell.x + brick_side * (brick & 1), block_side * cell.y + brick_side * (brick >> 1 & 1),
+    const Cell corner{block_side * cell.x + brick_side * (brick & 1),
+                      block_side * cell.y + brick_side * (brick >> 1 & 1),
                       block_side * cell.z + brick_side * (brick >> 2)};
     for (int axis = 0; axis < 3; ++axis) {
       edges.first[at(axis)] += w.counts[at(block)].first_vertex;
@@ -134,8 +139,8 @@ constexpr CornerPlaces make_corner_places() {
     for (int corner = 0; corner < 8; ++corner) {
       const int x = (cell & 3) + (corner & 1), y = (cell >> 2 & 3) + (corner >> 1 & 1), z = (cell >> 4) + (corner >> 2);
       const int node = (x & 3) | (y & 3) << 2 | (z & 3) << 4;
-      places[static_cast<std::size_t>(cell)][static_cast<std::size_t>(corner)] = {(NodeSet{1} << node) - 1,
-                                                                                  x >> 2 | (y >> 2) << 1 | (z >> 2) << 2};
+      places[static_cast<std::size_t>(cell)][static_cast<std::size_t>(corner)] = {
+          (NodeSet{1} << node) - 1, x >> 2 | (y >> 2) << 1 | (z >> 2) << 2};
     }
   return places;
 }

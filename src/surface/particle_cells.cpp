@@ -61,7 +61,8 @@ void list_cells(ParticleCells& cells, const std::vector<Keyed>& order, const Key
   for (const std::uint64_t key : cells.keys) cells.table.insert(key);
 }
 
-/// At rest a cell has eight particles. With five it is not split by a surface, or has at most the outermost layer of one.
+/// At rest a cell has eight particles. With five it is not split by a surface, or has at most the outermost layer of
+/// one.
 constexpr int full_count = 5;
 
 void find_fills(ParticleCells& cells, Executor& executor) {
@@ -100,7 +101,8 @@ ParticleCells sort_into_cells(std::span<const Vec3f> positions, float spacing, E
 }
 
 CellsAround::CellsAround(const ParticleCells& cells, int cell) : cells_(cells) {
-  for (int row = 0; row < 9; ++row) rows_[at(row)] = KeyFollower(cells.keys, cells.keys[at(cell)] + step_to_cell_row(row));
+  for (int row = 0; row < 9; ++row)
+    rows_[at(row)] = KeyFollower(cells.keys, cells.keys[at(cell)] + step_to_cell_row(row));
 }
 
 std::array<CellRow, 9> CellsAround::of(int cell) {

@@ -26,7 +26,8 @@ void move_to_mean(const LinkedMesh& mesh, float share, Vertex* to, Executor& exe
 }  // namespace
 
 void smooth(LinkedMesh& mesh, int passes, Executor& executor) {
-  // The filter's response to the frequency k (0 to 2) is (1 - k share)(1 - k back); it is 1 again at k = 1/share + 1/back = 0.1.
+  // The filter's response to the frequency k (0 to 2) is (1 - k share)(1 - k back); it is 1 again at k = 1/share +
+  // 1/back = 0.1.
   constexpr float share = 0.6f, back = -0.628272251f;
   if (passes == 0) return;
   std::unique_ptr<Vertex[]> moved(new Vertex[at(mesh.size)]);

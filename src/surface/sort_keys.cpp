@@ -31,7 +31,8 @@ void find_places(std::vector<Counts>& counts, std::size_t digits) {
     }
 }
 
-void sort_by_digit(Executor& executor, const std::vector<Keyed>& items, int shift, int bits, std::vector<Keyed>& sorted) {
+void sort_by_digit(Executor& executor, const std::vector<Keyed>& items, int shift, int bits,
+                   std::vector<Keyed>& sorted) {
   const int count = static_cast<int>(items.size()), length = executor.threads() == 1 ? count : range_length;
   const std::uint64_t mask = (std::uint64_t{1} << bits) - 1;
   const auto digit_of = [&](int i) {

@@ -32,7 +32,7 @@ struct PlaceRows {
 template <class Float>
 struct SizeRows {
   Float *per_x, *per_y, *per_z;  ///< 1 / reach [1/m]
-  Float* widest;                 ///< the ellipsoid is within the one along the axes with the reach times the root of this
+  Float* widest;  ///< the ellipsoid is within the one along the axes with the reach times the root of this
 };
 
 template <class Float>

@@ -1,8 +1,9 @@
 // A particle's kernel from the moments of its neighbours, for one particle (float) or sixteen (Wide).
 //
-// Yu and Turk (2013) take the ellipsoid from the covariance C of a particle's neighbours, by a decomposition whose eigenvalues they
-// clamp. Here its squared radii are those of a C + b I, with constants a and b. So small radii are bounded below without a
-// decomposition, a particle without neighbours (C = 0) has a ball, and nothing jumps when a neighbour comes or goes.
+// Yu and Turk (2013) take the ellipsoid from the covariance C of a particle's neighbours, by a decomposition whose
+// eigenvalues they clamp. Here its squared radii are those of a C + b I, with constants a and b. So small radii are
+// bounded below without a decomposition, a particle without neighbours (C = 0) has a ball, and nothing jumps when a
+// neighbour comes or goes.
 #pragma once
 
 #include "math/scalar.h"
@@ -38,8 +39,8 @@ PLIANT_HD R number(float value) {
   return R(value);
 }
 
-/// The covariance of neighbours about their mean, in spacings^2: from the sum of their weights, and the sums of their weighted places
-/// and products of places relative to the particle [m, m^2].
+/// The covariance of neighbours about their mean, in spacings^2: from the sum of their weights, and the sums of their
+/// weighted places and products of places relative to the particle [m, m^2].
 template <class R>
 PLIANT_HD Symmetric<R> covariance(const R& sum, const Vec3<R>& places, const Symmetric<R>& products, float spacing) {
   const R per_sum = number<R>(1) / sum, scale = number<R>(1 / (spacing * spacing));  // its own weight is 1, so sum >= 1
@@ -69,10 +70,12 @@ PLIANT_HD Symmetric<R> squared_radii(const Symmetric<R>& c, const R& trace, bool
   const R a = number<R>(stretch * most_variance) / max(trace, number<R>(most_variance));
   const R same = a * trace * number<R>(1.f / 3) + lone;
   if (!anisotropic) return {same, same, same, zero, zero, zero};
-  return {a * max(c.xx, zero) + lone, a * max(c.yy, zero) + lone, a * max(c.zz, zero) + lone, a * c.xy, a * c.xz, a * c.yz};
+  return {
+      a * max(c.xx, zero) + lone, a * max(c.yy, zero) + lone, a * max(c.zz, zero) + lone, a * c.xy, a * c.xz, a * c.yz};
 }
 
-/// The bound of an ellipsoid by one along the axes with the same reach: 1 + the largest sum of two correlations (Gershgorin).
+/// The bound of an ellipsoid by one along the axes with the same reach: 1 + the largest sum of two correlations
+/// (Gershgorin).
 template <class R>
 PLIANT_HD R widest_of(const Symmetric<R>& r, const Vec3<R>& per_root) {
   const R xy = abs(r.xy) * (per_root.x * per_root.y), xz = abs(r.xz) * (per_root.x * per_root.z);

@@ -1,4 +1,5 @@
-// The inner loops of the surface in SIMD lanes, one table for each instruction set level as in solver/kernels.h. All give the same bits.
+// The inner loops of the surface in SIMD lanes, one table for each instruction set level as in solver/kernels.h. All
+// give the same bits.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +61,8 @@ struct SurfaceKernels {
   /// Makes the kernels of `count` particles.
   void (*make_splats)(const SplatRule& rule, const Moments* moments, int count, const PlaceRows<const float>& at,
                       const SizeRows<float>& sizes, Splat* to);
-  /// Appends rows of kernels that reach a box, with their numbers; returns how many there are now. There must be room for sixteen more.
+  /// Appends rows of kernels that reach a box, with their numbers; returns how many there are now. There must be room
+  /// for sixteen more.
   int (*gather)(const SplatRows<const float>& from, const ParticleRange& range, const Box& box, int count,
                 const SplatRows<float>& to, int* numbers);
   /// Lists the numbers of the first `count` kernels that reach a box, and returns how many do.

@@ -1,6 +1,7 @@
 // The inner loops of the surface in SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
 //
-// Sums over neighbours have sixteen partial sums on every level, and these are added in one order, so all levels give the same bits.
+// Sums over neighbours have sixteen partial sums on every level, and these are added in one order, so all levels give
+// the same bits.
 #include "math/pack_lanes.h"
 #include "math/wide.h"
 #include "surface/splat_formula.h"
@@ -66,7 +67,8 @@ PLIANT_HD void add_candidates(const MomentQuery& q, int candidates, const Moment
     add_moments(s, candidates, q, particle, to[particle - q.first]);
 }
 
-/// Adds all that there is room for, and moves the rest to the front. How many are added at a time does not depend on the level.
+/// Adds all that there is room for, and moves the rest to the front. How many are added at a time does not depend on
+/// the level.
 PLIANT_HD int make_room(const MomentQuery& q, int candidates, MomentScratch& s, Moments* to) {
   if (candidates < most_candidates) return candidates;
   add_candidates(q, most_candidates, s, to);
@@ -91,7 +93,8 @@ PLIANT_HD Box box_of(const MomentQuery& q) {
   return box;
 }
 
-/// Packs the particles near the box of the query's, and compares these with them. The reach is a little larger, for rounding.
+/// Packs the particles near the box of the query's, and compares these with them. The reach is a little larger, for
+/// rounding.
 void find_moments(const MomentQuery& q, MomentScratch& s, Moments* to) {
   std::memset(static_cast<void*>(to), 0, static_cast<std::size_t>(q.last - q.first) * sizeof(Moments));
   const Box box = box_of(q);
@@ -159,7 +162,8 @@ void make_splats(const SplatRule& rule, const Moments* moments, int count, const
     for (int lane = 0; lane < wide_width; ++lane)
       for (int part = 0; part < 3; ++part) at[part][lane] = 3 * (first + (lane < lanes ? lane : lanes - 1)) + part;
     const WideRecords a = from_registers(load_indexed(records, at[0]));
-    const WideRecords b = from_registers(load_indexed(records, at[1])), c = from_registers(load_indexed(records, at[2]));
+    const WideRecords b = from_registers(load_indexed(records, at[1])),
+                      c = from_registers(load_indexed(records, at[2]));
     const Symmetric<Wide> products{b.position.x, b.position.y, b.position.z, b.w, c.position.x, c.position.y};
     const Symmetric<Wide> spread = covariance(a.w, a.position, products, rule.spacing);
     const Wide trace = trace_of(spread);
@@ -246,8 +250,8 @@ PLIANT_HD LayerPlaces layer_places(int i) {
   return {load_part(along_x + i * part_width), load_part(along_y + i * part_width)};
 }
 
-/// Sums part i of each of the four layers of a brick. In a layer 1 - q is p - z (g + zz z); from one to the next its differences change by
-/// the same amount.
+/// Sums part i of each of the four layers of a brick. In a layer 1 - q is p - z (g + zz z); from one to the next its
+/// differences change by the same amount.
 PLIANT_HD void sum_part(const Splat* splats, const int* numbers, int count, const BrickPlace& at, int i, Part* sums) {
   const LayerPlaces places = layer_places(i);
   const Part cell = all_lanes(at.cell), twice_squared = all_lanes(2 * at.cell * at.cell), one = all_lanes(1);

@@ -109,7 +109,8 @@ class Flood {
   }
 
  private:
-  /// Visits the triangle on the other side of an edge. Returns false if it was reached before with the opposite winding.
+  /// Visits the triangle on the other side of an edge. Returns false if it was reached before with the opposite
+  /// winding.
   bool cross(int triangle, int edge_index) {
     const Edge& edge = edges_[static_cast<std::size_t>(edge_index)];
     const int other = edge.triangles[0] == triangle ? edge.triangles[1] : edge.triangles[0];

@@ -21,7 +21,8 @@ bool is_wound_consistently(const std::vector<Edge>& edges);
 /// open.
 std::vector<std::vector<int>> boundary_loops(const std::vector<Edge>& edges, int vertex_count);
 
-/// The connected components of a surface (across edges of two triangles), and which triangles to flip for equal winding.
+/// The connected components of a surface (across edges of two triangles), and which triangles to flip for equal
+/// winding.
 struct Pieces {
   int count = 0;
   std::vector<int> of_triangle;      ///< component of each triangle, numbered in the order of their first triangles

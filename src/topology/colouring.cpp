@@ -1,8 +1,8 @@
 // Greedy colouring of constraints; contiguous groups of four come first.
 //
-// Constraints are sorted by the shape of their stencil (the differences between slots), then by their first particle. Four
-// successive ones with first particles a, a + 1, a + 2, a + 3 form a contiguous group: one load fetches a slot of all four.
-// On a grid, greedy first-fit in this order needs only as many colours as a particle has edges.
+// Constraints are sorted by the shape of their stencil (the differences between slots), then by their first particle.
+// Four successive ones with first particles a, a + 1, a + 2, a + 3 form a contiguous group: one load fetches a slot of
+// all four. On a grid, greedy first-fit in this order needs only as many colours as a particle has edges.
 #include "topology/colouring.h"
 
 #include <algorithm>
@@ -18,7 +18,8 @@ constexpr std::size_t batch = 16;             // constraints that are projected 
 constexpr std::size_t fewest_to_group = 512;  // below this many ungrouped constraints, partial grouping does not pay
 
 struct Key {
-  std::array<int, largest_grouped_stencil> shape;  // difference of each slot's particle to slot 0; slot 0 itself comes last
+  std::array<int, largest_grouped_stencil>
+      shape;  // difference of each slot's particle to slot 0; slot 0 itself comes last
   int member;
   friend bool operator<(const Key& a, const Key& b) {
     for (std::size_t i = 0; i < largest_grouped_stencil; ++i)
@@ -85,7 +86,8 @@ void append_class(const std::vector<int>& stencils, int size, Class& members, st
   if (!members[0].empty()) colours.push_back({0, std::move(members[0])});
 }
 
-/// Calls run(key) for the first member of each contiguous group and single(key) for each ungrouped constraint, in order.
+/// Calls run(key) for the first member of each contiguous group and single(key) for each ungrouped constraint, in
+/// order.
 template <class Run, class Single>
 void for_runs(const std::vector<Key>& keys, int size, const Run& run, const Single& single) {
   for (std::size_t i = 0; i < keys.size();) {
@@ -194,7 +196,8 @@ void Colouring::extend(const std::vector<int>& stencils, int size, const std::ve
   std::erase_if(colours, [](const Colour& colour) { return colour.members.empty(); });
 }
 
-std::vector<Colour> Colouring::colour_singly(const std::vector<int>& stencils, int size, const std::vector<int>& members) {
+std::vector<Colour> Colouring::colour_singly(const std::vector<int>& stencils, int size,
+                                             const std::vector<int>& members) {
   std::vector<Colour> colours;
   reset(stencils, size, members);
   append(stencils, size, {}, members, colours);

@@ -30,14 +30,15 @@ class Colouring {
   std::vector<Colour> colour(const std::vector<int>& stencils, int size, const std::vector<int>& members);
 
   /// Adds constraints to colours that have no runs: each to the first in which its particles are free, or to a new one.
-  void extend(const std::vector<int>& stencils, int size, const std::vector<int>& members, std::vector<Colour>& colours);
+  void extend(const std::vector<int>& stencils, int size, const std::vector<int>& members,
+              std::vector<Colour>& colours);
 
   /// Colours each constraint singly, by first fit in the order of `members`.
   std::vector<Colour> colour_singly(const std::vector<int>& stencils, int size, const std::vector<int>& members);
 
  private:
-  void append(const std::vector<int>& stencils, int size, const std::vector<Four>& fours, const std::vector<int>& singles,
-              std::vector<Colour>& colours);
+  void append(const std::vector<int>& stencils, int size, const std::vector<Four>& fours,
+              const std::vector<int>& singles, std::vector<Colour>& colours);
   int first_free(const int* particles, int count);
   void use(const int* particles, int count, int colour);
   void reset(const std::vector<int>& stencils, int size, const std::vector<int>& members);

@@ -41,8 +41,8 @@ struct Hinge {
 /// Throws an Error that names the first triangle with a corner outside 0..vertex_count - 1.
 void require_indices(const std::vector<Triangle>& triangles, int vertex_count);
 
-/// Returns each edge once, ascending by (a, b). A side from a vertex to itself (in a degenerate triangle) is no edge. O(n)
-/// for usual meshes, O(n log n) at worst. Throws as require_indices does.
+/// Returns each edge once, ascending by (a, b). A side from a vertex to itself (in a degenerate triangle) is no edge.
+/// O(n) for usual meshes, O(n log n) at worst. Throws as require_indices does.
 std::vector<Edge> find_edges(const std::vector<Triangle>& triangles, int vertex_count);
 
 /// Returns one hinge for each edge of exactly two triangles, in the order of the edges.

@@ -1,5 +1,6 @@
 // Finds groups of four constraints. For each set of slots, constraints are sorted by their particles in these slots,
-// relative to the lane (particle mod 4) of slot 0. Constraints that are equal except for lanes 0, 1, 2 and 3 form a group.
+// relative to the lane (particle mod 4) of slot 0. Constraints that are equal except for lanes 0, 1, 2 and 3 form a
+// group.
 #include "topology/fours.h"
 
 #include <algorithm>
@@ -10,7 +11,8 @@ namespace pliant {
 
 namespace {
 
-constexpr int most_failures = 16;  // per set of candidates with equal bases; limits the cost of hubs with many constraints
+constexpr int most_failures =
+    16;  // per set of candidates with equal bases; limits the cost of hubs with many constraints
 
 struct Candidate {
   std::array<int, largest_grouped_stencil> base;  // for each slot: particle minus lane if contiguous, otherwise 0
@@ -82,7 +84,8 @@ class FourFinder {
   }
 
   /// Forms groups of one candidate of each lane, while four candidates without a common particle remain.
-  void match(int runs, const Candidate* first, const Candidate* last, std::vector<Four>& fours, std::vector<int>& taken) {
+  void match(int runs, const Candidate* first, const Candidate* last, std::vector<Four>& fours,
+             std::vector<int>& taken) {
     std::array<std::vector<int>, 4> left;
     for (const Candidate* candidate = first; candidate != last; ++candidate)
       left[candidate->lane].push_back(candidate->member);

@@ -16,13 +16,14 @@ namespace {
 
 void require_grid(int columns, int rows, float width, float depth) {
   if (columns < 2 || rows < 2)
-    throw Error({}, "a grid of " + std::to_string(columns) + " x " + std::to_string(rows) + " vertices has no triangles",
+    throw Error({},
+                "a grid of " + std::to_string(columns) + " x " + std::to_string(rows) + " vertices has no triangles",
                 "give at least 2 columns and 2 rows");
   if (static_cast<std::int64_t>(columns) * rows > std::numeric_limits<std::int32_t>::max() / 6)
     throw Error({}, "a grid of " + std::to_string(columns) + " x " + std::to_string(rows) + " vertices is too large");
   if (!(width > 0) || !(depth > 0) || !std::isfinite(width) || !std::isfinite(depth))
-    throw Error({},
-                "a grid's sizes must be positive and finite, not " + std::to_string(width) + " x " + std::to_string(depth));
+    throw Error(
+        {}, "a grid's sizes must be positive and finite, not " + std::to_string(width) + " x " + std::to_string(depth));
 }
 
 Vec3f rounded(const Vec3d& p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
@@ -48,7 +49,8 @@ SphereInDouble icosahedron() {
   return sphere;
 }
 
-/// Splits every triangle into four. New vertices are midpoints of edges, in the order of edges, projected onto the sphere.
+/// Splits every triangle into four. New vertices are midpoints of edges, in the order of edges, projected onto the
+/// sphere.
 SphereInDouble subdivided(const SphereInDouble& coarse) {
   SphereInDouble fine;
   fine.positions = coarse.positions;
@@ -95,7 +97,8 @@ TriangleMesh grid_mesh(int columns, int rows, float width, float depth) {
 
 TriangleMesh sphere_mesh(int subdivisions) {
   if (subdivisions < 0 || subdivisions > 7)
-    throw Error({}, "a sphere cannot be subdivided " + std::to_string(subdivisions) + " times", "give 0 to 7 subdivisions");
+    throw Error({}, "a sphere cannot be subdivided " + std::to_string(subdivisions) + " times",
+                "give 0 to 7 subdivisions");
   SphereInDouble sphere = icosahedron();
   for (int i = 0; i < subdivisions; ++i) sphere = subdivided(sphere);
   TriangleMesh mesh;

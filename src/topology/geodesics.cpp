@@ -110,7 +110,8 @@ class Search {
       const auto [distance, vertex, source] = waiting_.top();
       waiting_.pop();
       if (!accept(found[vertex], {source, distance}, most)) continue;
-      for (const Neighbour& n : neighbours_[vertex]) offer(found[n.vertex], distance + n.length, n.vertex, source, most);
+      for (const Neighbour& n : neighbours_[vertex])
+        offer(found[n.vertex], distance + n.length, n.vertex, source, most);
       for (const Corner& c : corners_[vertex]) {
         cross_to(c.last, c.next, distance, source, {c.to_next, c.to_last, c.across}, found, most);
         cross_to(c.next, c.last, distance, source, {c.to_last, c.to_next, c.across}, found, most);
@@ -144,9 +145,9 @@ class Search {
   }
 
   bool is_wanted(const std::vector<NearSource>& found, int source, int most) const {
-    return static_cast<int>(found.size()) < most && std::none_of(found.begin(), found.end(), [&](const NearSource& other) {
-             return group_of_[other.source] == group_of_[source];
-           });
+    return static_cast<int>(found.size()) < most &&
+           std::none_of(found.begin(), found.end(),
+                        [&](const NearSource& other) { return group_of_[other.source] == group_of_[source]; });
   }
 
   bool accept(std::vector<NearSource>& found, const NearSource& source, int most) const {
@@ -155,7 +156,8 @@ class Search {
     return true;
   }
 
-  /// Of two offers of a group the one that is taken first is accepted, so what is behind the last one that waits is left out.
+  /// Of two offers of a group the one that is taken first is accepted, so what is behind the last one that waits is
+  /// left out.
   void offer(const std::vector<NearSource>& found, double distance, int vertex, int source, int most) {
     if (!(distance < HUGE_VAL) || !is_wanted(found, source, most)) return;
     NearSource& last = offered_[static_cast<std::size_t>(vertex)];

@@ -28,7 +28,8 @@ using Rank = std::array<int, patches>;
 /// For each particle, the particles of its patch with which it shares a constraint, ascending.
 class Neighbours {
  public:
-  Neighbours(const std::vector<int>& patch, const std::vector<std::array<int, 2>>& links) : begin_(patch.size() + 1, 0) {
+  Neighbours(const std::vector<int>& patch, const std::vector<std::array<int, 2>>& links)
+      : begin_(patch.size() + 1, 0) {
     std::vector<std::array<int, 2>> both;
     for (const auto& [a, b] : links) {
       if (a == b || patch[a] != patch[b]) continue;
@@ -71,7 +72,8 @@ struct Proposal {
   Rank rank{};
 };
 
-/// Numbers one tile by growing its four patches in the same order. `members` has the particles of each patch, ascending.
+/// Numbers one tile by growing its four patches in the same order. `members` has the particles of each patch,
+/// ascending.
 class Growth {
  public:
   Growth(const Neighbours& neighbours, const std::array<std::vector<int>, patches>& members, std::vector<int>& rank_of,
@@ -257,7 +259,8 @@ std::vector<std::vector<int>> members_of(const std::vector<int>& tile) {
 }
 
 /// Cuts a tile into four compact patches of nearly equal size.
-std::array<std::vector<int>, patches> cut_in_four(const std::vector<Vec3f>& positions, const std::vector<int>& members) {
+std::array<std::vector<int>, patches> cut_in_four(const std::vector<Vec3f>& positions,
+                                                  const std::vector<int>& members) {
   std::vector<Vec3f> places;
   places.reserve(members.size());
   for (int particle : members) places.push_back(positions[particle]);
@@ -272,7 +275,8 @@ std::array<std::vector<int>, patches> cut_in_four(const std::vector<Vec3f>& posi
 
 std::vector<int> number_in_lockstep(const std::vector<Vec3f>& positions, const std::vector<int>& tile,
                                     const std::vector<std::array<int, 2>>& links) {
-  std::vector<int> patch(tile.size()), rank_of(tile.size(), -1), passed(tile.size(), 0), left_around(tile.size(), 0), order;
+  std::vector<int> patch(tile.size()), rank_of(tile.size(), -1), passed(tile.size(), 0), left_around(tile.size(), 0),
+      order;
   std::vector<std::array<std::vector<int>, patches>> cuts;
   for (const std::vector<int>& members : members_of(tile)) {
     cuts.push_back(cut_in_four(positions, members));

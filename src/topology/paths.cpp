@@ -39,7 +39,8 @@ int slot_of(const std::array<int, 2>& edge, int end) { return edge[0] == end ? 0
 
 /// Joins the edges at each vertex into pairs, the straightest pair first.
 Continuations join_straightest(const std::vector<Vec3f>& x, const EdgeList& edges) {
-  const Incidence at = incidence(edges, static_cast<int>(x.size()), [](const std::array<int, 2>& edge) { return edge; });
+  const Incidence at =
+      incidence(edges, static_cast<int>(x.size()), [](const std::array<int, 2>& edge) { return edge; });
   Continuations next(edges.size(), {-1, -1});
   std::vector<std::tuple<double, int, int>> pairs;  // negative cosine of the angle, then the two edges
   for (int v = 0; v < static_cast<int>(x.size()); ++v) {
@@ -116,7 +117,8 @@ void reverse(Path& path) {
 /// vertex with the colour are added to it, the most nearly parallel first.
 class PathColouring {
  public:
-  PathColouring(const std::vector<Vec3f>& x, std::vector<Path> paths) : paths_(std::move(paths)), taken_by_(x.size(), 0) {
+  PathColouring(const std::vector<Vec3f>& x, std::vector<Path> paths)
+      : paths_(std::move(paths)), taken_by_(x.size(), 0) {
     for (const Path& path : paths_) along_.push_back(between(x, path.vertices.front(), path.vertices.back()));
     left_.resize(paths_.size());
     for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = static_cast<int>(i);
@@ -207,7 +209,8 @@ std::size_t edge_count(const PathColour& colour) {
 
 std::vector<PathColour> lay_paths(const std::vector<Vec3f>& positions, const EdgeList& edges) {
   const Continuations next = join_straightest(positions, edges);
-  std::vector<PathColour> colours = PathColouring(positions, Walker(edges, next, positions.size()).walk_all()).colours();
+  std::vector<PathColour> colours =
+      PathColouring(positions, Walker(edges, next, positions.size()).walk_all()).colours();
   std::stable_sort(colours.begin(), colours.end(),
                    [](const PathColour& a, const PathColour& b) { return edge_count(a) < edge_count(b); });
   return colours;

@@ -49,8 +49,8 @@ int side(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
   return volume > doubt ? 1 : volume < -doubt ? -1 : 0;
 }
 
-/// True if the open segment p-q crosses the interior of the triangle: its ends lie on different sides of the plane, and the
-/// segment passes all three sides of the triangle with the same orientation.
+/// True if the open segment p-q crosses the interior of the triangle: its ends lie on different sides of the plane, and
+/// the segment passes all three sides of the triangle with the same orientation.
 bool pierces(const Vec3d& p, const Vec3d& q, const Vec3d (&t)[3]) {
   const int below = side(t[0], t[1], t[2], p);
   if (below == 0 || side(t[0], t[1], t[2], q) != -below) return false;
@@ -72,7 +72,8 @@ std::size_t longest_axis(const std::vector<Box>& boxes) {
 }
 
 bool share_vertex(const Edge& edge, const Triangle& triangle) {
-  return std::any_of(triangle.begin(), triangle.end(), [&](int corner) { return corner == edge.a || corner == edge.b; });
+  return std::any_of(triangle.begin(), triangle.end(),
+                     [&](int corner) { return corner == edge.a || corner == edge.b; });
 }
 
 /// The triangles in the order of the sweep.
@@ -114,10 +115,10 @@ SelfIntersections find_self_intersections(const std::vector<Vec3f>& positions, c
     const Box box = box_of(positions, std::array<int, 2>{edge.a, edge.b});
     // The rounding of this subtraction is harmless: a triangle missed by one rounding error can at most touch the edge.
     const float from = box.low[sweep.axis] - sweep.longest;
-    auto i =
-        static_cast<std::size_t>(std::lower_bound(sweep.boxes.begin(), sweep.boxes.end(), from,
-                                                  [&](const Box& b, float value) { return b.low[sweep.axis] < value; }) -
-                                 sweep.boxes.begin());
+    auto i = static_cast<std::size_t>(
+        std::lower_bound(sweep.boxes.begin(), sweep.boxes.end(), from,
+                         [&](const Box& b, float value) { return b.low[sweep.axis] < value; }) -
+        sweep.boxes.begin());
     const Vec3d p = exact(positions[static_cast<std::size_t>(edge.a)]);
     const Vec3d q = exact(positions[static_cast<std::size_t>(edge.b)]);
     for (; i < sweep.boxes.size() && sweep.boxes[i].low[sweep.axis] <= box.high[sweep.axis]; ++i) {

@@ -16,9 +16,9 @@ struct SelfIntersections {
   int triangle = -1;       ///< index of the triangle of the first pair
 };
 
-/// Counts the pairs in which the interior of an edge crosses the interior of a triangle. Touching and coplanar pairs, and
-/// those within double rounding of them, do not count. Aborts after `most_pairs` box tests (about a second). `edges` must
-/// come from find_edges; all positions must be finite.
+/// Counts the pairs in which the interior of an edge crosses the interior of a triangle. Touching and coplanar pairs,
+/// and those within double rounding of them, do not count. Aborts after `most_pairs` box tests (about a second).
+/// `edges` must come from find_edges; all positions must be finite.
 SelfIntersections find_self_intersections(const std::vector<Vec3f>& positions, const std::vector<Triangle>& triangles,
                                           const std::vector<Edge>& edges, std::uint64_t most_pairs = 300'000'000);
 

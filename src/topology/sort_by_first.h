@@ -1,4 +1,5 @@
-// Sorts what belongs to particles in time linear in its number: a counting sort by one particle of each, then short sorts.
+// Sorts what belongs to particles in time linear in its number: a counting sort by one particle of each, then short
+// sorts.
 #pragma once
 
 #include <algorithm>

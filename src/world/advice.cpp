@@ -71,9 +71,10 @@ std::string words_of(const Overstretch& found, const CompiledObject& object) {
 }
 
 std::string words_of(const TieGap& tie, const CompiledObject& object) {
-  return "object '" + object.name + "': particle " + std::to_string(tie.particle) + " is " + two_digits(1000 * tie.gap) +
-         " mm away from its place on " + words_of_body(object.bodies, tie.body, object.name) + ", " +
-         percent(tie.gap / tie.length) + " of the edges there; use more substeps or a lighter body";
+  return "object '" + object.name + "': particle " + std::to_string(tie.particle) + " is " +
+         two_digits(1000 * tie.gap) + " mm away from its place on " +
+         words_of_body(object.bodies, tie.body, object.name) + ", " + percent(tie.gap / tie.length) +
+         " of the edges there; use more substeps or a lighter body";
 }
 
 }  // namespace pliant

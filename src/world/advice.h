@@ -18,11 +18,12 @@ std::string percent(double share);
 /// For example: "object 'sheet': stretched 14 % too far at its pins (edge 12-13), 1 edge in 100 by 3 % or more".
 std::string words_of(const Overstretch& found, const CompiledObject& object);
 
-/// For example: "object 'bridge': particle 10 is 12 mm away from its place on body 0 ('box') of 'bridge', 24 % of the edges there; ..."
+/// For example: "object 'bridge': particle 10 is 12 mm away from its place on body 0 ('box') of 'bridge', 24 % of the
+/// edges there; ..."
 std::string words_of(const TieGap& tie, const CompiledObject& object);
 
-/// Returns the index in `others` of the cheapest good trial; if none is good, of the one that exceeds what is tolerable by
-/// the smallest factor, clearly smaller than that of `own`, with neither figure above that of `own`. -1: none.
+/// Returns the index in `others` of the cheapest good trial; if none is good, of the one that exceeds what is tolerable
+/// by the smallest factor, clearly smaller than that of `own`, with neither figure above that of `own`. -1: none.
 int best_of(const Advice& advice);
 
 /// By what a scene departs from the default.

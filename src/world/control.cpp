@@ -1,4 +1,5 @@
-// What the user sets between steps, as spans over an object's particles in the user's order: motions, velocities, forces.
+// What the user sets between steps, as spans over an object's particles in the user's order: motions, velocities,
+// forces.
 //
 // Velocities and impulses change the State at once. Targets, poses and forces are for the next frame:
 // Workspace::control keeps them until its end. Only poses of colliders without keyframes stay, in the State.
@@ -42,7 +43,8 @@ void require(const CompiledObject& object, std::span<const Vec3f> values, const 
 
 /// Throws an Error if a place is so far from the origin that scenes may not have it: an uninitialised or wrong number.
 void require_near(const Vec3f& place, const std::string& object, const std::string& element, const char* what) {
-  if (!is_place(place)) refuse(object, element, what + std::string(" is more than 1e9 m from the origin"), "give metres");
+  if (!is_place(place))
+    refuse(object, element, what + std::string(" is more than 1e9 m from the origin"), "give metres");
 }
 
 struct Listed {
@@ -99,11 +101,16 @@ void require_pose(const RigidPose& pose, const std::string& object, const std::s
   const Quatf& q = pose.rotation;
   const float size = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
   if (!is_finite(pose.position) || !(size > 1e-30f) || !std::isfinite(size))
-    refuse(object, element, "its pose is not finite, or its rotation is zero", "give finite numbers and a unit quaternion");
+    refuse(object, element, "its pose is not finite, or its rotation is zero",
+           "give finite numbers and a unit quaternion");
 }
 
-Posed pose_of(const RigidPose& pose) { return {convert<double>(pose.position), normalise(convert<double>(pose.rotation))}; }
-Posed pose_of(const HeldPose& pose) { return {convert<double>(pose.position), normalise(convert<double>(pose.rotation))}; }
+Posed pose_of(const RigidPose& pose) {
+  return {convert<double>(pose.position), normalise(convert<double>(pose.rotation))};
+}
+Posed pose_of(const HeldPose& pose) {
+  return {convert<double>(pose.position), normalise(convert<double>(pose.rotation))};
+}
 
 /// Inserts an element into a list that is ascending by `number`, or replaces the one with its number.
 template <class T>
@@ -233,7 +240,8 @@ void end_control(WorldData& world, bool was_stopped) {
 }
 
 void forget_pose(WorldData& world, bool is_mesh, int slot) {
-  std::erase_if(world.state.held_poses, [&](const HeldPose& pose) { return pose.is_mesh == is_mesh && pose.slot == slot; });
+  std::erase_if(world.state.held_poses,
+                [&](const HeldPose& pose) { return pose.is_mesh == is_mesh && pose.slot == slot; });
 }
 
 void ObjectHandle::set_targets(std::span<const int> particles, std::span<const Vec3f> positions) {
@@ -346,7 +354,8 @@ void MeshColliderHandle::set_positions(std::span<const Vec3f> positions) {
   for (std::size_t i = 0; i < positions.size(); ++i)
     require_near(positions[i], of.name, "vertex " + std::to_string(i), "its target");
   if (of.groups == 0 && of.mask == 0)
-    refuse(of.name, "", "is a distance grid or a heightfield, which cannot deform", "use it as triangles, or set its pose");
+    refuse(of.name, "", "is a distance grid or a heightfield, which cannot deform",
+           "use it as triangles, or set its pose");
   forget_pose(*world_, true, id().slot);
   world_->workspace.control.meshes.erase(number);
   std::vector<int> all(positions.size());

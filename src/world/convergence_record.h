@@ -13,8 +13,8 @@ class ConvergenceRecord {
   ConvergenceMeter& meter() { return meter_; }
   const WorstEstimates& worst() const { return worst_; }
 
-  /// The estimates after a complete frame. What lasts of them is added to the worst. `ids`: of objects by their number in
-  /// the model; `substeps_of`: substeps of the frame of an object of this number.
+  /// The estimates after a complete frame. What lasts of them is added to the worst. `ids`: of objects by their number
+  /// in the model; `substeps_of`: substeps of the frame of an object of this number.
   ConvergenceEstimates add(const Report& report, const IdTable<Object>& ids, FunctionRef<int(int)> substeps_of);
   /// Forgets the worst estimates of an object that is removed or whose particles change, and the frames before of all.
   void forget_object(ObjectId object);

@@ -1,5 +1,5 @@
-// A particle that goes keeps its place, without mass and speed, until an emitter takes it: the one with the lowest number first. So which
-// particles are there follows from the State alone.
+// A particle that goes keeps its place, without mass and speed, until an emitter takes it: the one with the lowest
+// number first. So which particles are there follows from the State alone.
 #include "world/flow.h"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace pliant {
 
 namespace {
 
-/// An opening holds so many layers behind it, which move as it says and cannot be pushed back. Where they could be, each layer pushed back the
-/// next one farther, and jets blew up within ten layers.
+/// An opening holds so many layers behind it, which move as it says and cannot be pushed back. Where they could be,
+/// each layer pushed back the next one farther, and jets blew up within ten layers.
 constexpr double held_layers = 2;
 
 /// Takes a particle away.
@@ -78,7 +78,8 @@ void release(WorldData& world, int number) {
     const auto since = static_cast<float>(state.time - state.births[i]);
     const Vec3f gravity = world.model.gravity, moved = gravity * (since * since / 2), gained = gravity * since;
     Record &x = state.positions[i], &v = state.velocities[i];
-    x = {x.x + moved.x, x.y + moved.y, x.z + moved.z, own_inverse_mass(world.model, number, static_cast<std::int64_t>(i))};
+    x = {x.x + moved.x, x.y + moved.y, x.z + moved.z,
+         own_inverse_mass(world.model, number, static_cast<std::int64_t>(i))};
     v = {v.x + gained.x, v.y + gained.y, v.z + gained.z, 0};
   });
 }
@@ -90,9 +91,12 @@ void forget_contacts_of_gone(State& state) {
 }
 
 /// How many layers leave in a second.
-double rate_of(const EmitterLayer& layer) { return static_cast<double>(layer.speed) / static_cast<double>(layer.distance); }
+double rate_of(const EmitterLayer& layer) {
+  return static_cast<double>(layer.speed) / static_cast<double>(layer.distance);
+}
 
-/// How many layers of an emitter have left by a time: none after its end, and the nearest whole number to what flows until then.
+/// How many layers of an emitter have left by a time: none after its end, and the nearest whole number to what flows
+/// until then.
 std::int64_t layers_by(const Emitter& emitter, const EmitterLayer& layer, double time) {
   constexpr double most = 1e12;  // so that their particles can be counted
   const double since = std::min(time, static_cast<double>(emitter.end)) - static_cast<double>(emitter.start);
@@ -132,7 +136,8 @@ class EmitterRun {
         dt_(dt) {
     const double lead = held_layers / rate_of(layer_);
     EmittedLayers& emitted = emitted_by(state_, number, emitter);
-    // An edit may have changed the rate, so that the number says another time. Those of before the emitter was there are left out.
+    // An edit may have changed the rate, so that the number says another time. Those of before the emitter was there
+    // are left out.
     const std::int64_t held = layers_by(emitter_, layer_, state_.time + lead);
     begin_ = std::max(std::min(emitted.layers, held), layers_by(emitter_, layer_, state_.time));
     emitted.layers = end_ = std::max(layers_by(emitter_, layer_, state_.time + dt + lead), begin_);
@@ -178,7 +183,8 @@ class EmitterRun {
     for (const Vec3f& place : layer_.places) radius = std::max(radius, length_squared(place));
     const auto dt = static_cast<float>(dt_);
     const Opening opening = opening_at(state_.time);
-    const float way = (sqrt(length_squared(opening.velocity)) + sqrt(length_squared(world_.model.gravity)) * dt) * 2 * dt;
+    const float way =
+        (sqrt(length_squared(opening.velocity)) + sqrt(length_squared(world_.model.gravity)) * dt) * 2 * dt;
     const float reach = sqrt(radius) + way + 2 * layer_.distance;
     for (int i = first_; i < first_ + object_.user_particles; ++i) {
       const Vec3f place = xyz(state_.positions[at(i)]);

@@ -1,4 +1,5 @@
-// What gauges sum over particles. A particle is a cube that is parallel to the axes, or along other directions an interval of that length.
+// What gauges sum over particles. A particle is a cube that is parallel to the axes, or along other directions an
+// interval of that length.
 #pragma once
 
 #include <span>
@@ -12,8 +13,8 @@ namespace pliant {
 /// The volume that a box and the cube about a place have in common [m^3].
 double common_volume(const HeightGauge& box, const Vec3f& place, double side);
 
-/// The share of a particle of that size that passed through the parallelogram in the direction of side_a x side_b while it moved along
-/// a straight line; negative against it [-].
+/// The share of a particle of that size that passed through the parallelogram in the direction of side_a x side_b while
+/// it moved along a straight line; negative against it [-].
 double passed_share(const FlowGauge& through, const Vec3f& from, const Vec3f& to, double side);
 
 /// An interval of liquid along a direction.

@@ -26,7 +26,8 @@ void check_direction(const Gauge& gauge, const Vec3f& direction) {
 void check(const Gauge& gauge, const HeightGauge& height) {
   const Vec3f &low = height.low, &high = height.high;
   if (!is_finite(low) || !is_finite(high) || !(low.x < high.x) || !(low.y < high.y) || !(low.z < high.z))
-    refuse(gauge, "has a box without a volume", "each coordinate of its low corner must be less than that of its high one");
+    refuse(gauge, "has a box without a volume",
+           "each coordinate of its low corner must be less than that of its high one");
   if (height.axis < 0 || height.axis > 2)
     refuse(gauge, "has the axis " + std::to_string(height.axis), "give 0 for x, 1 for y or 2 for z");
 }
@@ -49,11 +50,13 @@ std::vector<int> measured_by(const Gauge& gauge, const std::vector<std::string>&
   if (liquids.empty()) refuse(gauge, "finds no liquid in the scene", "add a liquid, or remove the gauge");
   std::vector<int> found;
   for (std::size_t i = 0; i < liquids.size(); ++i)
-    if (gauge.liquids.empty() || std::find(gauge.liquids.begin(), gauge.liquids.end(), liquids[i]) != gauge.liquids.end())
+    if (gauge.liquids.empty() ||
+        std::find(gauge.liquids.begin(), gauge.liquids.end(), liquids[i]) != gauge.liquids.end())
       found.push_back(static_cast<int>(i));
   for (const std::string& name : gauge.liquids)
     if (std::find(liquids.begin(), liquids.end(), name) == liquids.end())
-      refuse(gauge, "measures '" + name + "', but no liquid of that name exists", "use the name of a liquid of the scene");
+      refuse(gauge, "measures '" + name + "', but no liquid of that name exists",
+             "use the name of a liquid of the scene");
   return found;
 }
 
@@ -69,7 +72,8 @@ Thing pressed_by(const Gauge& gauge, const std::string& name, const Scene& scene
   if (found.empty())
     refuse(gauge, "measures the force on '" + name + "', which does not exist or is a liquid",
            "use the name of a collider, or of an object that is no liquid");
-  if (found.size() > 1) refuse(gauge, "measures the force on '" + name + "', which is not unique", "give them other names");
+  if (found.size() > 1)
+    refuse(gauge, "measures the force on '" + name + "', which is not unique", "give them other names");
   return found.front();
 }
 

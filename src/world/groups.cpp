@@ -54,13 +54,13 @@ void update_pairs(WorldData& world, SubstepGroup& group, const std::vector<int>&
   (group.has_all ? world.workspace.pairs : group.pairs)->change(*changes);
 }
 
-/// Moves to a group the contact of the earlier group with equal substeps, and updates it for objects that changed or joined or
-/// left it.
+/// Moves to a group the contact of the earlier group with equal substeps, and updates it for objects that changed or
+/// joined or left it.
 void take_over_pairs(WorldData& world, SubstepGroup& group, SubstepGroup& before) {
   if (before.pair_model == nullptr) return make_pairs(world, group);
   std::vector<int> changed;
-  std::set_symmetric_difference(before.objects.begin(), before.objects.end(), group.objects.begin(), group.objects.end(),
-                                std::back_inserter(changed));
+  std::set_symmetric_difference(before.objects.begin(), before.objects.end(), group.objects.begin(),
+                                group.objects.end(), std::back_inserter(changed));
   for (const int o : world.groups.changed_surfaces)
     if (before.has(o) || group.has(o)) changed.push_back(o);
   std::sort(changed.begin(), changed.end());
@@ -72,7 +72,9 @@ void take_over_pairs(WorldData& world, SubstepGroup& group, SubstepGroup& before
 }
 
 /// True if all objects have the same substeps, because the tolerance, or the record of residuals, is for all together.
-bool shares_one_group(const WorldData& world) { return world.settings.tolerance > 0 || world.settings.record_residuals; }
+bool shares_one_group(const WorldData& world) {
+  return world.settings.tolerance > 0 || world.settings.record_residuals;
+}
 
 /// Finds the groups of objects with the same substeps. Their contact between surfaces is not made yet.
 std::vector<SubstepGroup> find_groups(const WorldData& world, const GroupsBefore& before) {
@@ -105,7 +107,8 @@ void prepare_groups(WorldData& world) {
   world.groups.plan = planned_substeps(world.model, &world.groups.sets);
   world.groups.all = find_groups(world, {before, world.groups.changed});
   world.groups.changed.clear();
-  if (before.size() == 1 && world.groups.all.size() == 1) return;  // still one group of all objects, whose contact stays
+  if (before.size() == 1 && world.groups.all.size() == 1)
+    return;  // still one group of all objects, whose contact stays
   world.workspace.pairs = nullptr;
   world.groups.pairs_of_all = nullptr;
   const std::vector<std::size_t> of_object = groups_before(before, world.model.objects.size());
@@ -142,7 +145,8 @@ void make_particle_solvers(WorldData& world) {
   for (SubstepGroup& group : world.groups.all) {
     group.grains = std::make_unique<GrainSolver>(world.model, group.has_all ? nullptr : &group.objects);
     if (!group.grains->has_grains()) group.grains = nullptr;
-    group.fluids = std::make_unique<FluidSolver>(world.model, group.has_all ? nullptr : &group.objects, &world.groups.sets);
+    group.fluids =
+        std::make_unique<FluidSolver>(world.model, group.has_all ? nullptr : &group.objects, &world.groups.sets);
     if (!group.fluids->has_fluids()) group.fluids = nullptr;
     group.gases = std::make_unique<GasSolver>(world.model, group.has_all ? nullptr : &group.objects);
     if (!group.gases->has_gases()) group.gases = nullptr;
@@ -155,8 +159,9 @@ std::vector<int> near_sets(const WorldData& world, double dt) {
 }
 
 bool has_contact(const WorldGroups& groups) {
-  return groups.pairs_of_all != nullptr || std::any_of(groups.all.begin(), groups.all.end(),
-                                                       [](const SubstepGroup& group) { return group.pairs != nullptr; });
+  return groups.pairs_of_all != nullptr ||
+         std::any_of(groups.all.begin(), groups.all.end(),
+                     [](const SubstepGroup& group) { return group.pairs != nullptr; });
 }
 
 /// Updates the contact between surfaces of groups that stay.
@@ -212,15 +217,15 @@ void change_sets(WorldData& world, std::vector<int> sets) {
   if (world.groups.tables != nullptr) world.groups.tables->rules.set_sets(before);
 }
 
-/// Sets the bounds of substeps that follow the State, whole numbers in each quarter of a frame. False if the largest is less than a
-/// substep for each quarter: it is then the fixed number of the frame.
+/// Sets the bounds of substeps that follow the State, whole numbers in each quarter of a frame. False if the largest is
+/// less than a substep for each quarter: it is then the fixed number of the frame.
 template <class Limited>
 bool set_bounds(const Settings& settings, const SubstepGroup& group, const Limited& limited, GroupFrame& frame) {
   const auto up = [](int substeps) { return (substeps + quarters - 1) / quarters * quarters; };
   const auto down = [](int substeps) { return substeps / quarters * quarters; };
   const int named = up(settings.least_substeps);
-  const int usual = std::max(
-      {named, group.has_sheets ? most_by_state : most_of_ropes, up(group.least)});  // with what a volume of the set needs
+  const int usual = std::max({named, group.has_sheets ? most_by_state : most_of_ropes,
+                              up(group.least)});  // with what a volume of the set needs
   const int most = limited(settings.most_substeps > 0 ? settings.most_substeps : usual);
   frame.substeps = most;
   if (most < quarters) return false;

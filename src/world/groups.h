@@ -18,7 +18,8 @@ void follow_distances(WorldData& world, double dt);
 
 /// The substeps per frame of an object as planned; 0: they follow the State.
 int substeps_of(const WorldData& world, int number);
-/// The substeps of each group in the next frame of `dt` seconds, which fast colliders can increase. Adds warnings to the Report.
+/// The substeps of each group in the next frame of `dt` seconds, which fast colliders can increase. Adds warnings to
+/// the Report.
 std::vector<GroupFrame> plan_frame(const WorldData& world, double dt, Report& report);
 
 }  // namespace pliant

@@ -70,7 +70,8 @@ std::vector<Vec3d> asked_moves(const WorldData& world, int number) {
     const CarrierPose pose(object.carrier, drive->end, drive->to);
     moves.reserve(at(object.particles));
     for (int i = 0; i < object.particles; ++i)
-      moves.push_back(pose.place(i) - convert<double>(xyz(world.state.positions[at(world.model.first[at(number)] + i)])));
+      moves.push_back(pose.place(i) -
+                      convert<double>(xyz(world.state.positions[at(world.model.first[at(number)] + i)])));
   }
   return moves;
 }
@@ -107,7 +108,8 @@ std::optional<Jump> find_jump(const WorldData& world, int number, double dt) {
   // Bodies that no joint connects with what is moved stay where they are.
   const bool has_loose =
       !object.bodies.bodies.empty() && object.joints.empty() && moves.size() < object.bodies.bodies.size();
-  jump.is_whole = !is_held && !has_loose && !object.carrier.moves() && std::all_of(moves.begin(), moves.end(), is_alike);
+  jump.is_whole =
+      !is_held && !has_loose && !object.carrier.moves() && std::all_of(moves.begin(), moves.end(), is_alike);
   return jump;
 }
 
@@ -117,9 +119,9 @@ std::string words_of_jump(const WorldData& world, const Jump& jump) {
   std::snprintf(text, sizeof text, "moves %.3g m in one frame, over 4 times its size of %.3g m, ", length(jump.by),
                 jump.size);
   return (object.is_collider ? "collider '" : "object '") + object.name + "': " + text +
-         (jump.is_whole
-              ? "and is placed there at once: call teleport first"
-              : "while a part of it stays, which stretches it and costs time: call teleport, or move it in more frames");
+         (jump.is_whole ? "and is placed there at once: call teleport first"
+                        : "while a part of it stays, which stretches it and costs time: call teleport, or move it in "
+                          "more frames");
 }
 
 /// Makes things that jump nearly alike jump alike, so that they keep their places to one another.

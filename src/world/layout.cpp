@@ -100,8 +100,8 @@ WorldData::WorldData(const Scene& scene, const WorldLayout& layout)
   for (std::size_t i = 0; i < of_objects.size(); ++i) {
     if (layout.sweeps[of_objects[i]] == Sweep::automatic) refuse("an object has no sweep");
     const KeptSchedule& kept = layout.schedules[of_objects[i]];
-    objects[of_objects[i]] =
-        compile(scene.objects[i], compile_options(*this, layout.sweeps[of_objects[i]]), kept.is_used() ? &kept : nullptr);
+    objects[of_objects[i]] = compile(scene.objects[i], compile_options(*this, layout.sweeps[of_objects[i]]),
+                                     kept.is_used() ? &kept : nullptr);
     if (kept.is_used() && !objects[of_objects[i]].additions.are_used)  // its particles would be stored in another order
       refuse("the schedule of object '" + scene.objects[i].name + "' is of other constraints, or of another stiffness");
   }

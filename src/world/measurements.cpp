@@ -72,9 +72,11 @@ double rest_volume_of_shape(const ConstraintPlace& at) {
   return six == 0 ? 0 : 1 / (6 * six);
 }
 
-/// The volume constraints, or those of shape if there are none of the former or they are joined around edges (model/join_volumes.h).
+/// The volume constraints, or those of shape if there are none of the former or they are joined around edges
+/// (model/join_volumes.h).
 std::vector<TetrahedronType> tetrahedron_types(const CompiledObject& object) {
-  const int joined = find_constraint_type(VolumeAroundEdge::name), volume = find_constraint_type(TetrahedronVolume::name);
+  const int joined = find_constraint_type(VolumeAroundEdge::name),
+            volume = find_constraint_type(TetrahedronVolume::name);
   const auto has = [&](int type) {
     return std::any_of(object.pools.begin(), object.pools.end(), [&](const Pool& pool) { return pool.type == type; });
   };
@@ -103,7 +105,8 @@ struct TetrahedraSum {
       measure.inverted += ratio < 0 ? 1 : 0;
       volume += std::copysign(now, ratio);
       at_rest += std::fabs(rest);
-      const bool is_known = measure.particles[0] >= 0 && (ratio >= measure.least_ratio || std::isnan(measure.least_ratio));
+      const bool is_known =
+          measure.particles[0] >= 0 && (ratio >= measure.least_ratio || std::isnan(measure.least_ratio));
       if (is_known) return;
       measure.least_ratio = ratio;
       measure.object = id;
@@ -193,8 +196,9 @@ std::string Measurements::advice(const Overstretch& found) const {
       (substeps > 0 ? "more than " + std::to_string(substeps) + " substeps"
                     : "a larger \"least_substeps\" or \"most_substeps\"");
   return describe(found) + "; " +
-         (world_->open.departs.empty() ? more
-                                       : "the default, with no " + world_->open.departs + " in the scene's \"settings\",") +
+         (world_->open.departs.empty()
+              ? more
+              : "the default, with no " + world_->open.departs + " in the scene's \"settings\",") +
          " may reduce it: 'pliant check' or advise() finds out";
 }
 

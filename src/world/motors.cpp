@@ -102,7 +102,8 @@ void ObjectHandle::set_motor(const std::string& joint, const MotorCommand& comma
   if (command.most && !(*command.most > 0))
     refuse_command(of.name, element, "its greatest torque or force is " + std::to_string(*command.most),
                    "give a number above 0");
-  MotorSetting setting{number, static_cast<int>(place.joint), static_cast<int>(place.motor), command.target, motor.most};
+  MotorSetting setting{number, static_cast<int>(place.joint), static_cast<int>(place.motor), command.target,
+                       motor.most};
   std::vector<MotorSetting>& all = world_->state.motors;
   const auto at = std::lower_bound(all.begin(), all.end(), setting, is_earlier);
   const bool is_known = at != all.end() && !is_earlier(setting, *at);

@@ -109,8 +109,8 @@ ObjectState take_state(WorldData& world, int number) {
   return out;
 }
 
-/// For each particle and frame of an object, the one of the object before it whose state it takes; -1: none. Particles are in storage
-/// order.
+/// For each particle and frame of an object, the one of the object before it whose state it takes; -1: none. Particles
+/// are in storage order.
 struct Origins {
   std::vector<int> particles, frames;
 };
@@ -172,7 +172,8 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
       const auto components = static_cast<std::size_t>(channel.components);
       const auto to = std::find_if(world.state.channels.begin(), world.state.channels.end(),
                                    [&](const Channel& one) { return one.name == channel.name; });
-      const float share = channel.name == water_channel ? 1 / copies[from] : 1;  // a mass, which those that were one share
+      const float share =
+          channel.name == water_channel ? 1 / copies[from] : 1;  // a mass, which those that were one share
       for (std::size_t k = 0; k < components; ++k)
         to->values[at * components + k] = channel.values[from * components + k] * share;
     }
@@ -189,7 +190,8 @@ void give_back_state(WorldData& world, int number, const ObjectState& kept, cons
   }
 }
 
-/// Discards the contacts, broken joints, targets of motors and factors of rest data of an object's rigid bodies, and the contacts of its grains.
+/// Discards the contacts, broken joints, targets of motors and factors of rest data of an object's rigid bodies, and
+/// the contacts of its grains.
 void forget_contacts(WorldData& world, int number) {
   const StateBlock block = world.state.blocks[static_cast<std::size_t>(number)];
   const auto is_of_block = [&](int particle) {
@@ -209,7 +211,8 @@ void forget_contacts(WorldData& world, int number) {
 std::set<std::string> broken_joints_of(const WorldData& world, int number) {
   std::set<std::string> names;
   for (const BrokenJoint& joint : world.state.broken_joints)
-    if (joint.block == number) names.insert(world.model.objects[number].joints[static_cast<std::size_t>(joint.joint)].name);
+    if (joint.block == number)
+      names.insert(world.model.objects[number].joints[static_cast<std::size_t>(joint.joint)].name);
   return names;
 }
 
@@ -269,8 +272,9 @@ void add_field(WorldData& world, const MeshCollider& collider, std::shared_ptr<c
   if (field == nullptr) return;
   const auto after = std::find_if(world.model.fields.begin(), world.model.fields.end(),
                                   [&](const FieldCollider& one) { return one.object > number; });
-  world.model.fields.insert(after, {number, std::move(field), collider.motion, collider.thickness, collider.static_friction,
-                                    collider.kinetic_friction, collider.restitution, collider.groups, collider.mask});
+  world.model.fields.insert(after,
+                            {number, std::move(field), collider.motion, collider.thickness, collider.static_friction,
+                             collider.kinetic_friction, collider.restitution, collider.groups, collider.mask});
 }
 
 void prepare_object(WorldData& world, int number) {

@@ -1,5 +1,5 @@
-// Objects in the model, the State and the workspace. Each has a number in the model, a block in the State and its own part
-// of the workspace, so the cost of a change depends on that object alone.
+// Objects in the model, the State and the workspace. Each has a number in the model, a block in the State and its own
+// part of the workspace, so the cost of a change depends on that object alone.
 #pragma once
 
 #include <memory>

@@ -31,7 +31,8 @@ void read(const CompiledObject& from, const Record* records, std::span<Vec3f> in
   if (into.size() != static_cast<std::size_t>(from.user_particles)) {
     throw Error(
         {.object = from.name},
-        "has " + std::to_string(from.user_particles) + " particles, but there is room for " + std::to_string(into.size()),
+        "has " + std::to_string(from.user_particles) + " particles, but there is room for " +
+            std::to_string(into.size()),
         "give room for " + std::to_string(from.user_particles) + " points; a point of three numbers counts as one");
   }
   for (int user = 0; user < from.user_particles; ++user) {
@@ -77,7 +78,8 @@ std::vector<float> ObjectView::channel(const std::string& name) const {
   for (const Channel& channel : read_->state.channels) {
     if (channel.name != name || channel.components != 1) continue;
     std::vector<float> out(static_cast<std::size_t>(object.user_particles));
-    for (int user = 0; user < object.user_particles; ++user) out[user] = channel.values[particle_of(*read_, number, user)];
+    for (int user = 0; user < object.user_particles; ++user)
+      out[user] = channel.values[particle_of(*read_, number, user)];
     return out;
   }
   return {};
@@ -114,7 +116,9 @@ std::vector<double> ObjectView::ages() const {
   return out;
 }
 
-void ObjectView::read_positions(std::span<Vec3f> into) const { read(read_->object(id_), positions_of(*read_, id_), into); }
+void ObjectView::read_positions(std::span<Vec3f> into) const {
+  read(read_->object(id_), positions_of(*read_, id_), into);
+}
 void ObjectView::read_velocities(std::span<Vec3f> into) const {
   read(read_->object(id_), velocities_of(*read_, id_), into);
 }

@@ -15,7 +15,8 @@ namespace {
 const CompiledJoint& joint_of(const CompiledObject& object, int joint) {
   if (joint < 0 || static_cast<std::size_t>(joint) >= object.joints.size())
     throw Error({.object = object.name, .element = "joint " + std::to_string(joint)},
-                "does not exist; there are " + std::to_string(object.joints.size()) + " joints", "indices count from 0");
+                "does not exist; there are " + std::to_string(object.joints.size()) + " joints",
+                "indices count from 0");
   return object.joints[static_cast<std::size_t>(joint)];
 }
 

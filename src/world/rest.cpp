@@ -15,7 +15,9 @@ namespace pliant {
 
 namespace {
 
-bool is_before(const RestFactor& a, const RestFactor& b) { return std::tie(a.block, a.group) < std::tie(b.block, b.group); }
+bool is_before(const RestFactor& a, const RestFactor& b) {
+  return std::tie(a.block, a.group) < std::tie(b.block, b.group);
+}
 
 const ScaledGroup* find_group(const CompiledObject& object, int group) {
   const auto found = std::find_if(object.changing.scaled.begin(), object.changing.scaled.end(),
@@ -47,8 +49,8 @@ std::vector<float> rest_of(const ConstraintPlace& at) {
   return rest;
 }
 
-/// Gives rest data what has flowed, if what they had there at the start is what the others had. Else an edit has given a new rest shape,
-/// which stays.
+/// Gives rest data what has flowed, if what they had there at the start is what the others had. Else an edit has given
+/// a new rest shape, which stays.
 bool put_flow(const FlowedData& flowed, std::vector<float>& rest) {
   std::vector<float> out = rest;
   for (std::size_t field = 0; field < rest.size(); ++field) {
@@ -90,7 +92,8 @@ KeyedCluster key_of(const CompiledClusters& clusters, const PlasticCluster& plas
   const CompiledCluster& cluster = clusters.clusters[static_cast<std::size_t>(plastic.cluster)];
   std::vector<std::pair<int, Vec3f>> members;
   for (std::size_t i = 0; i < plastic.given.size(); ++i)
-    members.emplace_back(name(clusters.members[static_cast<std::size_t>(cluster.first) + i].particle), plastic.given[i]);
+    members.emplace_back(name(clusters.members[static_cast<std::size_t>(cluster.first) + i].particle),
+                         plastic.given[i]);
   std::stable_sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   const auto same = [](const auto& a, const auto& b) { return a.first == b.first; };  // what a particle has split into
   members.erase(std::unique(members.begin(), members.end(), same), members.end());
@@ -102,7 +105,8 @@ KeyedCluster key_of(const CompiledClusters& clusters, const PlasticCluster& plas
   return out;
 }
 
-/// What the cluster had that these particles belonged to, with these rest places: the same, or one that has been divided.
+/// What the cluster had that these particles belonged to, with these rest places: the same, or one that has been
+/// divided.
 const FlowedData* find_whole(const FlowedRest& flowed, const KeyedCluster& part) {
   if (const auto same = flowed.find(part.key); same != flowed.end() && same->second.start == part.given)
     return &same->second;

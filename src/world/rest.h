@@ -1,4 +1,5 @@
-// Rest data that change while a World runs: what keyframes and calls multiply, and what has flowed (model/changing_rest.h).
+// Rest data that change while a World runs: what keyframes and calls multiply, and what has flowed
+// (model/changing_rest.h).
 #pragma once
 
 #include <map>
@@ -32,8 +33,8 @@ struct FlowedData {
 /// Those of an object that have flowed, by type and slots (storage indices; frames after all particles).
 using FlowedRest = std::map<std::vector<int>, FlowedData>;
 FlowedRest flowed_rest(const CompiledObject& object);
-/// Gives the plastic constraints of an edited object what those had that had their slots, unless the edit has changed the rest data that
-/// flowed. `slot_before` is the slot of the object before it, or -1.
+/// Gives the plastic constraints of an edited object what those had that had their slots, unless the edit has changed
+/// the rest data that flowed. `slot_before` is the slot of the object before it, or -1.
 void carry_flowed(const FlowedRest& flowed, const std::vector<int>& slot_before, CompiledObject& object);
 
 }  // namespace pliant

@@ -20,8 +20,8 @@ namespace pliant {
 
 namespace {
 
-/// A grain is slow if it moves by less than this share of its radius in SleepOptions::time, and slower than SleepOptions::speed. A grain or
-/// what it meets has to move so many times as fast to wake it.
+/// A grain is slow if it moves by less than this share of its radius in SleepOptions::time, and slower than
+/// SleepOptions::speed. A grain or what it meets has to move so many times as fast to wake it.
 constexpr float slow_share = 0.1f, wake_factor = 5;
 
 /// The values of a channel; null if there is none of this name.
@@ -39,7 +39,8 @@ void make_channel(State& state, const char* name) {
   state.channels.insert(before, {name, 1, std::vector<float>(state.positions.size(), 0.f)});
 }
 
-/// What the State keeps of rest: for each particle of it, how long it has been slow, and how far what is near it has moved since it sleeps.
+/// What the State keeps of rest: for each particle of it, how long it has been slow, and how far what is near it has
+/// moved since it sleeps.
 struct Rest {
   std::vector<float>*times = nullptr, *shifts = nullptr;
   explicit operator bool() const { return times != nullptr && shifts != nullptr; }
@@ -67,7 +68,8 @@ void for_grains(const WorldData& world, const Body& body) {
 
 float slow_speed(const WorldData& world, int number) {
   const SleepOptions& sleep = world.settings.sleep;
-  return std::min(sleep.speed, slow_share * world.model.objects[at(number)].grains->radius / std::max(sleep.time, 0.01f));
+  return std::min(sleep.speed,
+                  slow_share * world.model.objects[at(number)].grains->radius / std::max(sleep.time, 0.01f));
 }
 
 void wake(WorldData& world, const Rest& rest, int number, int particle) {
@@ -169,7 +171,8 @@ class Movers {
   /// True if the user, a pin, a motor, or keyframes of pressure or rest data move an object.
   bool is_driven(int number, const CompiledObject& object) const {
     const double now = world_.state.time, then = now + dt_;
-    return world_.workspace.control.object(number) != nullptr || (object.has_volume && object.volume.described.changes()) ||
+    return world_.workspace.control.object(number) != nullptr ||
+           (object.has_volume && object.volume.described.changes()) ||
            std::any_of(object.joints.begin(), object.joints.end(),
                        [](const CompiledJoint& joint) { return !joint.motors.empty(); }) ||
            std::any_of(object.changing.scaled.begin(), object.changing.scaled.end(),
@@ -182,8 +185,8 @@ class Movers {
   void add_mesh(int number, const CompiledObject& mesh) {
     const PoseDrive* const drive = world_.workspace.control.mesh(number);
     const bool is_set = drive != nullptr && drive->moves(),
-               slides =
-                   surface_velocity_of_mesh(world_.model, world_.workspace.control, number, world_.state.time) != Vec3f{};
+               slides = surface_velocity_of_mesh(world_.model, world_.workspace.control, number, world_.state.time) !=
+                        Vec3f{};
     if (!is_set && !slides && (drive != nullptr || !(changes(mesh.carrier.motion) || mesh.carrier.deforms()))) return;
     const double then = world_.state.time + dt_;
     const CarrierPose after = is_set ? CarrierPose(mesh.carrier, then, drive->to) : CarrierPose(mesh.carrier, then);
@@ -243,8 +246,9 @@ class Movers {
                                             : 0;
     const auto place_at = [&](double time) { return carried(pose_at(collider.motion, time), collider.position); };
     const std::array<Vec3f, 2> places =
-        drive != nullptr ? std::array<Vec3f, 2>{convert<float>(drive->from.position), convert<float>(drive->to.position)}
-                         : std::array<Vec3f, 2>{place_at(world_.state.time), place_at(world_.state.time + dt_)};
+        drive != nullptr
+            ? std::array<Vec3f, 2>{convert<float>(drive->from.position), convert<float>(drive->to.position)}
+            : std::array<Vec3f, 2>{place_at(world_.state.time), place_at(world_.state.time + dt_)};
     add(BoxBounds::of(places.data(), 2), size + collider.thickness, {-1, unstoppable});
   }
 

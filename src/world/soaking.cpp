@@ -1,6 +1,7 @@
-// A particle of liquid soaks in as a whole: its mass goes to the particles of the surface around the place that it touches, each up to its
-// capacity, and it waits, as others of Flow do, until it is a drop again. So the solver sees no particle of another size. Where chance
-// decides, a particle of diameter d goes in a frame with the probability speed dt / d, so that on average liquid flows at that speed.
+// A particle of liquid soaks in as a whole: its mass goes to the particles of the surface around the place that it
+// touches, each up to its capacity, and it waits, as others of Flow do, until it is a drop again. So the solver sees no
+// particle of another size. Where chance decides, a particle of diameter d goes in a frame with the probability speed
+// dt / d, so that on average liquid flows at that speed.
 #include "world/soaking.h"
 
 #include <algorithm>
@@ -249,10 +250,11 @@ class Soaking {
     for (std::size_t k = 0; k < 3; ++k) push(touch.corners[k], impulse * touch.weights[k]);
   }
 
-  /// Particles of the surface along edges from the given ones, nearest first, no farther from a place than the root of `reach_squared`, until
-  /// their shares add up to a mass; empty if they do not.
+  /// Particles of the surface along edges from the given ones, nearest first, no farther from a place than the root of
+  /// `reach_squared`, until their shares add up to a mass; empty if they do not.
   template <class Share>
-  std::vector<int> gather(std::vector<int> found, const Vec3f& place, float reach_squared, float mass, const Share& share) {
+  std::vector<int> gather(std::vector<int> found, const Vec3f& place, float reach_squared, float mass,
+                          const Share& share) {
     visited_.resize(surface_.areas.size(), 0);
     for (const int one : found) visited_[at(one)] = 1;
     float sum = 0;
@@ -270,7 +272,8 @@ class Soaking {
     return found;
   }
 
-  /// The particles of the surface that take up a mass; empty if those within twice the radius of a disc that holds it have no room.
+  /// The particles of the surface that take up a mass; empty if those within twice the radius of a disc that holds it
+  /// have no room.
   std::vector<int> takers(const Touch& touch, float mass) {
     const float reach_squared = 4 * mass / (3.14159265f * surface_.described.capacity);
     return gather({touch.corners.begin(), touch.corners.end()}, touch.place, reach_squared, mass,
@@ -278,7 +281,8 @@ class Soaking {
   }
 
   bool happens(const Touch& touch, float speed, std::uint64_t purpose) const {
-    const double probability = static_cast<double>(speed) * dt_ / static_cast<double>(liquid(touch.liquid).fluid->spacing);
+    const double probability =
+        static_cast<double>(speed) * dt_ / static_cast<double>(liquid(touch.liquid).fluid->spacing);
     return chance(touch.particle, state_.frame, purpose) < probability;
   }
 
@@ -306,7 +310,8 @@ class Soaking {
   void give(int particle, float mass, const Vec3f& velocity) {
     water_[particle] += mass;
     mix(particle, mass, velocity);
-    if (corner(particle).w > 0) corner(particle).w = wet_inverse_mass(object_.positions[at(particle)].w, water_[particle]);
+    if (corner(particle).w > 0)
+      corner(particle).w = wet_inverse_mass(object_.positions[at(particle)].w, water_[particle]);
   }
 
   /// What a particle of the surface has taken up changes its velocity.
@@ -326,8 +331,8 @@ class Soaking {
     state_.births[at(particle)] = not_there;
   }
 
-  /// Lets a particle that lies on a full surface pass to its other side, where it leaves with the surface's velocity: what comes out of pores
-  /// has lost its own.
+  /// Lets a particle that lies on a full surface pass to its other side, where it leaves with the surface's velocity:
+  /// what comes out of pores has lost its own.
   void seep(const Touch& touch) {
     const float falls = -dot(touch.away, down_);
     if (!(falls > 0) || !happens(touch, surface_.described.seepage * falls, 1)) return;
@@ -368,10 +373,12 @@ class Soaking {
 
   float excess(int particle) const { return std::max(water_[particle] - capacity(particle), 0.f); }
 
-  /// Lets a drop fall off, if there is enough for it within two of its diameters: there surface tension draws it together.
+  /// Lets a drop fall off, if there is enough for it within two of its diameters: there surface tension draws it
+  /// together.
   bool let_fall(int from, int of, std::int64_t spare) {
     const float mass = mass_of(of, spare), reach = 2 * liquid(of).fluid->spacing;
-    const std::vector<int> found = gather({from}, xyz(corner(from)), reach * reach, mass, [&](int i) { return excess(i); });
+    const std::vector<int> found =
+        gather({from}, xyz(corner(from)), reach * reach, mass, [&](int i) { return excess(i); });
     if (found.empty()) return false;
     const Vec3f place = xyz(corner(from)) + down_ * ((1 + slack / 2) * contact_distance(of));
     if (!is_free(place, of, -1)) return false;
@@ -406,8 +413,9 @@ class Soaking {
   std::vector<ColliderId> colliders_ = world_.ids.colliders.all();
   std::vector<Touch> near_;
   float cell_size_ = 1;  ///< at least the least distance of a drop from others [m]
-  std::map<std::array<std::int64_t, 3>, std::vector<std::int64_t>> cells_;  ///< particles of liquids that are or were near
-  std::vector<int> begin_, neighbours_;                                     ///< of particles, along edges
+  std::map<std::array<std::int64_t, 3>, std::vector<std::int64_t>>
+      cells_;                            ///< particles of liquids that are or were near
+  std::vector<int> begin_, neighbours_;  ///< of particles, along edges
   std::vector<char> visited_;
 };
 

@@ -6,8 +6,8 @@
 
 namespace pliant {
 
-/// Lets the particles of all liquids come and go (Flow::open) if a surface takes up liquid. Call it when objects have come, before their State
-/// is made; what has been open stays so.
+/// Lets the particles of all liquids come and go (Flow::open) if a surface takes up liquid. Call it when objects have
+/// come, before their State is made; what has been open stays so.
 void open_liquids(WorldData& world);
 
 /// Does so for every liquid: some has soaked into a surface that is no more.
@@ -19,8 +19,9 @@ inline float wet_inverse_mass(float dry, float water) { return dry > 0 && water 
 /// Sets the masses of an object with Absorbency by what it holds; those that the State has fixed stay so.
 void set_wet_masses(WorldData& world, int number);
 
-/// Moves liquid into, along, through and off all surfaces with Absorbency after a step of `dt` seconds, and counts the particles. Then sets the
-/// masses of these surfaces. The sum of all masses stays, to rounding; so does the momentum of what is free.
+/// Moves liquid into, along, through and off all surfaces with Absorbency after a step of `dt` seconds, and counts the
+/// particles. Then sets the masses of these surfaces. The sum of all masses stays, to rounding; so does the momentum of
+/// what is free.
 void soak(WorldData& world, double dt, FlowReport& report);
 
 }  // namespace pliant

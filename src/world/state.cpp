@@ -37,7 +37,8 @@ void require_frames_of(const FrameRecords& own, const FrameRecords& given) {
     if (inertia.x != same.x || inertia.y != same.y || inertia.z != same.z)
       throw Error({.element = element}, "its inertia is not this world's", "restore a state of this world");
     if (!std::isfinite(q.x + q.y + q.z + q.w) || !std::isfinite(w.x + w.y + w.z))
-      throw Error({.element = element}, "its orientation or angular velocity is not finite", "restore an earlier state");
+      throw Error({.element = element}, "its orientation or angular velocity is not finite",
+                  "restore an earlier state");
   }
 }
 
@@ -69,7 +70,8 @@ void require_no_less_than_none(const CompiledObject& object, const State& state)
   for (const Channel& channel : state.channels)
     if (channel.name == water_channel &&
         std::any_of(channel.values.begin(), channel.values.end(), [](float m) { return m < 0; }))
-      throw Error({.object = object.name, .element = "channel 'water'"}, "has a negative mass", "restore an earlier state");
+      throw Error({.object = object.name, .element = "channel 'water'"}, "has a negative mass",
+                  "restore an earlier state");
 }
 
 /// What gases, tracers and wet surfaces read of the State must be there.
@@ -144,9 +146,10 @@ void require_grain_contacts(const Model& model, const State& state) {
 void require_grains_at_rest(const State& state) {
   for (const Channel& channel : state.channels) {
     if (channel.name != rest_time_channel && channel.name != rest_shift_channel) continue;
-    const bool is_right = channel.components == 1 &&
-                          std::all_of(channel.values.begin(), channel.values.end(),
-                                      [](float value) { return std::isfinite(value) && (value >= 0 || value == asleep); });
+    const bool is_right =
+        channel.components == 1 && std::all_of(channel.values.begin(), channel.values.end(), [](float value) {
+          return std::isfinite(value) && (value >= 0 || value == asleep);
+        });
     if (!is_right)
       throw Error({.element = "channel '" + channel.name + "'"},
                   "has more than one component, or a value that is negative or not finite", "restore an earlier state");
@@ -184,7 +187,8 @@ void break_joints_of_state(WorldData& world) {
 
 const CompiledJoint::Motor* find_motor(const Model& model, const MotorSetting& setting) {
   const auto at = [](const auto& list, int index) {
-    return index >= 0 && static_cast<std::size_t>(index) < list.size() ? &list[static_cast<std::size_t>(index)] : nullptr;
+    return index >= 0 && static_cast<std::size_t>(index) < list.size() ? &list[static_cast<std::size_t>(index)]
+                                                                       : nullptr;
   };
   const CompiledObject* object = at(model.objects, setting.block);
   const CompiledJoint* joint = object == nullptr ? nullptr : at(object->joints, setting.joint);
@@ -243,8 +247,8 @@ void require_held_poses(const WorldData& world, const State& given) {
 void require_rest_times(const State& state) {
   if (!state.rest_times.empty() && state.rest_times.size() != state.frames.size())
     throw Error({},
-                "the state has times of rest of " + std::to_string(state.rest_times.size()) + " frames, of which it has " +
-                    std::to_string(state.frames.size()),
+                "the state has times of rest of " + std::to_string(state.rest_times.size()) +
+                    " frames, of which it has " + std::to_string(state.frames.size()),
                 "restore a state of this world, or clear its rest_times, which wakes all bodies");
   for (std::size_t i = 0; i < state.rest_times.size(); ++i)
     if (!(state.rest_times[i] >= 0 || state.rest_times[i] == asleep) || std::isinf(state.rest_times[i]))
@@ -326,11 +330,12 @@ void World::restore(const State& state) {
   require_held_poses(*data_, state);
   require_surface_velocities(*data_, state);
   const std::size_t particles = data_->state.positions.size();
-  if (state.positions.size() != particles || state.velocities.size() != particles || state.remainders.size() != particles) {
-    throw Error(
-        {},
-        "the state has " + std::to_string(state.positions.size()) + " particles, the world " + std::to_string(particles),
-        "restore a state of this world");
+  if (state.positions.size() != particles || state.velocities.size() != particles ||
+      state.remainders.size() != particles) {
+    throw Error({},
+                "the state has " + std::to_string(state.positions.size()) + " particles, the world " +
+                    std::to_string(particles),
+                "restore a state of this world");
   }
   if (!state.births.empty() && data_->state.births.empty()) open_all_liquids(*data_);
   require_births(*data_, state);
@@ -344,8 +349,8 @@ void World::restore(const State& state) {
                   "restore a state of this world");
     }
     if (state.velocities[i].w != 0 || state.remainders[i].w != 0) {
-      throw Error({.element = "particle " + std::to_string(i)}, "the fourth number of its velocity or remainder is not 0",
-                  "restore a state of this world");
+      throw Error({.element = "particle " + std::to_string(i)},
+                  "the fourth number of its velocity or remainder is not 0", "restore a state of this world");
     }
     if (!is_finite(state.positions[i]) || !is_finite(state.velocities[i]) || !is_finite(state.remainders[i])) {
       throw Error({.element = "particle " + std::to_string(i)}, "its position or velocity is not finite",
@@ -408,9 +413,11 @@ std::string hash(const State& state) {
     sha.add(&pose.rotation, sizeof pose.rotation);
   }
   if (!state.substeps.empty()) sha.add(state.substeps.data(), state.substeps.size() * sizeof(float));
-  if (!state.broken_joints.empty()) sha.add(state.broken_joints.data(), state.broken_joints.size() * sizeof(BrokenJoint));
+  if (!state.broken_joints.empty())
+    sha.add(state.broken_joints.data(), state.broken_joints.size() * sizeof(BrokenJoint));
   if (!state.motors.empty()) sha.add(state.motors.data(), state.motors.size() * sizeof(MotorSetting));
-  if (!state.body_contacts.empty()) sha.add(state.body_contacts.data(), state.body_contacts.size() * sizeof(BodyContact));
+  if (!state.body_contacts.empty())
+    sha.add(state.body_contacts.data(), state.body_contacts.size() * sizeof(BodyContact));
   if (!state.rest_times.empty()) sha.add(state.rest_times.data(), state.rest_times.size() * sizeof(float));
   if (!state.grain_contacts.empty())
     sha.add(state.grain_contacts.data(), state.grain_contacts.size() * sizeof(GrainContact));

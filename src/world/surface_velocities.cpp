@@ -43,7 +43,8 @@ bool is_of_world(const WorldData& world, const SurfaceVelocity& one) {
   if (one.of == SurfaceVelocity::Of::mesh_collider) return world.ids.mesh_colliders.has({one.slot, one.generation});
   return one.of == SurfaceVelocity::Of::body && one.generation == 0 && one.slot >= 0 && one.body >= 0 &&
          static_cast<std::size_t>(one.slot) < world.model.objects.size() &&
-         static_cast<std::size_t>(one.body) < world.model.objects[static_cast<std::size_t>(one.slot)].bodies.bodies.size();
+         static_cast<std::size_t>(one.body) <
+             world.model.objects[static_cast<std::size_t>(one.slot)].bodies.bodies.size();
 }
 
 }  // namespace
@@ -91,7 +92,8 @@ void ObjectHandle::set_surface_velocity(int body, const Vec3f& velocity) {
 }
 
 void ObjectHandle::set_surface_velocity(const std::string& body, const Vec3f& velocity) {
-  set_surface_velocity(body_of_name(world_->model.objects[static_cast<std::size_t>(world_->number(id()))], body), velocity);
+  set_surface_velocity(body_of_name(world_->model.objects[static_cast<std::size_t>(world_->number(id()))], body),
+                       velocity);
 }
 
 void ColliderHandle::set_surface_velocity(const Vec3f& velocity) {

@@ -28,7 +28,8 @@ class WholeRods {
       if (is_of_rod(object.joints[at(j)]) && !std::binary_search(broken.begin(), broken.end(), j)) joints_.push_back(j);
   }
 
-  /// Those between segments on both sides of a plane, or between an end and the middle of the first segment, where the blade has been.
+  /// Those between segments on both sides of a plane, or between an end and the middle of the first segment, where the
+  /// blade has been.
   std::vector<int> cut_by(const PlaneCut& cut, double time) const {
     std::vector<int> found;
     if (joints_.empty() || time < static_cast<double>(cut.start)) return found;
@@ -36,7 +37,8 @@ class WholeRods {
     for (const int j : joints_) {
       const Vec3d place = place_of(j), ahead = middle_of(object_.joints[at(j)].b);
       const Vec3d behind = is_end(j) ? place : middle_of(object_.joints[at(j)].a);
-      if (sides.is_ahead(ahead) != sides.is_ahead(behind) && sides.is_reached((ahead + behind) * 0.5)) found.push_back(j);
+      if (sides.is_ahead(ahead) != sides.is_ahead(behind) && sides.is_reached((ahead + behind) * 0.5))
+        found.push_back(j);
     }
     return found;
   }
@@ -82,13 +84,14 @@ class WholeRods {
     return static_cast<double>(pool_of(part).row(i, part.batch)[part.lane]);
   }
 
-  /// The anchor of a body, which a rod_joint has first: in its principal axes about its centre. `side`: 0 for body a, 1 for b.
+  /// The anchor of a body, which a rod_joint has first: in its principal axes about its centre. `side`: 0 for body a, 1
+  /// for b.
   Vec3d anchor_of(const CompiledJoint::Part& part, int side) const {
     return {field(part, 3 * side), field(part, 3 * side + 1), field(part, 3 * side + 2)};
   }
 
-  /// True if body a is what holds the rod, and no segment: the rod_joint, which knows the radius over the length of rod that it stands for,
-  /// counts only the half segment of b.
+  /// True if body a is what holds the rod, and no segment: the rod_joint, which knows the radius over the length of rod
+  /// that it stands for, counts only the half segment of b.
   bool is_end(int j) const {
     const CompiledJoint::Part* const part = rod_part(j);
     const std::vector<Solid>& solids = object_.bodies[at(object_.joints[at(j)].b)].solids;
@@ -110,7 +113,8 @@ class WholeRods {
     return Vec3d{double(x.x), double(x.y), double(x.z)} + rotate(turn, anchor_of(part, side));
   }
 
-  /// The length over that at rest of the rod between the middles of two segments, or between its end and the middle of the first.
+  /// The length over that at rest of the rod between the middles of two segments, or between its end and the middle of
+  /// the first.
   double stretch_of(int j) const {
     const CompiledJoint::Part* const part = rod_part(j);
     if (part == nullptr) return 0;

@@ -5,8 +5,8 @@
 
 namespace pliant {
 
-/// Breaks the joints of an object's rods that blades have passed by now, if it is being cut, and of each rod the one that is stretched farthest,
-/// if that is too far. Tells in the Report.
+/// Breaks the joints of an object's rods that blades have passed by now, if it is being cut, and of each rod the one
+/// that is stretched farthest, if that is too far. Tells in the Report.
 void tear_rods(WorldData& world, ObjectId id, const Object& object, bool is_being_cut, Report& report);
 
 }  // namespace pliant

@@ -31,8 +31,8 @@ namespace {
 /// True if a blade is in an object, or has passed and its cut is not made yet.
 bool is_due(const PlaneCut& cut, double now) { return static_cast<double>(cut.start) <= now; }
 
-/// Cuts that blades have passed are made, and not again where an edit joins what they parted. Those of rods, whose broken joints are part of
-/// the State, are made again after an earlier one is restored.
+/// Cuts that blades have passed are made, and not again where an edit joins what they parted. Those of rods, whose
+/// broken joints are part of the State, are made again after an earlier one is restored.
 void mark_made(std::vector<PlaneCut>& cuts, double now) {
   for (PlaneCut& cut : cuts)
     if (static_cast<double>(cut.end) <= now) cut.start = cut.end = std::numeric_limits<float>::infinity();
@@ -71,9 +71,10 @@ class Settled {
     std::sort(world.state.motors.begin(), world.state.motors.end(), [](const MotorSetting& a, const MotorSetting& b) {
       return std::tie(a.block, a.joint, a.motor) < std::tie(b.block, b.joint, b.motor);
     });
-    std::sort(
-        world.state.rest_factors.begin(), world.state.rest_factors.end(),
-        [](const RestFactor& a, const RestFactor& b) { return std::tie(a.block, a.group) < std::tie(b.block, b.group); });
+    std::sort(world.state.rest_factors.begin(), world.state.rest_factors.end(),
+              [](const RestFactor& a, const RestFactor& b) {
+                return std::tie(a.block, a.group) < std::tie(b.block, b.group);
+              });
     if (!factors_.empty()) follow_rest_factors(world, world.state.time);
     std::vector<SurfaceVelocity>& surfaces = world.state.surface_velocities;
     surfaces.insert(surfaces.end(), surfaces_.begin(), surfaces_.end());
@@ -105,7 +106,8 @@ Copies copies_of(const std::vector<int>& from, int particles_before) {
 /// The mean place of those that share a triangle or tetrahedron with a particle, for each that has copies or is one.
 class MiddlesAround {
  public:
-  MiddlesAround(const Object& object, const Copies& copies, const std::vector<Vec3f>& positions) : positions_(positions) {
+  MiddlesAround(const Object& object, const Copies& copies, const std::vector<Vec3f>& positions)
+      : positions_(positions) {
     std::vector<char> marks(positions.size());
     for (const auto& [origin, all] : copies)
       for (const int one : all) marks[static_cast<std::size_t>(one)] = 1;
@@ -114,7 +116,9 @@ class MiddlesAround {
     around_ = tetrahedra_.empty() ? Around(triangles_, marks) : Around(tetrahedra_, marks);
   }
 
-  Vec3d of(int particle) const { return tetrahedra_.empty() ? mean(particle, triangles_) : mean(particle, tetrahedra_); }
+  Vec3d of(int particle) const {
+    return tetrahedra_.empty() ? mean(particle, triangles_) : mean(particle, tetrahedra_);
+  }
 
  private:
   template <class Elements>
@@ -137,8 +141,8 @@ class MiddlesAround {
   Around around_;
 };
 
-/// Moves particles that were one a little apart, each towards what it belongs to: contact must know on which side surfaces are. Their
-/// centre of mass stays.
+/// Moves particles that were one a little apart, each towards what it belongs to: contact must know on which side
+/// surfaces are. Their centre of mass stays.
 void open_gaps(WorldData& world, ObjectId id, const Copies& copies) {
   constexpr double share = 0.01;  // of the way to the middle of what is around a particle
   const std::vector<Vec3f> positions = ObjectView(world, id).positions();
@@ -179,7 +183,8 @@ void open_up(WorldData& world, ObjectId id, Edit&& edit, Report& report) {
   world.overstretch = record;
   settled.put_back(world);
   open_gaps(world, id, copies);
-  const auto same = std::find_if(report.torn.begin(), report.torn.end(), [&](const Torn& one) { return one.object == id; });
+  const auto same =
+      std::find_if(report.torn.begin(), report.torn.end(), [&](const Torn& one) { return one.object == id; });
   if (same == report.torn.end()) return report.torn.push_back(torn);
   same->new_particles += torn.new_particles;
   same->lost_constraints += torn.lost_constraints;
@@ -208,7 +213,8 @@ std::optional<Edit> broken_by_force(const WorldData& world, ObjectId id, const O
     for (float& value : values) value /= h * h;
     return values;
   };
-  return break_constraints(object, {positions, factor, multipliers, static_cast<double>(world.workspace.last_h[number])});
+  return break_constraints(object,
+                           {positions, factor, multipliers, static_cast<double>(world.workspace.last_h[number])});
 }
 
 void tear_object(WorldData& world, ObjectId id, Report& report) {

@@ -5,8 +5,8 @@
 
 namespace pliant {
 
-/// Keeps the description of an object that comes apart, or of any if the World keeps all; forgets that of others, and of one
-/// that was removed (null).
+/// Keeps the description of an object that comes apart, or of any if the World keeps all; forgets that of others, and
+/// of one that was removed (null).
 void keep_description(WorldData& world, int slot, const Object* object);
 void keep_description(WorldData& world, int slot, Object&& object);
 

@@ -56,7 +56,8 @@ void require_no_anchor(const CompiledObject& of) {
     if (of.bodies.labels[b].name == "world" && !is_solid && !of.joints.empty())
       refuse_move(of.name, "body 'world'", "holds it by joints and does not move with the object", advice);
   }
-  if (!of.flow.emitters.empty()) refuse_move(of.name, "emitter 0", "is fixed and does not move with the object", advice);
+  if (!of.flow.emitters.empty())
+    refuse_move(of.name, "emitter 0", "is fixed and does not move with the object", advice);
 }
 
 Vec3d precise_place(const State& state, int particle) {
@@ -68,7 +69,8 @@ Vec3d precise_place(const State& state, int particle) {
 void put_particle(const Vec3d& place, int particle, State& state) {
   Record& x = state.positions[at(particle)];
   x = {static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z), x.w};
-  state.remainders[at(particle)] = {static_cast<float>(place.x - double(x.x)), static_cast<float>(place.y - double(x.y)),
+  state.remainders[at(particle)] = {static_cast<float>(place.x - double(x.x)),
+                                    static_cast<float>(place.y - double(x.y)),
                                     static_cast<float>(place.z - double(x.z)), 0};
 }
 
@@ -110,7 +112,8 @@ void forget_touched(WorldData& world, int owner) {
   state.rest_times.clear();
   wake_all_grains(world);
   const auto is_of = [&](std::int32_t particle) { return world.model.object_of(particle) == owner; };
-  std::erase_if(state.grain_contacts, [&](const GrainContact& contact) { return is_of(contact.a) || is_of(contact.b); });
+  std::erase_if(state.grain_contacts,
+                [&](const GrainContact& contact) { return is_of(contact.a) || is_of(contact.b); });
   world.groups.bodies_meet_others = true;
   world.may_drift = true;
 }
@@ -131,7 +134,9 @@ HeldPose held_pose_of(bool is_mesh, int slot, int generation, const Posed& pose)
   return {is_mesh, slot, generation, convert<float>(pose.position), convert<float>(pose.rotation)};
 }
 
-Posed as_posed(const HeldPose& held) { return {convert<double>(held.position), normalise(convert<double>(held.rotation))}; }
+Posed as_posed(const HeldPose& held) {
+  return {convert<double>(held.position), normalise(convert<double>(held.rotation))};
+}
 
 /// True if the vertices of a mesh collider are where its pose has them, and not where set_positions() left them.
 bool is_posed(const WorldData& world, int number, const Posed& pose) {
@@ -193,7 +198,8 @@ void MeshColliderHandle::teleport(const RigidPose& by) {
   const HeldPose held = held_pose_of(true, id().slot, id().generation, compose(motion, before));
   hold_pose(world_->state.held_poses, held);
   const CarrierPose places(of.carrier, world_->state.time, as_posed(held));
-  for (int i = 0; i < of.particles; ++i) put_particle(places.place(i), world_->model.first[at(number)] + i, world_->state);
+  for (int i = 0; i < of.particles; ++i)
+    put_particle(places.place(i), world_->model.first[at(number)] + i, world_->state);
   const auto drive = world_->workspace.control.meshes.find(number);
   if (drive != world_->workspace.control.meshes.end()) drive->second.from = as_posed(held);
   follow_targets(*world_, number);

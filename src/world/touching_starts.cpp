@@ -43,7 +43,8 @@ struct Part {
   bool has_sides = false, moves = false, is_closed = false, is_near_others = false;
   float tolerance = 0;  ///< below which a distance is rounding [m]
   BoxBounds bounds{};
-  std::vector<BoxBounds> boxes;  ///< of the elements, grown by the tolerance; empty until they are needed, like the tree
+  std::vector<BoxBounds>
+      boxes;  ///< of the elements, grown by the tolerance; empty until they are needed, like the tree
   Tree<BoxBounds> tree;
 
   bool has(int vertex) const { return vertex >= first && vertex < end; }
@@ -102,7 +103,8 @@ class TouchingStarts {
   std::vector<Part> parts_;    ///< in the order in which one is fixed for the next
 };
 
-TouchingStarts::TouchingStarts(const Model& model, State& state) : model_(model), state_(state), places_(state.positions) {
+TouchingStarts::TouchingStarts(const Model& model, State& state)
+    : model_(model), state_(state), places_(state.positions) {
   std::vector<char> is_field(model.objects.size(), 0);
   for (const FieldCollider& field : model.fields) is_field[at(field.object)] = 1;
   for (int number = 0; number < static_cast<int>(model.objects.size()); ++number) {
@@ -163,7 +165,8 @@ double TouchingStarts::distance_kept(const Part& a, const Part& b) const {
   const CompiledObject &p = model_.objects[at(a.number)], &q = model_.objects[at(b.number)];
   float kept = p.thickness + q.thickness;
   for (const PairProperties& pair : model_.pairs) {
-    const bool is_it = (pair.first == p.name && pair.second == q.name) || (pair.first == q.name && pair.second == p.name);
+    const bool is_it =
+        (pair.first == p.name && pair.second == q.name) || (pair.first == q.name && pair.second == p.name);
     if (is_it && pair.thickness) kept = *pair.thickness;
   }
   return static_cast<double>(std::max(kept, 2 * std::max(a.tolerance, b.tolerance)));
@@ -180,7 +183,8 @@ void TouchingStarts::add_touching(const Part& moving, const Triangle& element, c
     const PairDistance found = pair_distance(pair, places_.data());
     if (found.distance > tolerance) return;
     for (std::size_t i = 0; i < 4; ++i)
-      if (moving.has(pair.vertex[i]) && std::abs(found.weight[i]) > least_weight) out.push_back({pair.vertex[i], triangle});
+      if (moving.has(pair.vertex[i]) && std::abs(found.weight[i]) > least_weight)
+        out.push_back({pair.vertex[i], triangle});
   };
   for (std::size_t k = 0; k < 3; ++k) {
     test({{element[k], t[0], t[1], t[2]}, 1});
@@ -318,7 +322,8 @@ float TouchingStarts::room(const Triangle& element, const Part& part) {
   const Vec3d mean = (shifts_[at(element[0])] + shifts_[at(element[1])] + shifts_[at(element[2])]) * (1. / 3);
   const Vec3f along = convert<float>(mean) * looked_ahead;
   const Vec3f corners[3] = {xyz(places_[at(element[0])]), xyz(places_[at(element[1])]), xyz(places_[at(element[2])])};
-  const Vec3f swept[6] = {corners[0], corners[1], corners[2], corners[0] + along, corners[1] + along, corners[2] + along};
+  const Vec3f swept[6] = {corners[0],         corners[1],         corners[2],
+                          corners[0] + along, corners[1] + along, corners[2] + along};
   const BoxBounds box = BoxBounds::of(swept, 6);
   const Vec3d normal = normal_of(element);
   const double rise = dot(normal, convert<double>(along));
@@ -370,9 +375,11 @@ bool TouchingStarts::move_as_one(const Part& part, const std::vector<Demand>& de
   if (!is_free_and_whole(part)) return false;
   Vec3d shift{};
   for (int pass = 0; pass < passes; ++pass)
-    for (const Demand& demand : demands) shift += demand.normal * std::max(0., demand.least - dot(shift, demand.normal));
-  const bool is_between = std::any_of(demands.begin(), demands.end(),
-                                      [&](const Demand& demand) { return dot(shift, demand.normal) < 0.5 * demand.least; });
+    for (const Demand& demand : demands)
+      shift += demand.normal * std::max(0., demand.least - dot(shift, demand.normal));
+  const bool is_between = std::any_of(demands.begin(), demands.end(), [&](const Demand& demand) {
+    return dot(shift, demand.normal) < 0.5 * demand.least;
+  });
   if (is_between) return false;
   std::fill(shifts_.begin() + part.first, shifts_.begin() + part.end, shift);
   float share = 1;
@@ -397,7 +404,8 @@ void TouchingStarts::move(const Part& part) {
 void TouchingStarts::sort_parts() {
   for (Part& part : parts_) {
     part.is_near_others = std::any_of(parts_.begin(), parts_.end(), [&](const Part& other) {
-      return &other != &part && (part.moves || other.moves) && (part.has_sides || other.has_sides) && are_near(part, other);
+      return &other != &part && (part.moves || other.moves) && (part.has_sides || other.has_sides) &&
+             are_near(part, other);
     });
     if (part.is_near_others && part.moves && part.has_sides)
       part.is_closed = is_closed(find_edges(model_.objects[at(part.number)].surface.triangles, part.end - part.first));

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int most_steps = 100;  // of a frame; what would need more flows slower
 
-/// In how many steps liquid spreads, so that none of them moves more than a quarter of what is between the ends of an edge.
+/// In how many steps liquid spreads, so that none of them moves more than a quarter of what is between the ends of an
+/// edge.
 int steps_of(const CompiledAbsorbency& surface, double seconds) {
   std::vector<double> sums(surface.areas.size());
   for (const CompiledAbsorbency::Edge& edge : surface.edges) {
@@ -39,7 +40,8 @@ void move(int from, int to, double mass, float* water, Carry carry) {
 /// One step along one edge.
 void wick(const CompiledAbsorbency& surface, const CompiledAbsorbency::Edge& edge, const Slopes& slopes, double seconds,
           float* water, Carry carry) {
-  const auto capacity = static_cast<double>(surface.described.capacity), rise = static_cast<double>(surface.described.rise);
+  const auto capacity = static_cast<double>(surface.described.capacity),
+             rise = static_cast<double>(surface.described.rise);
   const auto area_a = static_cast<double>(surface.areas[at(edge.a)]),
              area_b = static_cast<double>(surface.areas[at(edge.b)]);
   const auto has_a = static_cast<double>(water[edge.a]), has_b = static_cast<double>(water[edge.b]);
@@ -93,7 +95,8 @@ void spread(const CompiledAbsorbency& surface, const Slopes& slopes, double seco
   const int steps = steps_of(surface, seconds);
   for (int step = 0; step < steps; ++step) {
     if (surface.described.wicking > 0)
-      for (std::size_t k = 0; k < surface.edges.size(); ++k)  // in turns from either end, so that no direction is preferred
+      for (std::size_t k = 0; k < surface.edges.size();
+           ++k)  // in turns from either end, so that no direction is preferred
         wick(surface, surface.edges[step % 2 == 0 ? k : surface.edges.size() - 1 - k], slopes, seconds / steps, water,
              carry);
     if (surface.described.runoff > 0) run_off(surface, slopes, seconds / steps, water, carry);

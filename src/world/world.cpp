@@ -97,7 +97,8 @@ void forget_multipliers(WorldData& world, bool only_of_last) {
       if (!only_of_last || is_of_last) std::fill(of_pools[pool].begin(), of_pools[pool].end(), 0.f);
     }
   }
-  if (!only_of_last) std::fill(world.workspace.volume_multipliers.begin(), world.workspace.volume_multipliers.end(), 0.);
+  if (!only_of_last)
+    std::fill(world.workspace.volume_multipliers.begin(), world.workspace.volume_multipliers.end(), 0.);
 }
 
 World::World(const Scene& scene) {
@@ -162,8 +163,8 @@ Report World::step(float dt) {
   pliant::step(
       {data_->model, data_->state, data_->workspace, data_->executor, data_->kernels, groups.back().substeps,
        data_->settings.iterations, data_->settings.sweep_options, data_->settings.record_residuals, data_->stop,
-       data_->settings.separate_phases, static_cast<double>(data_->settings.tolerance), groups, &data_->overstretch.meter(),
-       data_->settings.sleep, data_->settings.integrator == Settings::Integrator::energy,
+       data_->settings.separate_phases, static_cast<double>(data_->settings.tolerance), groups,
+       &data_->overstretch.meter(), data_->settings.sleep, data_->settings.integrator == Settings::Integrator::energy,
        changes_in_substeps(data_->model) ? &data_->model.objects : nullptr, &data_->convergence.meter()},
       dt, report);
   keep_flowed(*data_);
@@ -185,7 +186,8 @@ Report World::step(float dt) {
     report.overstretch = with_slot(*data_, *report.overstretch);
     data_->overstretch.add(*report.overstretch, report.frame);
     report.estimates = data_->convergence.add(report, data_->ids.objects, [&](int number) {
-      return static_cast<int>(std::lround(static_cast<double>(dt) / static_cast<double>(data_->workspace.last_h[number])));
+      return static_cast<int>(
+          std::lround(static_cast<double>(dt) / static_cast<double>(data_->workspace.last_h[number])));
     });
   }
   report.worst_overstretch = data_->overstretch.worst();

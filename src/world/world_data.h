@@ -1,5 +1,5 @@
-// The data of a World. The functions that work on it are grouped by concern: object_store.h, groups.h, control.h, events.h
-// and intersections.h.
+// The data of a World. The functions that work on it are grouped by concern: object_store.h, groups.h, control.h,
+// events.h and intersections.h.
 #pragma once
 
 #include <atomic>

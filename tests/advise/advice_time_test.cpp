@@ -29,7 +29,8 @@ TEST(Advise, UsesAllOfItsTimeForASceneThatIsFine) {
   scene.frames = 5;
   int frames = 0;
   const Advice advice = advise(scene, {4, 120, [&] {
-                                         if (++frames == 1) std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+                                         if (++frames == 1)
+                                           std::this_thread::sleep_for(std::chrono::milliseconds(1300));
                                          return false;
                                        }});
   EXPECT_EQ(advice.own.frames, 5);

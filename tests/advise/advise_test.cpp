@@ -132,7 +132,8 @@ TEST(Advise, KnowsWhenNothingHelps) {
   const Advice advice = advise(scene, unhurried);
   EXPECT_EQ(advice.best, -1);
   EXPECT_GT(advice.others.size(), 3U);
-  const std::string tried = "of " + std::to_string(advice.others.size()) + " other settings tried none is clearly better";
+  const std::string tried =
+      "of " + std::to_string(advice.others.size()) + " other settings tried none is clearly better";
   EXPECT_EQ(advice.what_to_do.rfind(tried, 0), 0U) << advice.what_to_do;
   EXPECT_EQ(advice.what_to_do.find("settings\":"), std::string::npos) << "nothing is advised: " << advice.what_to_do;
 }
@@ -171,7 +172,9 @@ TEST(Advise, NamesTheBestOfWhatIsNotGoodAndSaysSo) {
 TEST(Advise, RunsOthersBeyondWhereTheSceneIsNotFinite) {
   Scene scene = hanging_sheet(12, Stiffness::rigid(), 1);
   scene.frames = 40;
-  scene.forces.push_back([](const Vec3f& p, const Vec3f&, float, float) { return Vec3f{p.y < -1.15f ? 3e38f : 0, 0, 0}; });
+  scene.forces.push_back([](const Vec3f& p, const Vec3f&, float, float) {
+    return Vec3f{p.y < -1.15f ? 3e38f : 0, 0, 0};
+  });
   const Advice advice = advise(scene, unhurried);
   EXPECT_NE(advice.words.find("not finite"), std::string::npos) << advice.words;
   EXPECT_LT(advice.own.frames, scene.frames);

@@ -25,7 +25,8 @@ TEST(Advise, NamesTheDefaultIfItHelps) {
   EXPECT_EQ(advice.what_to_do.rfind("the default (", 0), 0U) << advice.what_to_do;
   EXPECT_NE(advice.what_to_do.find("keeps all edges within 10 % and 99 in 100 within 2 %"), std::string::npos)
       << advice.what_to_do;
-  EXPECT_NE(advice.what_to_do.find("; remove \"sweep\" and \"substeps\" from the scene's \"settings\""), std::string::npos)
+  EXPECT_NE(advice.what_to_do.find("; remove \"sweep\" and \"substeps\" from the scene's \"settings\""),
+            std::string::npos)
       << advice.what_to_do;
 }
 
@@ -47,8 +48,9 @@ TEST(Advise, RemovesTheBoundsOfSubsteps) {
   ASSERT_FALSE(is_good(advice.own)) << "or this shows nothing";
   ASSERT_EQ(advice.best, 0);
   EXPECT_EQ(advice.others[0].settings.most_substeps, 0);
-  EXPECT_NE(advice.what_to_do.find(R"(; remove "sweep", "least_substeps" and "most_substeps" from the scene's "settings")"),
-            std::string::npos)
+  EXPECT_NE(
+      advice.what_to_do.find(R"(; remove "sweep", "least_substeps" and "most_substeps" from the scene's "settings")"),
+      std::string::npos)
       << advice.what_to_do;
 }
 

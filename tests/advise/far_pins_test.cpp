@@ -31,7 +31,8 @@ TEST(FarPins, AreNamedInsteadOfMoreSubsteps) {
     EXPECT_FALSE(advice.words.empty());
     EXPECT_TRUE(advice.others.empty()) << "no other settings help";
     const std::string& text = advice.what_to_do;
-    EXPECT_EQ(text.rfind("no settings keep its lengths: particles 0 and 11, which are pinned or attached, are 1.", 0), 0U)
+    EXPECT_EQ(text.rfind("no settings keep its lengths: particles 0 and 11, which are pinned or attached, are 1.", 0),
+              0U)
         << text;
     EXPECT_NE(text.find("and the object between them is only 1 m long"), std::string::npos) << text;
   }
@@ -48,7 +49,8 @@ TEST(FarPins, AreComparedAlongTheObject) {
   for (const float by : {0.9f, 1.4f}) {
     Scene scene;
     std::vector<Vec3f> points;
-    for (int i = 0; i <= 40; ++i) points.push_back({0.015f * static_cast<float>(i), 0.02f * static_cast<float>(i % 2), 0});
+    for (int i = 0; i <= 40; ++i)
+      points.push_back({0.015f * static_cast<float>(i), 0.02f * static_cast<float>(i % 2), 0});
     const int rope = scene.add(make_rope(points));  // 40 links of 25 mm, its ends 0.6 m apart
     scene.pin(rope, {0});
     scene.pin(rope, {40}, straight({by - 0.6f, 0, 0}, 0.2f));

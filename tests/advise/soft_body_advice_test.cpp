@@ -15,8 +15,8 @@ namespace {
 
 using namespace testing_support;
 
-/// A cube of foam of which one face is held, and the other is pulled away by `way` [m] and back within 0.2 s. Pulled by 4 m it
-/// bursts with the default substeps.
+/// A cube of foam of which one face is held, and the other is pulled away by `way` [m] and back within 0.2 s. Pulled by
+/// 4 m it bursts with the default substeps.
 Scene pulled_foam(float way) {
   Scene scene;
   SoftBodyOptions options;

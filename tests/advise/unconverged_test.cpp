@@ -165,7 +165,8 @@ TEST(Convergence, EstimatesShearOfWovenCloth) {
 
 TEST(Convergence, EstimatesStretching) {
   const Scene scene = hanging_sheet(12, Stiffness::rigid(), 8);
-  const double few = end_of(scene, 8, 120).report.overstretch->p99, many = end_of(scene, 16, 120).report.overstretch->p99;
+  const double few = end_of(scene, 8, 120).report.overstretch->p99,
+               many = end_of(scene, 16, 120).report.overstretch->p99;
   const Ended ended = end_of(scene, 8, 120);
   const ConvergenceEstimate& found = estimate_of(ended, Resistance::stretching);
   EXPECT_EQ(found.excess, few);
@@ -242,7 +243,8 @@ Scene ring_of_bars() {
 TEST(Convergence, EstimatesJointsOfLoops) {
   const Scene scene = ring_of_bars();
   const Ended few = end_of(scene, 10, 90), many = end_of(scene, 20, 90);
-  const double found = estimate_of(few, Resistance::joints).excess, later = estimate_of(many, Resistance::joints).excess;
+  const double found = estimate_of(few, Resistance::joints).excess,
+               later = estimate_of(many, Resistance::joints).excess;
   EXPECT_GT(found, 1e-5);
   expect_predicted(0.75 * found, found - later, 2);
 }

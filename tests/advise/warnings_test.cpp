@@ -125,7 +125,8 @@ TEST(Warnings, ThatDifferOnlyInNumbersAreOfOneKind) {
   report.warnings = {"vertex 41 is at 2 m", "another"};
   report.frame = 2;
   log.add(report);
-  EXPECT_EQ(log.lines(), (std::vector<std::string>{"frame 1: vertex 3 is at 1.5 m", "frame 1: other", "frame 2: another"}));
+  EXPECT_EQ(log.lines(),
+            (std::vector<std::string>{"frame 1: vertex 3 is at 1.5 m", "frame 1: other", "frame 2: another"}));
 }
 
 /// The lines that a log keeps of warnings of one frame.
@@ -141,7 +142,8 @@ TEST(Warnings, OfObjectsWhoseNamesDifferInDigitsAreOfTwoKinds) {
   EXPECT_EQ(kept({"object 'sheet1': edge 3-4", "object 'sheet2': edge 3-4", "object 'sheet1': edge 5-61"}), 2U);
   EXPECT_EQ(kept({"\"1.5\" is far", "\"2.5\" is far"}), 2U);
   EXPECT_EQ(kept({"object 'Ann's 1' at 2", "object 'Ann's 2' at 2", "object 'Ann's 2' at 3"}), 2U);
-  EXPECT_EQ(kept({"the sheet's 1 of the ball's 2", "the sheet's 3 of the ball's 4"}), 1U) << "apostrophes quote nothing";
+  EXPECT_EQ(kept({"the sheet's 1 of the ball's 2", "the sheet's 3 of the ball's 4"}), 1U)
+      << "apostrophes quote nothing";
   EXPECT_EQ(kept({"' 1", "' 2"}), 1U) << "nor does a quote without its end";
 }
 

@@ -115,7 +115,8 @@ TEST(Words, TellALargerLowerBoundFromTheDefault) {
   EXPECT_NE(words.find(R"({"least_substeps": 48})"), std::string::npos) << words;
 }
 
-/// Multigrid ignores bending and makes a stiff sheet oscillate, and gains energy where surfaces touch, so it is not tried.
+/// Multigrid ignores bending and makes a stiff sheet oscillate, and gains energy where surfaces touch, so it is not
+/// tried.
 TEST(BetterSweeps, BeginWithTheDefaultAndLeaveOutMultigridWhereItDoesHarm) {
   Scene scene;
   scene.add_cloth(grid_mesh(20, 20, 1, 1), {});

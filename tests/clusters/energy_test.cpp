@@ -69,7 +69,8 @@ Scene dropped(const ClusterOptions& options, bool is_tilted) {
   return scene;
 }
 
-/// Kinetic energy, and potential energy in gravity above y = 0 [J]. That of the cluster is left out: it is 0 at the start, and never below.
+/// Kinetic energy, and potential energy in gravity above y = 0 [J]. That of the cluster is left out: it is 0 at the
+/// start, and never below.
 double energy(const World& world, const Scene& scene) {
   const State& state = world.state();
   double sum = 0;

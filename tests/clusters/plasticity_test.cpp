@@ -85,7 +85,8 @@ TEST(PlasticClusters, SpringBackBelowTheYieldStrain) {
 TEST(PlasticClusters, KeepWhatIsBeyondTheYieldStrain) {
   for (const Cluster::Mode mode : {Cluster::Mode::rigid, Cluster::Mode::linear, Cluster::Mode::quadratic})
     for (const float stretch : {0.7f, 1.4f}) {
-      const double strain = std::log(static_cast<double>(stretch)), beyond = std::copysign(std::abs(strain) - 0.1, strain);
+      const double strain = std::log(static_cast<double>(stretch)),
+                   beyond = std::copysign(std::abs(strain) - 0.1, strain);
       EXPECT_NEAR(strain_left(block({.yield = 0.1f}, mode), stretch, 10), beyond, 2e-3) << stretch << ", " << int(mode);
     }
 }

@@ -93,7 +93,8 @@ double misshape(const std::vector<Vec3f>& now, const std::vector<Vec3f>& rest) {
 TEST(ShapeMatching, ARigidClusterSpinsAndFliesOn) {
   Object block = lattice(3, 0.1f);
   const double omega = 4;
-  for (const Vec3f& p : block.positions) block.velocities.push_back(Vec3f{1, 0, 0} + float(omega) * Vec3f{-p.y, p.x, 0});
+  for (const Vec3f& p : block.positions)
+    block.velocities.push_back(Vec3f{1, 0, 0} + float(omega) * Vec3f{-p.y, p.x, 0});
   const std::vector<Vec3f> rest = block.positions;
   const Scene scene = free_scene(block, {});
   World world(scene);

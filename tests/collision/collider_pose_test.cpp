@@ -8,7 +8,8 @@ namespace {
 
 TEST(ColliderPose, PutsEveryShapeIntoThreeNumbers) {
   EXPECT_EQ(local_shape(Plane{}).kind, ShapeKind::plane);
-  const LocalShape sphere = local_shape(Sphere{2}), capsule = local_shape(Capsule{3, 4}), box = local_shape(Box{{5, 6, 7}});
+  const LocalShape sphere = local_shape(Sphere{2}), capsule = local_shape(Capsule{3, 4}),
+                   box = local_shape(Box{{5, 6, 7}});
   EXPECT_EQ(sphere.kind, ShapeKind::sphere);
   EXPECT_EQ(sphere.a, 2);
   EXPECT_EQ(capsule.kind, ShapeKind::capsule);

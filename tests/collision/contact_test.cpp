@@ -112,7 +112,8 @@ TEST(Contacts, BoundsSpareWorkAndNoContact) {
       collider.position = {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)};
       collider.rotation = rotation({1, uniform(-1, 1), 0}, uniform(0, 360));
       collider.motion.keyframes = {
-          Keyframe{0, {}, {}}, Keyframe{h, {uniform(-.3, .3), uniform(-.3, .3), 0}, rotation({0, 1, 0}, uniform(0, 20))}};
+          Keyframe{0, {}, {}},
+          Keyframe{h, {uniform(-.3, .3), uniform(-.3, .3), 0}, rotation({0, 1, 0}, uniform(0, 20))}};
     }
     const std::vector<Contact> few = tiny.contacts(colliders, h, tiny.bounds),
                                all = tiny.contacts(colliders, h, everywhere);

@@ -14,7 +14,8 @@ using testing_support::random_vector;
 
 TriangleMesh box_mesh() {
   TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? 1.f : -1.f, i & 2 ? 0.5f : -0.5f, i & 4 ? 0.75f : -0.75f});
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.push_back({i & 1 ? 1.f : -1.f, i & 2 ? 0.5f : -0.5f, i & 4 ? 0.75f : -0.75f});
   mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mesh;

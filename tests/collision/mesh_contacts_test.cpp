@@ -220,7 +220,8 @@ TEST_F(Meshes, ACornerInAValleyTouchesBothFaces) {
 
 TEST_F(Meshes, ABoxInAValleyTouchesBothFaces) {
   const double half = 0.5 * std::sqrt(0.5) + 0.25 * std::sqrt(0.5);  // of its outline, turned by an eighth of a turn
-  const auto found = touches(cuboid_, {{0.25 * std::sqrt(0.5), half - 0.001, 0.1}, turned({0, 0, 1}, pi / 4)}, folded(1));
+  const auto found =
+      touches(cuboid_, {{0.25 * std::sqrt(0.5), half - 0.001, 0.1}, turned({0, 0, 1}, pi / 4)}, folded(1));
   EXPECT_EQ(found.size(), 2u);
   for (const MeshTouch& at : found) EXPECT_NEAR(at.touch.normal.y, std::sqrt(0.5), 1e-6);
 }
@@ -325,7 +326,8 @@ TEST_F(Meshes, TheNearestPointIsThatOfAllTriangles) {
   EXPECT_GT(near, 80);
 }
 
-// Moving the solid out along each contact by its depth must leave it outside of all triangles, up to the bend of the mesh.
+// Moving the solid out along each contact by its depth must leave it outside of all triangles, up to the bend of the
+// mesh.
 TEST_F(Meshes, ABallIsPushedOutByAllItTouches) {
   for (int i = 0; i < 300; ++i) {
     const TriangleMesh mesh = surface(6, 0.25f, [&](float, float) { return static_cast<float>(uniform(-0.1, 0.1)); });
@@ -372,7 +374,8 @@ TEST_F(Meshes, PiecesAreAscendingAndDiffer) {
   }
 }
 
-/// A block of 1 x 0.2 x 4 m whose upper side is at a height of 0, and whose left side is at x = 0. Its sides are two cells high.
+/// A block of 1 x 0.2 x 4 m whose upper side is at a height of 0, and whose left side is at x = 0. Its sides are two
+/// cells high.
 TriangleMesh low_block() {
   TriangleMesh mesh;
   for (const float x : {0.f, 1.f})
@@ -399,7 +402,8 @@ TriangleMesh low_block() {
   return mesh;
 }
 
-/// The side of the block is smooth as seen from within. A box on the block, pressed in by rounding, is beside it, wherever its centre is.
+/// The side of the block is smooth as seen from within. A box on the block, pressed in by rounding, is beside it,
+/// wherever its centre is.
 TEST(MeshContacts, ABoxOnABlockDoesNotOverlapTheSideBelowIt) {
   const TriangleMesh block = low_block();
   const BodyMesh mesh = body_mesh(block);

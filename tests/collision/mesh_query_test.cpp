@@ -32,7 +32,9 @@ TEST(MeshQuery, FindsTheClosestPointAsBruteForceDoes) {
     const Vec3f p = random_vector(random, 2);
     double least = 1e9;
     for (const Triangle& t : mesh.triangles) {
-      const auto corner = [&](std::size_t k) { return convert<double>(mesh.positions[static_cast<std::size_t>(t[k])]); };
+      const auto corner = [&](std::size_t k) {
+        return convert<double>(mesh.positions[static_cast<std::size_t>(t[k])]);
+      };
       least = std::min(
           least, std::sqrt(closest_on_triangle(convert<double>(p), corner(0), corner(1), corner(2)).distance_squared));
     }

@@ -1,4 +1,5 @@
-// Tests lists of particles near solids against brute force, and that contacts found with them are those of all particles.
+// Tests lists of particles near solids against brute force, and that contacts found with them are those of all
+// particles.
 #include "collision/narrow/near_points.h"
 
 #include <gtest/gtest.h>
@@ -131,7 +132,8 @@ struct Cloud {
     for (MovingCollider& solid : solids) solid.moves = true;
   }
 
-  /// A substep in which particles move by up to `size` and solids along with them. Returns the fastest particle's displacement.
+  /// A substep in which particles move by up to `size` and solids along with them. Returns the fastest particle's
+  /// displacement.
   float begin_substep(std::mt19937& random, float size) {
     float fastest = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {

@@ -31,7 +31,8 @@ std::vector<std::vector<int>> by_brute_force(const std::vector<Record>& points) 
   for (std::size_t i = 0; i < points.size(); ++i)
     for (std::size_t j = 0; j < points.size(); ++j) {
       const float dx = points[i].x - points[j].x, dy = points[i].y - points[j].y, dz = points[i].z - points[j].z;
-      if (i != j && dx * dx + dy * dy + dz * dz <= search_radius * search_radius) found[i].push_back(static_cast<int>(j));
+      if (i != j && dx * dx + dy * dy + dz * dz <= search_radius * search_radius)
+        found[i].push_back(static_cast<int>(j));
     }
   return found;
 }
@@ -77,7 +78,8 @@ TEST(Neighbours, AreThoseOfBruteForceAtAnyDensity) {
   for (const float size : {0.35f, 0.6f, 5.f, 300.f}) {
     const std::vector<Record> points = cloud(701, size, 3);
     const auto expected = by_brute_force(points);
-    for (const Level& level : levels()) EXPECT_EQ(by_lists(points, level.kernels()), expected) << size << ' ' << level.name;
+    for (const Level& level : levels())
+      EXPECT_EQ(by_lists(points, level.kernels()), expected) << size << ' ' << level.name;
     EXPECT_EQ(by_lists(points, PLIANT_OF_BASE_LEVEL(neighbour_kernels)(), 3), expected) << "on three threads";
   }
 }
@@ -101,7 +103,8 @@ TEST(Neighbours, AreFoundBesideThousandsOfCandidatesThatAreNone) {
   constexpr int crowd = 563 * 16;  // whole groups, in the row of cells before that of the others
   std::vector<Record> points = cloud(crowd, 0.02f, 13);
   for (Record& p : points) p = {p.x + 0.15f, p.y + 0.05f, p.z - 0.02f, 0};
-  for (int i = 0; i < 16; ++i) points.push_back({i < 8 ? 0.f : 0.29f, 0.05f, 0.05f + 0.001f * static_cast<float>(i), 0});
+  for (int i = 0; i < 16; ++i)
+    points.push_back({i < 8 ? 0.f : 0.29f, 0.05f, 0.05f + 0.001f * static_cast<float>(i), 0});
   for (const Level& level : levels())
     for (const int threads : {1, 3}) {
       Executor executor(threads);
@@ -128,7 +131,8 @@ TEST(Neighbours, OfPlacesThatAreNotFiniteAreNone) {
   points[3].x = NAN;
   points[9].y = INFINITY;
   points[11].z = -INFINITY;
-  for (const Level& level : levels()) EXPECT_EQ(by_lists(points, level.kernels()), by_brute_force(points)) << level.name;
+  for (const Level& level : levels())
+    EXPECT_EQ(by_lists(points, level.kernels()), by_brute_force(points)) << level.name;
 }
 
 TEST(Neighbours, BeyondTheLargestNumberAreCounted) {

@@ -65,7 +65,8 @@ Vec3d momentum(const FourParticles& four, const std::vector<Record>& of) {
 Vec3d angular_momentum(const FourParticles& four, const std::vector<Record>& of) {
   Vec3d sum{};
   for (int i = 0; i < 4; ++i)
-    if (four.positions[i].w > 0) sum += cross(place(four.positions[i]), place(of[i])) * (1. / double(four.positions[i].w));
+    if (four.positions[i].w > 0)
+      sum += cross(place(four.positions[i]), place(of[i])) * (1. / double(four.positions[i].w));
   return sum;
 }
 
@@ -112,7 +113,8 @@ TEST(PairDistance, IsTheSameInLanesAndInDouble) {
 /// Edges at angles from 10^-5 and triangles with heights from 10^-6 of their length, 10^-5 to 10^-2 apart.
 void hard_to_tell(Random& random, bool edges, std::vector<Record>& four) {
   const auto power = [&](float low) { return std::pow(10.f, uniform_float(random, low, -1)); };
-  const float apart = power(-5), angle = power(-5), at = uniform_float(random, -1, 1), reach = edges ? power(-2) * 10 : 0;
+  const float apart = power(-5), angle = power(-5), at = uniform_float(random, -1, 1),
+              reach = edges ? power(-2) * 10 : 0;
   const Record a = random_record(random, apart), b = random_record(random, apart);
   const Record turned = random_record(random, angle * reach);
   four = {{at + a.x, a.y, a.z, 1}, {-1, 0, 0, 1}, {1, 0, 0, 1}, {at, power(-6), 0, 1}};

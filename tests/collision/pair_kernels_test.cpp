@@ -123,7 +123,9 @@ struct Boxes {
         row[k + 3].push_back(i % 16 == 15 ? -3e38f : float(low + size));
       }
   }
-  BoxRows rows() { return {{row[0].data(), row[1].data(), row[2].data(), row[3].data(), row[4].data(), row[5].data()}}; }
+  BoxRows rows() {
+    return {{row[0].data(), row[1].data(), row[2].data(), row[3].data(), row[4].data(), row[5].data()}};
+  }
   bool overlaps(int i, const float* box, float reach) const {
     for (int k = 0; k < 3; ++k)
       if (!(row[k][i] - reach <= box[k + 3] && row[k + 3][i] + reach >= box[k])) return false;
@@ -205,8 +207,8 @@ TEST(PairKernels, GiveALeastDistanceThatIsNone) {
     double least = 1e30;
     for (int lane = 0; lane < 16; ++lane)
       least = std::min(
-          least,
-          pair_distance({{4 * lane, 4 * lane + 1, 4 * lane + 2, 4 * lane + 3}, first_side}, p.positions.data()).distance);
+          least, pair_distance({{4 * lane, 4 * lane + 1, 4 * lane + 2, 4 * lane + 3}, first_side}, p.positions.data())
+                     .distance);
     float same = 0;
     for (const PairKernels* kernels : all_kernels()) {
       const float found = kernels->least_distance(pairs, first_side, p.positions.data());

@@ -47,7 +47,8 @@ void cluster(PairModel& model) {
     model.shared->vertex_cluster.push_back(model.clusters - 1);
     ++size;
   }
-  for (const Triangle& t : model.elements.triangles) model.triangle_cluster.push_back(model.shared->vertex_cluster[t[0]]);
+  for (const Triangle& t : model.elements.triangles)
+    model.triangle_cluster.push_back(model.shared->vertex_cluster[t[0]]);
   for (const auto& edge : model.elements.edges) model.edge_cluster.push_back(model.shared->vertex_cluster[edge[0]]);
 }
 
@@ -200,8 +201,8 @@ class Soup {
     return !movable(3) ? 1 : !movable(0) ? 0 : -1;
   }
 
-  /// True if a triangle of an immovable mesh, at a corner of the pair's primitive on it, is closer to the closest point on the
-  /// other side than that primitive is.
+  /// True if a triangle of an immovable mesh, at a corner of the pair's primitive on it, is closer to the closest point
+  /// on the other side than that primitive is.
   bool is_closer_on_mesh(const PairStencil& pair) const {
     const int mesh = mesh_side(pair);
     if (mesh < 0) return false;
@@ -243,8 +244,8 @@ class Soup {
   }
 
   /// Every pair that is nearer than its thickness, or will be after the predicted motion, must be a contact, exactly
-  /// once, and in order. A pair that others cover may become one later, when it is nearer. Of an immovable mesh only what is
-  /// closest counts.
+  /// once, and in order. A pair that others cover may become one later, when it is nearer. Of an immovable mesh only
+  /// what is closest counts.
   void check_contacts() {
     using Key = std::array<std::int32_t, 4>;
     // The same four vertices may be a vertex and a triangle as well as two edges.
@@ -402,8 +403,8 @@ void expect_right_pairs_and_no_crossing(const Way& way, bool are_free) {
     Random random(seed);
     Soup soup(bodies_of(way), true, are_free);
     ASSERT_EQ(soup.crossings(), 0u);
-    const int substeps =
-        (way.at.y == 1e4 ? 200 : 40) / (are_free ? 2 : 1);  // in each, bodies move by half a rounding of their positions
+    const int substeps = (way.at.y == 1e4 ? 200 : 40) /
+                         (are_free ? 2 : 1);  // in each, bodies move by half a rounding of their positions
     for (int substep = 0; substep < substeps && soup.counts().unresolvable == 0 && !testing::Test::HasFatalFailure();
          ++substep) {
       soup.step(random, way.jitter);

@@ -41,7 +41,8 @@ BodyPart random_part(Random& random, const std::vector<Polyhedron>& polyhedra) {
   const int kind = static_cast<int>(uniform(random, 0, 5));
   part.shape.kind = static_cast<ConvexShape::Kind>(kind);
   if (part.shape.kind == ConvexShape::Kind::polyhedron) {
-    part.shape.polyhedron = &polyhedra[static_cast<std::size_t>(uniform(random, 0, static_cast<double>(polyhedra.size())))];
+    part.shape.polyhedron =
+        &polyhedra[static_cast<std::size_t>(uniform(random, 0, static_cast<double>(polyhedra.size())))];
   } else {
     part.shape.radius = kind < 2 || uniform(random, 0, 1) < 0.3 ? length_from(random, 0.01, 0.1) : 0;
     part.shape.core_radius = kind >= 2 ? length_from(random, 0.01, 0.2) : 0;

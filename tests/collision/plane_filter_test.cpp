@@ -114,7 +114,8 @@ double least_on_the_way(const Case& c) {
   double first = 0, second = 0;
   for (int i = 0; i < 4; ++i) {
     const Record end = end_of(c.positions[i], c.displacements[i]);
-    const Vec3d move{double(end.x) - c.positions[i].x, double(end.y) - c.positions[i].y, double(end.z) - c.positions[i].z};
+    const Vec3d move{double(end.x) - c.positions[i].x, double(end.y) - c.positions[i].y,
+                     double(end.z) - c.positions[i].z};
     double& most = i < c.pair.first_side ? first : second;
     most = std::max(most, length(move));
   }
@@ -130,7 +131,9 @@ double least_on_the_way(const Case& c) {
 
 /// The distance that the filter guarantees. Distances are accurate to rounding, but the plane's normal only to its
 /// square root (geometry/triangle.h).
-double promised(const Case& c, double distance) { return std::min(c.least, 0.98 * distance) * (1 - 1e-6) - 1e-7 * c.size; }
+double promised(const Case& c, double distance) {
+  return std::min(c.least, 0.98 * distance) * (1 - 1e-6) - 1e-7 * c.size;
+}
 
 TEST(PlaneFilter, KeepsPairsApartAtTheEndAndOnTheWay) {
   Random random(81);

@@ -23,7 +23,8 @@ std::vector<Record> random_points(int count, Vec3f size, unsigned seed) {
   return points;
 }
 
-/// Every point in a box is found, once, in ascending order; those beside it by less than two cells are all that is found besides.
+/// Every point in a box is found, once, in ascending order; those beside it by less than two cells are all that is
+/// found besides.
 void expect_as_brute_force(const std::vector<Record>& points, int first, int last, const BoxBounds& box, float cell) {
   PointCells cells;
   cells.build(points.data(), first, last);
@@ -46,7 +47,8 @@ TEST(PointCells, FindWhatBruteForceFinds) {
   const Vec3f sizes[] = {{1, 1, 1}, {3, 0.01f, 2}, {0, 0, 4}, {0, 0, 0}};
   for (unsigned seed = 0; seed < 40; ++seed) {
     const Vec3f size = sizes[seed % 4];
-    const std::vector<Record> points = random_points(300, size, seed), corners = random_points(2, {2, 2, 2}, seed + 100);
+    const std::vector<Record> points = random_points(300, size, seed),
+                              corners = random_points(2, {2, 2, 2}, seed + 100);
     const Vec3f p{corners[0].x, corners[0].y, corners[0].z}, q{corners[1].x, corners[1].y, corners[1].z};
     const float cell = 2 * std::max(size.x, std::max(size.y, size.z)) / 16;
     expect_as_brute_force(points, 20, 280, {min(p, q), max(p, q)}, cell);

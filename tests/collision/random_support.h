@@ -15,7 +15,8 @@ inline double uniform(Random& random, double low, double high) {
 
 /// A position whose coordinates are within `range` of 0; x is drawn first.
 inline Vec3d random_place(Random& random, double range) {
-  const double x = uniform(random, -range, range), y = uniform(random, -range, range), z = uniform(random, -range, range);
+  const double x = uniform(random, -range, range), y = uniform(random, -range, range),
+               z = uniform(random, -range, range);
   return {x, y, z};
 }
 

@@ -82,7 +82,8 @@ TEST_F(Command, CheckRunsASceneAndNamesTheDefaultThatWouldMendIt) {
 
 /// A default that does not suffice: several iterations make it `tiled` with 20 substeps.
 TEST_F(Command, CheckNamesSettingsWhereTheDefaultDoesNotSuffice) {
-  std::ofstream(folder_ / "sagging.json") << R"({"frames": 20, "settings": {"iterations": 2}, "objects": [{"name": "sheet",
+  std::ofstream(folder_ / "sagging.json")
+      << R"({"frames": 20, "settings": {"iterations": 2}, "objects": [{"name": "sheet",
       "cloth": {"mesh": {"grid": {"columns": 32, "rows": 32, "width": 1, "depth": 1}}, "stretch": {"compliance": 0}},
       "pins": [{"particles": [0, 31]}]}]})";
   const Result result = pliant("check sagging.json --seconds 600");

@@ -1,4 +1,5 @@
-// Tests pliant run --checkpoint and --resume: the bits of a run that never stopped, however and whenever it was stopped.
+// Tests pliant run --checkpoint and --resume: the bits of a run that never stopped, however and whenever it was
+// stopped.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -38,7 +39,8 @@ class Checkpoint : public testing::Test {
 
   void write_scene(const std::string& name, int side, int frames) const {
     const std::string count = std::to_string(side);
-    std::ofstream(folder_ / name) << R"({"frames": )" << frames << R"(, "settings": {"substeps": 4}, "objects": [{"cloth":
+    std::ofstream(folder_ / name) << R"({"frames": )" << frames
+                                  << R"(, "settings": {"substeps": 4}, "objects": [{"cloth":
       {"mesh": {"grid": {"columns": )"
                                   << count << R"(, "rows": )" << count << R"(, "width": 1, "depth": 1}}}}],
       "colliders": [{"sphere": {"radius": 0.3}, "position": [0, -0.4, 0]}]})";
@@ -129,7 +131,8 @@ TEST_F(Checkpoint, ObjectsThatWereCutGoOnInTheSameBits) {
   Uninterrupted whole(pliant::read_scene(path("cut.json")));
   for (const int frames : {2, 12, 20}) {
     ASSERT_EQ(run({"cut.json", "--frames", std::to_string(frames), "--checkpoint", "a"}), 0) << said();
-    ASSERT_EQ(run({"cut.json", "--resume", "a", "--checkpoint", "b", "--threads", "1", "--out", "end/f.ply"}), 0) << said();
+    ASSERT_EQ(run({"cut.json", "--resume", "a", "--checkpoint", "b", "--threads", "1", "--out", "end/f.ply"}), 0)
+        << said();
   }
   const pliant::LoadedWorld end = pliant::load_world(path("b"));
   EXPECT_EQ(end.world.state_hash(), whole.after(24));
@@ -193,7 +196,8 @@ TEST_F(Checkpoint, ASignalEndsWhatLooksAtNoFlag) {
   kill(child, SIGTERM);
   EXPECT_EQ(wait_for(child), 128 + SIGTERM) << said();
   EXPECT_NE(said().find("pliant: ended by SIGTERM; no unfinished file is left behind"), std::string::npos) << said();
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2) << "the scene and what was said";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2)
+      << "the scene and what was said";
 }
 
 /// The environment variable PLIANT_KILLS sets how many kills are made; 30 by default.

@@ -97,7 +97,9 @@ class Command : public testing::Test {
     return Json::parse(slurp(folder_ / "report.json"));
   }
 
-  int files() const { return static_cast<int>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator())); }
+  int files() const {
+    return static_cast<int>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
 
   fs::path folder_;
 };

@@ -1,4 +1,5 @@
-// Tests the command as users see it: exit status, the one line on standard error, files that are complete or do not exist.
+// Tests the command as users see it: exit status, the one line on standard error, files that are complete or do not
+// exist.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -53,7 +54,8 @@ TEST_F(Command, UsageErrorsGiveTwo) {
   expect_refused("run small.json --zzz 3", 2, "--zzz; see pliant run --help");
   expect_refused("bench W1-bendin", 1, "did you mean 'W1-bending'? the workloads are ");
   expect_refused("bench defaul", 1, "did you mean 'default'? ");
-  expect_refused("bench bodies-pyramid --sizes 200000", 1, "is more than 100000; give a smaller size; only W5 takes more");
+  expect_refused("bench bodies-pyramid --sizes 200000", 1,
+                 "is more than 100000; give a smaller size; only W5 takes more");
   expect_refused("render small.json", 2, "see pliant render --help");
   expect_refused("run", 2, "SCENE");
   expect_refused("run small.json --frames -1", 2, "frames");
@@ -94,7 +96,8 @@ TEST_F(Command, AStripIsOnePictureOfSeveralFrames) {
   ASSERT_EQ(result.status, 0) << result.err;
   const std::string bytes = slurp(folder_ / "strip.png");
   ASSERT_GT(bytes.size(), 24u);
-  EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\0\xc8\0\0\0\x32", 8)) << "width and height in the header of the file";
+  EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\0\xc8\0\0\0\x32", 8))
+      << "width and height in the header of the file";
   expect_refused("render small.json --out strip.png --strip 0,1,2,3 --size 60x50", 1, "pixels");
 }
 
@@ -150,8 +153,8 @@ TEST_F(Command, ASweepMayBeNamedAndTheReportIsThatOfASceneThatNamesIt) {
     return report(arguments).at("state_hash").get<std::string>();
   };
   const std::string plain = hash(R"("substeps": 4, "sweep": "tiled")", ""),
-                    named = hash(R"("substeps": 3, "iterations": 2, "sweep": "chains", "sweep_options": {"tethers": true})",
-                                 "");
+                    named = hash(
+                        R"("substeps": 3, "iterations": 2, "sweep": "chains", "sweep_options": {"tethers": true})", "");
   EXPECT_NE(plain, named);
   EXPECT_EQ(hash("\"substeps\": 4", "--sweep chains+tethers --substeps 3 --iterations 2"), named);
   EXPECT_EQ(hash(R"("substeps": 4, "sweep": "jacobi")", "--sweep tiled"), plain);
@@ -310,7 +313,8 @@ TEST_F(Command, AnInterruptedRunLeavesNothingHalfWritten) {
     _exit(98);
   }
   // Only once the run has begun, which the checkpoint shows, is there something to leave behind.
-  for (int wait = 0; wait < 3000 && files() == before; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int wait = 0; wait < 3000 && files() == before; ++wait)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_GT(files(), before);
   kill(child, SIGINT);
   int status = 0;

@@ -21,8 +21,8 @@ TEST_F(Command, CompareShowsEverySweepAndWritesPictureAndNumbers) {
   const Json json = Json::parse(slurp(folder_ / "curves.json"));
   EXPECT_EQ(json.at("iterations"), 3);
   EXPECT_GE(json.at("curves").size(), 6u);
-  const Result few =
-      pliant("compare small.json --iterations 2 --sweeps tiled,natural+chebyshev --frame 1 --frames 2 --budget-ms 100000");
+  const Result few = pliant(
+      "compare small.json --iterations 2 --sweeps tiled,natural+chebyshev --frame 1 --frames 2 --budget-ms 100000");
   EXPECT_EQ(few.status, 0) << few.err;
   EXPECT_NE(few.out.find("left out: natural+chebyshev: "), std::string::npos) << few.out;
   EXPECT_NE(few.out.find("within 100000 ms per frame, 2 frames"), std::string::npos) << few.out;

@@ -1,4 +1,5 @@
-// Tests that `pliant` runs pliant-measure for bench, compare and validate, and what it says where that program is missing.
+// Tests that `pliant` runs pliant-measure for bench, compare and validate, and what it says where that program is
+// missing.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -95,7 +96,8 @@ class Alone : public Command {
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_EQ(result.err.rfind("pliant: '" + arguments.substr(0, arguments.find(' ')), 0), 0U) << result.err;
-    EXPECT_NE(result.err.find("' is in the program pliant-measure, which is not " + word), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("' is in the program pliant-measure, which is not " + word), std::string::npos)
+        << result.err;
   }
 
   fs::path program_;
@@ -104,7 +106,8 @@ class Alone : public Command {
 TEST_F(Alone, SaysHowToBuildWhatIsMissing) {
   copy_to(folder_ / "prefix" / "bin");
   const std::string elsewhere =
-      "installed; build it where pliant was built, with cmake --build FOLDER --target pliant_measure, and install again\n";
+      "installed; build it where pliant was built, with cmake --build FOLDER --target pliant_measure, and install "
+      "again\n";
   for (const char* arguments : {"bench", "validate contact", "compare --help"}) expect_missing(arguments, elsewhere);
 }
 

@@ -36,7 +36,8 @@ TEST_F(Study, HasARowForEachCombinationWithTheHashOfARun) {
     EXPECT_EQ(cells[1], i % 2 == 1 ? "silk" : "denim");
     EXPECT_EQ(cells[10], "144");
     const std::string out =
-        pliant("run small.json --set /settings/substeps=" + cells[0] + " --set /objects/0/cloth/material=" + cells[1]).out;
+        pliant("run small.json --set /settings/substeps=" + cells[0] + " --set /objects/0/cloth/material=" + cells[1])
+            .out;
     EXPECT_NE(out.find("state " + cells[5]), std::string::npos) << rows[i];
     hashes.insert(cells[5]);
   }

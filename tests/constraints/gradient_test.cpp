@@ -1,4 +1,5 @@
-// Tests the mathematics of every constraint type, in double: gradients, invariance, zero net force and torque, momentum.
+// Tests the mathematics of every constraint type, in double: gradients, invariance, zero net force and torque,
+// momentum.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +41,8 @@ double difference(Stencil<T, double> x, const ParamsOf<T, double>& params, std::
   return (45 * (at(h) - at(-h)) - 9 * (at(2 * h) - at(-2 * h)) + (at(3 * h) - at(-3 * h))) / (60 * h);
 }
 
-/// True if C wraps around, as angles do, among the points of the difference: it changes by more than a gradient of at most `scale` says.
+/// True if C wraps around, as angles do, among the points of the difference: it changes by more than a gradient of at
+/// most `scale` says.
 template <class T>
 bool has_jump(const Stencil<T, double>& at, const ParamsOf<T, double>& params, std::size_t slot, double scale) {
   bool jumps = false;
@@ -48,8 +50,8 @@ bool has_jump(const Stencil<T, double>& at, const ParamsOf<T, double>& params, s
     auto low = at, high = at;
     component(low[slot], axis) -= 9e-3;
     component(high[slot], axis) += 9e-3;
-    jumps = jumps ||
-            std::fabs(evaluate<T, double>(low, params).c - evaluate<T, double>(high, params).c) > max(1.0, 0.03 * scale);
+    jumps = jumps || std::fabs(evaluate<T, double>(low, params).c - evaluate<T, double>(high, params).c) >
+                         max(1.0, 0.03 * scale);
   }
   return jumps;
 }

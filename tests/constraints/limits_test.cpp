@@ -197,8 +197,9 @@ TEST(DihedralBending, HoldsAFoldThroughTheFlatHinge) {
 }
 
 TEST(IsometricBending, IsTheEnergyOfBergouOnEqualTriangles) {
-  // Two equilateral triangles of side 1 at a small angle t; their areas sum to h = sqrt(3)/2. A tip has weight 2/sqrt(3)
-  // times sqrt(3/h) and is h t out of the plane. So C^2 = 3 t^2 / h, which is the paper's 3 |e|^2 t^2 / (A1 + A2).
+  // Two equilateral triangles of side 1 at a small angle t; their areas sum to h = sqrt(3)/2. A tip has weight
+  // 2/sqrt(3) times sqrt(3/h) and is h t out of the plane. So C^2 = 3 t^2 / h, which is the paper's 3 |e|^2 t^2 / (A1 +
+  // A2).
   const double t = 1e-4, height = std::sqrt(3.0) / 2;
   const Stencil<IsometricBending, double> flat{Vec3d{0, 0, 0}, Vec3d{1, 0, 0}, Vec3d{0.5, height, 0},
                                                Vec3d{0.5, -height, 0}};

@@ -62,7 +62,8 @@ std::vector<float> make_inputs(int count, int width, std::uint64_t seed) {
 }
 
 bool same(float a, float b) {
-  return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));  // payloads of NaN differ between machines
+  return std::memcmp(&a, &b, sizeof a) == 0 ||
+         (std::isnan(a) && std::isnan(b));  // payloads of NaN differ between machines
 }
 
 template <class Probe>

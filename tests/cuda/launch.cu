@@ -36,7 +36,8 @@ class Copy {
 }  // namespace
 
 void launch_all_on_device(LaunchCase& c) {
-  Copy<Record> positions(c.positions), displacements(c.displacements), remainders(c.remainders), velocities(c.velocities);
+  Copy<Record> positions(c.positions), displacements(c.displacements), remainders(c.remainders),
+      velocities(c.velocities);
   Copy<int> triangles(c.triangles), corner_begin(c.corner_begin), corners(c.corners);
   Copy<Vec3f> forces(c.forces);
   Copy<unsigned char> nonfinite(c.nonfinite);

@@ -54,10 +54,11 @@ void launch_all(Backend& backend, const LaunchView& v) {
   a.gravity_finished = a.gravity_begun = {0, -0.05f, 0};
   launch(backend, "find", v.particles, FindNonfinite{v.displacements, v.nonfinite});
   launch(backend, "update", v.particles, UpdatePoint{a});
-  launch(
-      backend, "air", v.triangle_count,
-      AirOnTriangle{v.triangles, v.positions, v.velocities, {3, 0.5f, -1}, {0, -0.05f, 0}, a.h, 1.2f, 1, 0.5f, v.forces});
-  launch(backend, "air", v.particles, AirOnParticle{v.corner_begin, v.corners, v.forces, v.positions, a.h, v.velocities});
+  launch(backend, "air", v.triangle_count,
+         AirOnTriangle{
+             v.triangles, v.positions, v.velocities, {3, 0.5f, -1}, {0, -0.05f, 0}, a.h, 1.2f, 1, 0.5f, v.forces});
+  launch(backend, "air", v.particles,
+         AirOnParticle{v.corner_begin, v.corners, v.forces, v.positions, a.h, v.velocities});
   launch(backend, "predict", v.particles, PredictPoint{a});
 }
 

@@ -27,7 +27,8 @@ LaunchCase sheet() {
   };
   for (int i = 0; i < particles; ++i) {
     const float x = 0.02f * static_cast<float>(i % side), z = 0.02f * static_cast<float>(i / side);
-    c.positions.push_back({x + number(0.005f), number(0.01f), z + number(0.005f), i % 7 == 0 ? 0.f : 900 + number(100)});
+    c.positions.push_back(
+        {x + number(0.005f), number(0.01f), z + number(0.005f), i % 7 == 0 ? 0.f : 900 + number(100)});
     c.displacements.push_back({number(1e-3f), number(1e-3f), number(1e-3f), 0});
     c.remainders.push_back({number(1e-9f), number(1e-9f), number(1e-9f), 0});
     c.velocities.push_back({number(2), number(2), number(2), 0});

@@ -1,4 +1,5 @@
-// Liquid in cloth (Absorbency): it spreads as an equation says, and what goes from one to the other is neither lost nor made.
+// Liquid in cloth (Absorbency): it spreads as an equation says, and what goes from one to the other is neither lost nor
+// made.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,8 +29,8 @@ constexpr float edge = 0.01f;
 CompiledObject strip(int columns, int rows, const Absorbency& absorbency) {
   Object object;
   ClothOptions options;
-  object = make_cloth(grid_mesh(columns, rows, edge * static_cast<float>(columns - 1), edge * static_cast<float>(rows - 1)),
-                      options);
+  object = make_cloth(
+      grid_mesh(columns, rows, edge * static_cast<float>(columns - 1), edge * static_cast<float>(rows - 1)), options);
   object.absorbency = absorbency;
   CompiledObject out;
   out.particles = out.user_particles = static_cast<int>(object.positions.size());
@@ -60,7 +61,8 @@ TEST(Wicking, HasTheFrontOfBoussinesqsEquation) {
   }
   float front = 0;
   for (std::size_t i = 0; i < water.size(); ++i)
-    if (water[i] > 0.01f * surface.areas[i] * absorbency.capacity) front = std::max(front, object.positions[i].x - first);
+    if (water[i] > 0.01f * surface.areas[i] * absorbency.capacity)
+      front = std::max(front, object.positions[i].x - first);
   EXPECT_NEAR(static_cast<double>(front), 1.616 * std::sqrt(1e-4 * seconds), 2 * static_cast<double>(edge));
 }
 
@@ -229,8 +231,8 @@ TEST(Absorbency, LetsDropsGoWithTheVelocityOfTheSurface) {
 
 /// A full sheet that is turned to hang lets go what is above its rise, in drops from its lower edge.
 TEST(Absorbency, DripsWhereItIsLowest) {
-  Scene scene = held({.capacity = 1, .uptake = 5, .wicking = 0.01f, .rise = 0.05f, .runoff = 0.5f}, {-0.03f, 0.01f, -0.03f},
-                     {0.03f, 0.07f, 0.03f});
+  Scene scene = held({.capacity = 1, .uptake = 5, .wicking = 0.01f, .rise = 0.05f, .runoff = 0.5f},
+                     {-0.03f, 0.01f, -0.03f}, {0.03f, 0.07f, 0.03f});
   for (Vec3f& x : scene.objects[0].positions) x = {x.x, x.z, 0};
   for (Vec3f& x : scene.objects[1].positions) x = {x.x, x.y + 0.06f, x.z > 0 ? x.z + 0.003f : x.z - 0.003f};
   World world(scene);

@@ -22,7 +22,8 @@ inline Emitter nozzle(float speed) {
   return emitter;
 }
 
-inline Scene jet(const Emitter& emitter, int capacity = 20000, const std::vector<Drain>& drains = {}, float lifetime = 0) {
+inline Scene jet(const Emitter& emitter, int capacity = 20000, const std::vector<Drain>& drains = {},
+                 float lifetime = 0) {
   Scene scene;
   LiquidOptions options;
   options.fluid.spacing = spacing;

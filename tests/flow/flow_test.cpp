@@ -1,4 +1,5 @@
-// Emitters, drains and lifetimes: what comes and goes is counted, is where it should be, and follows from the State alone.
+// Emitters, drains and lifetimes: what comes and goes is counted, is where it should be, and follows from the State
+// alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -208,7 +208,8 @@ TEST(FlowOutput, EveryFormatTakesParticlesThatCome) {
     for (const char* suffix : {".obj", ".ply", ".usda", ".pvd", ".glb", ".pc2"}) {
       if (surfaces && (std::string(suffix) == ".glb" || std::string(suffix) == ".pc2")) continue;
       World world(scene);
-      const auto writer = make_frame_writer((folder / "a").string() + suffix, scene, world, {.liquid_surfaces = surfaces});
+      const auto writer =
+          make_frame_writer((folder / "a").string() + suffix, scene, world, {.liquid_surfaces = surfaces});
       writer->add(world);
       for (int i = 0; i < 10; ++i) {
         world.step(frame);

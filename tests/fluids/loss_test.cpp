@@ -93,7 +93,8 @@ void add_plates(Scene& scene, float thickness, const Motion& motion) {
 void append_box(TriangleMesh& mesh, const Vec3f& low, const Vec3f& high, bool is_hollow) {
   const int first = static_cast<int>(mesh.positions.size());
   for (int i = 0; i < 8; ++i)
-    mesh.positions.push_back({(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z});
+    mesh.positions.push_back(
+        {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z});
   const int faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                             {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   for (const auto& f : faces) {
@@ -218,7 +219,8 @@ MeshCollider cup(float thickness, MeshCollider::As as, float grid_spacing) {
     return cup;
   }
   const float outer = cup_radius + thickness;
-  cup.mesh = turned({{outer, -thickness}, {outer, cup_height}, {cup_radius, cup_height}, {cup_radius, 0}}, segments, false);
+  cup.mesh =
+      turned({{outer, -thickness}, {outer, cup_height}, {cup_radius, cup_height}, {cup_radius, 0}}, segments, false);
   add_disc(cup.mesh, 0, segments, false);
   add_disc(cup.mesh, 3 * segments, segments, true);
   return cup;
@@ -251,12 +253,13 @@ TEST_P(Cups, HoldWhatIsFilledIn) {
   EXPECT_LT(losses.fastest, 1) << "water at rest";
 }
 
-INSTANTIATE_TEST_SUITE_P(Liquids, Cups,
-                         testing::Values(Cup{"of_one_skin", cup(0, MeshCollider::As::triangles, 0)},
-                                         Cup{"of_two_skins", cup(0.001f, MeshCollider::As::triangles, 0)},
-                                         Cup{"grid_of_default_spacing", cup(0.001f, MeshCollider::As::distance_grid, 0)},
-                                         Cup{"grid_of_a_millimetre", cup(0.001f, MeshCollider::As::distance_grid, 0.001f)}),
-                         [](const auto& given) { return given.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Liquids, Cups,
+    testing::Values(Cup{"of_one_skin", cup(0, MeshCollider::As::triangles, 0)},
+                    Cup{"of_two_skins", cup(0.001f, MeshCollider::As::triangles, 0)},
+                    Cup{"grid_of_default_spacing", cup(0.001f, MeshCollider::As::distance_grid, 0)},
+                    Cup{"grid_of_a_millimetre", cup(0.001f, MeshCollider::As::distance_grid, 0.001f)}),
+    [](const auto& given) { return given.param.name; });
 
 /// The radius of the funnel's inside at a height; its throat ends at 0.
 float funnel_radius(float y) { return y < 0.12f ? 0.025f : 0.025f + (y - 0.12f) * 1.25f; }
@@ -330,8 +333,9 @@ TEST(Tank, MayChangeItsLengthAtOnce) {
   RigidPose pose = world.collider(4).pose();
   pose.position.x -= 0.3f;
   world.collider(4).set_pose(pose);
-  const Losses losses = run(
-      world, seconds(2), [](const Vec3f& p, double) { return p.x > 0 && p.x < 0.5f && p.y > 0 && p.z > 0 && p.z < 0.4f; });
+  const Losses losses = run(world, seconds(2), [](const Vec3f& p, double) {
+    return p.x > 0 && p.x < 0.5f && p.y > 0 && p.z > 0 && p.z < 0.4f;
+  });
   report("at_once", losses);
   EXPECT_TRUE(losses.is_finite);
   EXPECT_EQ(losses.outside, 0);
@@ -361,7 +365,8 @@ TEST(DamBreak, HasNoJetFasterThanTwiceWhatEnergyAllows) {
     Scene scene = open_tank(1.6f, 0.05f, 0.05f);
     scene.objects[0] = make_liquid(fill_box({0, 0, 0}, {0.4f, 0.8f, 0.4f}, spacing), {.fluid = {.spacing = spacing}});
     World world(scene);
-    const Losses losses = run(world, seconds(3), [](const Vec3f& p, double) { return p.x > 0 && p.x < 1.6f && p.y > 0; });
+    const Losses losses =
+        run(world, seconds(3), [](const Vec3f& p, double) { return p.x > 0 && p.x < 1.6f && p.y > 0; });
     report("dam", losses);
     EXPECT_TRUE(losses.is_finite);
     EXPECT_EQ(losses.outside, 0);

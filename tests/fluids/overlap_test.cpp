@@ -122,7 +122,8 @@ TEST(LiquidOverlap, WithASolidIsWarnedOf) {
   World world(scene);
   const Course of = run(world, 2);
   ASSERT_EQ(of.warnings.size(), 1U);
-  EXPECT_NE(of.warnings[0].find("object 'water': 2 particles start inside 'rock'"), std::string::npos) << of.warnings[0];
+  EXPECT_NE(of.warnings[0].find("object 'water': 2 particles start inside 'rock'"), std::string::npos)
+      << of.warnings[0];
 }
 
 TEST(LiquidOverlap, IsNoneInALattice) {

@@ -174,8 +174,8 @@ double oscillation(const Liquid& liquid, int radius, float step) {
   return frequency(t, q);
 }
 
-// Drops settle into shapes that are not quite round: one of 8 spacings, at half the substep, is 21 % too fast. One of 10 is within 15 % there
-// too, which takes minutes.
+// Drops settle into shapes that are not quite round: one of 8 spacings, at half the substep, is 21 % too fast. One of
+// 10 is within 15 % there too, which takes minutes.
 TEST(Tension, LetsDropsOscillateAsRayleighSays) {
   const Liquid water, mercury{0.002f, 0.485f};
   EXPECT_NEAR(oscillation(water, 8, 0.05f), 1, 0.15);
@@ -238,7 +238,8 @@ TEST(Tension, MergesDropsThatTouch) {
   EXPECT_GT(least, 0.93);
   EXPECT_LT(most, 1.07);
   EXPECT_LT(std::sqrt(length_squared(sums_of(world).momentum)), 1e-7);
-  // Forces are along pairs, but the density is projected at predicted places, which turns the drop a little: by less than 0.5 rad/s.
+  // Forces are along pairs, but the density is projected at predicted places, which turns the drop a little: by less
+  // than 0.5 rad/s.
   EXPECT_LT(std::sqrt(length_squared(sums_of(world).angular)),
             0.5 * 2 / 3 * (sums_of(world).squares.x + sums_of(world).squares.y + sums_of(world).squares.z));
 }

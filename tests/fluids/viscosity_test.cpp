@@ -37,7 +37,8 @@ Collider wall(const Vec3f& at, const Vec3f& axis, float degrees, WallKind kind) 
 }
 
 Object block(const Vec3f& low, const Vec3f& high, float viscosity, const std::string& name = "liquid") {
-  return make_liquid(fill_box(low, high, spacing), {.name = name, .fluid = {.spacing = spacing, .viscosity = viscosity}});
+  return make_liquid(fill_box(low, high, spacing),
+                     {.name = name, .fluid = {.spacing = spacing, .viscosity = viscosity}});
 }
 
 /// Liquid that falls between two plates, with planes of symmetry in front and behind.
@@ -73,8 +74,8 @@ double poiseuille(float width, float viscosity) {
   return 1000 * g * static_cast<double>(width * width) / (12 * static_cast<double>(viscosity));
 }
 
-// rho g d^2 / (12 mu), whatever the viscosity and the substeps. Planes of symmetry take pairs from the particles next to them, and particles
-// out of their lattice have fewer near neighbours: the flow is 7 to 14 % too fast.
+// rho g d^2 / (12 mu), whatever the viscosity and the substeps. Planes of symmetry take pairs from the particles next
+// to them, and particles out of their lattice have fewer near neighbours: the flow is 7 to 14 % too fast.
 TEST(Viscosity, LetsLiquidFallBetweenPlatesAsPoiseuilleSays) {
   constexpr float width = 12 * spacing;
   for (const auto& [viscosity, substeps] : {std::pair{100.f, 10}, {100.f, 40}, {1000.f, 10}, {10000.f, 10}}) {
@@ -101,7 +102,8 @@ TEST(Viscosity, DampsAShearWaveByItsRate) {
       const std::vector<Vec3f> velocities = world.object(0).velocities();
       for (std::size_t i = 0; i < velocities.size(); ++i) {
         const Vec3f& p = liquid.positions[i];
-        if (std::abs(p.y - 0.75f * side) < 0.25f * side) sum += static_cast<double>(velocities[i].y * std::cos(k * p.x));
+        if (std::abs(p.y - 0.75f * side) < 0.25f * side)
+          sum += static_cast<double>(velocities[i].y * std::cos(k * p.x));
       }
       return sum;
     };
@@ -134,7 +136,8 @@ double size_of(const Vec3d& a) { return std::sqrt(length_squared(a)); }
 TEST(Viscosity, KeepsMomentumWhetherSolvedToTheEndOrNot) {
   for (const float viscosity : {1.f, 1e6f}) {
     Object liquid = block({-0.05f, -0.05f, -0.05f}, {0.05f, 0.05f, 0.05f}, viscosity);
-    for (const Vec3f& p : liquid.positions) liquid.velocities.push_back({0.1f * std::sin(90 * p.y), 0.1f, std::abs(p.x)});
+    for (const Vec3f& p : liquid.positions)
+      liquid.velocities.push_back({0.1f * std::sin(90 * p.y), 0.1f, std::abs(p.x)});
     World world(weightless(liquid, 10));
     const Momentum before = momentum_of(world);
     for (int i = 0; i < 10; ++i) world.step(frame_time);

@@ -1,4 +1,5 @@
-// Wetting: drops take the shape of a spherical cap with the contact angle of Young's law, and pull bodies as these pull them.
+// Wetting: drops take the shape of a spherical cap with the contact angle of Young's law, and pull bodies as these pull
+// them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +30,8 @@ float capillary_time() { return std::sqrt(water_density * drop_spacing * drop_sp
 Object liquid_of(const std::vector<Vec3f>& places, float angle) {
   return make_liquid(
       places,
-      {.fluid = {.spacing = drop_spacing, .density = water_density, .surface_tension = tension, .contact_angle = angle}});
+      {.fluid = {
+           .spacing = drop_spacing, .density = water_density, .surface_tension = tension, .contact_angle = angle}});
 }
 
 /// Places in a half ball on the ground.
@@ -65,7 +67,8 @@ double angle_of(const World& world) {
   return angle_of_cap(height / side);
 }
 
-/// The contact angle at which a drop on a plate comes to rest, without gravity [degrees]. It starts as half a ball of a radius in spacings.
+/// The contact angle at which a drop on a plate comes to rest, without gravity [degrees]. It starts as half a ball of a
+/// radius in spacings.
 double angle_at_rest(float wanted, float radius) {
   Scene scene = weightless(liquid_of(half_ball(radius * drop_spacing), wanted), 1);
   scene.add(Collider{});

@@ -33,7 +33,8 @@ void require_sound(const pliant::Scene& scene) {
   for (const pliant::Object& object : scene.objects) {
     require(object.masses.size() == object.positions.size());
     require(object.velocities.empty() || object.velocities.size() == object.positions.size());
-    for (const pliant::Vec3f& p : object.positions) require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    for (const pliant::Vec3f& p : object.positions)
+      require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
     for (const pliant::Pin& pin : object.pins) require(pin.particle < static_cast<int>(object.positions.size()));
     require(object.kinetic_friction <= object.static_friction);
   }

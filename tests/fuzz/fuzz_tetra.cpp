@@ -1,4 +1,5 @@
-// Fuzzes the readers of tetrahedral meshes. The first byte chooses the format; of TetGen the second says where the elements begin.
+// Fuzzes the readers of tetrahedral meshes. The first byte chooses the format; of TetGen the second says where the
+// elements begin.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +31,8 @@ pliant::TetrahedralMeshFile read(std::string_view bytes) {
     case 5:
       return pliant::read_binary_medit(bytes, name);
     default:
-      return pliant::read_tetgen({bytes.substr(0, divided), name}, {bytes.substr(std::min(divided, bytes.size())), name});
+      return pliant::read_tetgen({bytes.substr(0, divided), name},
+                                 {bytes.substr(std::min(divided, bytes.size())), name});
   }
 }
 

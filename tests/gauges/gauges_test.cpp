@@ -1,4 +1,5 @@
-// Tests the gauges of liquids: known values of a lattice and of falling liquid, the weight on a floor, and what is refused.
+// Tests the gauges of liquids: known values of a lattice and of falling liquid, the weight on a floor, and what is
+// refused.
 #include "pliant/gauges.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,8 @@ double first_value(const Gauge& gauge, const Scene& scene) {
 TEST(HeightGauge, MeasuresTheVolumeOverAFootprint) {
   const Scene scene = scene_of({block()});
   EXPECT_NEAR(first_value({"all", HeightGauge{{0, 0, 0}, {0.4f, 1, 0.2f}}}, scene), 0.6, 1e-6);
-  EXPECT_NEAR(first_value({"part", HeightGauge{{0.11f, 0, 0}, {0.23f, 1, 0.2f}}}, scene), 0.6, 1e-6) << "cuts particles";
+  EXPECT_NEAR(first_value({"part", HeightGauge{{0.11f, 0, 0}, {0.23f, 1, 0.2f}}}, scene), 0.6, 1e-6)
+      << "cuts particles";
   EXPECT_NEAR(first_value({"half empty", HeightGauge{{-0.4f, 0, 0}, {0.4f, 1, 0.2f}}}, scene), 0.3, 1e-6);
   EXPECT_NEAR(first_value({"low", HeightGauge{{0, 0, 0}, {0.4f, 0.27f, 0.2f}}}, scene), 0.27, 1e-6);
   EXPECT_NEAR(first_value({"along x", HeightGauge{{0, 0, 0}, {1, 0.6f, 0.2f}, 0}}, scene), 0.4, 1e-6);
@@ -82,7 +84,8 @@ TEST(FlowGauge, CountsAllThatPassesOnce) {
   const Vec3f corner{0.613f, -1, -1}, up{0, 3, 0}, side{0, 0, 3};
   EXPECT_NEAR(passed({corner, up, side}, scene, 30), all, 1e-6);
   EXPECT_NEAR(passed({corner, side, up}, scene, 30), -all, 1e-6) << "the other way round";
-  EXPECT_NEAR(passed({{0.613f, -1, -1}, up, {0, 0, 1.1f}}, scene, 30), all / 2, 1e-6) << "half of it beside the opening";
+  EXPECT_NEAR(passed({{0.613f, -1, -1}, up, {0, 0, 1.1f}}, scene, 30), all / 2, 1e-6)
+      << "half of it beside the opening";
   EXPECT_NEAR(passed({{9, -1, -1}, up, side}, scene, 30), 0, 1e-12) << "far away";
 }
 
@@ -135,9 +138,10 @@ std::vector<double> settled(const std::vector<Gauge>& of, const Scene& scene, in
 TEST(ForceGauge, OfAFloorIsTheWeightAndOfAWallThePressure) {
   Scene scene = scene_of({block()});
   add_tank(scene);
-  const std::vector<double> force = settled(
-      {{"down", ForceGauge{"floor"}}, {"right", ForceGauge{"right", {1, 0, 0}}}, {"left", ForceGauge{"left", {1, 0, 0}}}},
-      scene, 60);
+  const std::vector<double> force = settled({{"down", ForceGauge{"floor"}},
+                                             {"right", ForceGauge{"right", {1, 0, 0}}},
+                                             {"left", ForceGauge{"left", {1, 0, 0}}}},
+                                            scene, 60);
   const double weight = 1000 * 0.4 * 0.6 * 0.2 * 9.81;
   EXPECT_NEAR(force[0], weight, 0.02 * weight);
   EXPECT_NEAR(force[1], -force[2], 0.02 * force[1]) << "the walls hold each other's push";
@@ -162,7 +166,8 @@ TEST(ForceGauge, OfAFloatingBodyIsItsWeight) {
   EXPECT_NEAR(force[0], weight, 0.05 * weight);
 }
 
-// Drops that bounce off a body press on it for a frame or two: the gauge sees twice what stops them, where nothing is lost.
+// Drops that bounce off a body press on it for a frame or two: the gauge sees twice what stops them, where nothing is
+// lost.
 TEST(ForceGauge, OfABodyHasTheWholeBounceOfALiquid) {
   for (const float restitution : {0.f, 0.5f, 1.f}) {
     LiquidOptions options;

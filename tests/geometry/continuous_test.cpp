@@ -235,7 +235,8 @@ void check_decisions() {
   for (int i = 0; i < 6000; ++i) {
     const double scale = std::pow(10.0, -18 + i / 4 % 5), beside = (i / 20 % 5 - 2) * scale;
     const double thickness = i / 4 % 2 == 0 ? 0 : 1e-3;
-    const Motion4 m = near_motion<edges>(random, static_cast<Near>(i % static_cast<int>(Near::kinds)), beside, thickness);
+    const Motion4 m =
+        near_motion<edges>(random, static_cast<Near>(i % static_cast<int>(Near::kinds)), beside, thickness);
     const bool found = impact_of<edges>(m, thickness).hit;
     ASSERT_EQ(found, undecided_hit<edges>(m, DoubleDouble(thickness))) << i;
     (found ? hits : misses) += 1;

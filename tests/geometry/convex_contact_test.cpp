@@ -58,8 +58,8 @@ TEST_F(Contact, ACapsuleTouchesAtOnePointStandingAndTwoLying) {
   EXPECT_NEAR(widest(lying), 0.8, 1e-5);
 }
 
-/// Half of it lies beyond the edge, below which it is tilted by 0.04 degrees: perpendicular to it is no direction of its
-/// own, else it would slide down flush solids.
+/// Half of it lies beyond the edge, below which it is tilted by 0.04 degrees: perpendicular to it is no direction of
+/// its own, else it would slide down flush solids.
 TEST_F(Contact, ACapsuleAcrossAnEdgeTouchesAlongTheFacesNormal) {
   const ConvexShape capsule{Kind::segment, 0.1f, 0, 0.4f, nullptr};
   const double half_tilt = 0.35e-3;
@@ -69,8 +69,8 @@ TEST_F(Contact, ACapsuleAcrossAnEdgeTouchesAlongTheFacesNormal) {
   EXPECT_NEAR(across.normal.x, 0, 1e-9);
 }
 
-/// With the slack of what moves fast, a tilted cylinder touches with its whole disc, an octagon, between whose corners is
-/// the lowest place of the rim.
+/// With the slack of what moves fast, a tilted cylinder touches with its whole disc, an octagon, between whose corners
+/// is the lowest place of the rim.
 TEST_F(Contact, ATiltedCylinderTouchesWhereItsRimIsLowest) {
   const ConvexShape cylinder{Kind::cylinder, 0, 0.3f, 0.5f, nullptr};
   for (const double tilt : {0.03, 0.08, 0.15})

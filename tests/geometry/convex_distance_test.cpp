@@ -1,5 +1,5 @@
-// Tests distances of convex solids by certificates: the solids lie on two sides of a slab as thick as the separation, and
-// the places found lie on both; where they overlap, no sampled direction has a shorter way out.
+// Tests distances of convex solids by certificates: the solids lie on two sides of a slab as thick as the separation,
+// and the places found lie on both; where they overlap, no sampled direction has a shorter way out.
 #include "geometry/convex_distance.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,8 @@ ConvexShape draw(RandomPoses& random, Polyhedron& kept) {
   if (has_radius) shape.radius = real(random.number(0.05, 0.5));
   shape.core_radius = real(random.number(0.1, 0.6));
   shape.half_length = real(random.number(0.1, 0.6));
-  kept = polyhedron_of_box({real(random.number(0.1, 0.6)), real(random.number(0.1, 0.6)), real(random.number(0.1, 0.6))});
+  kept =
+      polyhedron_of_box({real(random.number(0.1, 0.6)), real(random.number(0.1, 0.6)), real(random.number(0.1, 0.6))});
   shape.polyhedron = &kept;
   return shape;
 }
@@ -168,10 +169,12 @@ TEST(ConvexDistance, OfACylinderThatStandsOrLiesIsThatToTheFloor) {
 // A prism above the plane of a triangle touches the triangle's edge to the last bit; the polytope then has flat parts.
 TEST(ConvexDistance, OfAPrismThatJustTouchesAnEdgeIsZero) {
   Polyhedron triangle, prism;
-  triangle.corners = {{-0.837153673f, 0, 0.837153673f}, {0.837153673f, 0, 2.51146102f}, {0.837153673f, 0, 0.837153673f}};
+  triangle.corners = {
+      {-0.837153673f, 0, 0.837153673f}, {0.837153673f, 0, 2.51146102f}, {0.837153673f, 0, 0.837153673f}};
   const float r = 0.062642172f, h = 0.0897143558f, k = 0.0442947038f;
-  prism.corners = {{r, h, 0},   {k, h, -k},  {0, h, -r},   {-k, h, -k}, {-r, h, 0}, {-k, h, k}, {0, h, r},   {k, h, k},
-                   {-k, -h, k}, {-r, -h, 0}, {-k, -h, -k}, {k, -h, k},  {0, -h, r}, {r, -h, 0}, {0, -h, -r}, {k, -h, -k}};
+  prism.corners = {{r, h, 0},  {k, h, -k}, {0, h, -r},  {-k, h, -k}, {-r, h, 0},   {-k, h, k},
+                   {0, h, r},  {k, h, k},  {-k, -h, k}, {-r, -h, 0}, {-k, -h, -k}, {k, -h, k},
+                   {0, -h, r}, {r, -h, 0}, {0, -h, -r}, {k, -h, -k}};
   const ConvexShape a{Kind::polyhedron, 0, 0, 0, &triangle}, b{Kind::polyhedron, 0, 0, 0, &prism};
   const Posed pose{{-0.20974124573358474, 0.089710323203863157, 0.77753680270453085},
                    {6.3742870817611322e-12, -0.85318976058376639, 2.3918355490159375e-13, -0.52160064458838207}};

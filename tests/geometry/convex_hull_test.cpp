@@ -66,8 +66,8 @@ TEST(ConvexHull, OfATurnedBoxHasSixFacesToo) {
     const Vec3d half = abs(convert<double>(random_point<float>(random))) + Vec3d{0.1, 0.1, 0.1};
     std::vector<Vec3f> points;
     for (int i = 0; i < 8; ++i)
-      points.push_back(convert<float>(rotate(
-          q, Vec3d{(i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y, (i & 4) != 0 ? half.z : -half.z})));
+      points.push_back(convert<float>(rotate(q, Vec3d{(i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
+                                                      (i & 4) != 0 ? half.z : -half.z})));
     const auto hull = convex_hull(points);
     ASSERT_TRUE(hull.has_value());
     expect_hull_of(points, *hull);

@@ -83,8 +83,8 @@ const std::vector<std::array<int, 3>> box_triangles{{0, 2, 1}, {1, 2, 3}, {4, 5,
 std::vector<Vec3d> box_corners(const Vec3d& half, const Posed& pose) {
   std::vector<Vec3d> corners;
   for (int i = 0; i < 8; ++i)
-    corners.push_back(to_world(
-        pose, Vec3d{(i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y, (i & 4) != 0 ? half.z : -half.z}));
+    corners.push_back(to_world(pose, Vec3d{(i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
+                                           (i & 4) != 0 ? half.z : -half.z}));
   return corners;
 }
 
@@ -108,7 +108,8 @@ TEST(MassProperties, PrincipalAxesAreFoundForAnyPose) {
     const MassProperties own = mass_properties(moments_of_box(half)),
                          found = mass_properties(moved(moments_of_box(half), pose));
     expect_near(found.centre, pose.position, 1e-12);
-    EXPECT_NEAR(found.inertia.x + found.inertia.y + found.inertia.z, own.inertia.x + own.inertia.y + own.inertia.z, 1e-12);
+    EXPECT_NEAR(found.inertia.x + found.inertia.y + found.inertia.z, own.inertia.x + own.inertia.y + own.inertia.z,
+                1e-12);
     // The inertia about any axis is the same, whichever principal axes represent it.
     for (int check = 0; check < 4; ++check) {
       const Vec3d spin = draw();

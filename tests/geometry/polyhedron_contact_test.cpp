@@ -61,8 +61,8 @@ double largest_gap(const Polyhedron& a, const Polyhedron& b) {
   return best;
 }
 
-/// Slabs that cross at an edge touch there first, and nearly everywhere else: a contact at the edge alone lets them turn
-/// about it into one another.
+/// Slabs that cross at an edge touch there first, and nearly everywhere else: a contact at the edge alone lets them
+/// turn about it into one another.
 TEST(PolyhedronContact, SlabsThatCrossAtAnEdgeHaveMorePoints) {
   const Polyhedron below = polyhedron_of_box({1, 0.1f, 1});
   const Quatf askew = normalise(Quatf{-0.02f, 0, -0.012f, 1});
@@ -75,7 +75,8 @@ TEST(PolyhedronContact, SlabsThatCrossAtAnEdgeHaveMorePoints) {
   for (int i = 0; i < found.count; ++i) {
     const TouchPoint& point = found.points[static_cast<std::size_t>(i)];
     least = std::min(least, point.separation);
-    for (int j = 0; j < i; ++j) most = std::max(most, length(point.on_b - found.points[static_cast<std::size_t>(j)].on_b));
+    for (int j = 0; j < i; ++j)
+      most = std::max(most, length(point.on_b - found.points[static_cast<std::size_t>(j)].on_b));
     EXPECT_LT(point.separation, 0.1);
   }
   EXPECT_NEAR(least, static_cast<double>(axis.separation), 1e-6) << "the edges are nearest";

@@ -15,7 +15,8 @@ double uniform(std::mt19937& random, double low, double high) {
 
 template <class R>
 Vec3<R> place(std::mt19937& random, double range) {
-  const double x = uniform(random, -range, range), y = uniform(random, -range, range), z = uniform(random, -range, range);
+  const double x = uniform(random, -range, range), y = uniform(random, -range, range),
+               z = uniform(random, -range, range);
   return convert<R>(Vec3d{x, y, z});
 }
 

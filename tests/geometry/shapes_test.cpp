@@ -121,8 +121,9 @@ TEST(FirstHit, AgreesWithMarching) {
         const auto single = first_hit(shape, convert<float>(a), convert<float>(b), static_cast<float>(margin));
         if (marched >= 0) {
           ASSERT_TRUE(found.hit);
-          ASSERT_LE(found.t, marched + 1e-12);  // sampling can only be late, and by at most a step unless the path grazes
-          if (found.t > 0) {                    // the position is at the margin, and no earlier one is nearer
+          ASSERT_LE(found.t,
+                    marched + 1e-12);  // sampling can only be late, and by at most a step unless the path grazes
+          if (found.t > 0) {           // the position is at the margin, and no earlier one is nearer
             ASSERT_NEAR(signed_distance(shape, a + (b - a) * found.t).distance, margin, 1e-9);
             ASSERT_EQ(march(shape, a, a + (b - a) * found.t, margin - 1e-9, 200), -1);
           }

@@ -35,8 +35,8 @@ void check_triangle(const Vec3<R>& p, const Vec3<R>& a, const Vec3<R>& b, const 
   ASSERT_TRUE(w.x >= 0 && w.y >= 0 && w.z >= 0);
   ASSERT_NEAR(w.x + w.y + w.z, 1, tolerance);
   const Vec3d corners[3] = {convert<double>(a), convert<double>(b), convert<double>(c)};
-  const Vec3d r =
-      corners[0] * static_cast<double>(w.x) + corners[1] * static_cast<double>(w.y) + corners[2] * static_cast<double>(w.z);
+  const Vec3d r = corners[0] * static_cast<double>(w.x) + corners[1] * static_cast<double>(w.y) +
+                  corners[2] * static_cast<double>(w.z);
   expect_near(convert<double>(found.point), r, tolerance * 3);
   ASSERT_NEAR(found.distance_squared, length_squared(convert<double>(p) - r), tolerance * 10);
   // If the distance is small, its direction says little about the position.
@@ -108,7 +108,8 @@ TEST(ClosestOnTriangle, TreatsSegmentsPointsAndTinyAndDistantTriangles) {
   EXPECT_NEAR(tiny.distance_squared, 3, 1e-6);
   EXPECT_NEAR(tiny.weights.x + tiny.weights.y + tiny.weights.z, 1, 1e-6);
   const Vec3f far{1000, 2000, -500};
-  const auto distant = closest_on_triangle(far + Vec3f{0.25f, 0.25f, 1}, far, far + Vec3f{1, 0, 0}, far + Vec3f{0, 1, 0});
+  const auto distant =
+      closest_on_triangle(far + Vec3f{0.25f, 0.25f, 1}, far, far + Vec3f{1, 0, 0}, far + Vec3f{0, 1, 0});
   expect_near(convert<double>(distant.weights), {0.5, 0.25, 0.25}, 1e-6);
   EXPECT_EQ(distant.distance_squared, 1);
 }
@@ -119,8 +120,9 @@ TEST(ClosestOnTriangle, KeepsSmallDistancesFarFromTheOrigin) {
     const Vec3f far = random_point<float>(random, 1000);
     const Vec3f a = far + random_point<float>(random, 0.01), b = far + random_point<float>(random, 0.01);
     const Vec3f c = far + random_point<float>(random, 0.01), p = far + random_point<float>(random, 0.01);
-    const double exact = closest_on_triangle(convert<double>(p), convert<double>(a), convert<double>(b), convert<double>(c))
-                             .distance_squared;
+    const double exact =
+        closest_on_triangle(convert<double>(p), convert<double>(a), convert<double>(b), convert<double>(c))
+            .distance_squared;
     ASSERT_NEAR(closest_on_triangle(p, a, b, c).distance_squared, exact, 1e-5 * exact + 1e-9);
   }
 }
@@ -131,7 +133,8 @@ void check_segments(const Vec3<R> (&p)[2], const Vec3<R> (&q)[2], double toleran
   ASSERT_TRUE(found.s >= 0 && found.s <= 1 && found.t >= 0 && found.t <= 1);
   const Vec3d p0 = convert<double>(p[0]), p1 = convert<double>(p[1]), q0 = convert<double>(q[0]),
               q1 = convert<double>(q[1]);
-  const Vec3d first = p0 + (p1 - p0) * static_cast<double>(found.s), second = q0 + (q1 - q0) * static_cast<double>(found.t);
+  const Vec3d first = p0 + (p1 - p0) * static_cast<double>(found.s),
+              second = q0 + (q1 - q0) * static_cast<double>(found.t);
   expect_near(convert<double>(found.first), first, tolerance);
   expect_near(convert<double>(found.second), second, tolerance);
   const Vec3d apart = second - first;

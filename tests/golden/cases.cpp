@@ -66,8 +66,9 @@ Scene scene_of(const SweepWay& way) {
 
 namespace {
 
-/// Scenes in folders of scenes/ that run code of their own: rigid bodies on meshes, on cloth, in piles and with joints, edges on
-/// primitives, heightfields, a deforming collider, distance grids, untangling, liquids, grains, cloth that holds both, soft bodies, rods, and tears.
+/// Scenes in folders of scenes/ that run code of their own: rigid bodies on meshes, on cloth, in piles and with joints,
+/// edges on primitives, heightfields, a deforming collider, distance grids, untangling, liquids, grains, cloth that
+/// holds both, soft bodies, rods, and tears.
 const char* const contact_scenes[] = {
     "bodies/bowl",        "bodies/hammock",      "bodies/pyramid",     "bodies/ragdoll",
     "contact/corners",    "contact/heightfield", "contact/sleeve",     "contact/solids",

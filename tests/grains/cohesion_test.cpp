@@ -26,7 +26,8 @@ using testing_support::gravity;
 
 constexpr double pi = 3.14159265358979;
 
-/// The tensile stress at which a contact bears a force: Rumpf's, with 0.6 of the volume filled and six contacts a grain.
+/// The tensile stress at which a contact bears a force: Rumpf's, with 0.6 of the volume filled and six contacts a
+/// grain.
 float stress_of(double force) {
   return static_cast<float>(force * 0.6 * 6 /
                             (pi * static_cast<double>(grain_diameter) * static_cast<double>(grain_diameter)));
@@ -41,7 +42,8 @@ double weight_of_grain() {
 float gap_under(double force, float cohesion, float cohesion_of_other, int substeps) {
   Scene scene;
   scene.add(make_grains({{0, 0, 0}}, {.name = "fixed", .grains = {.radius = grain_radius, .cohesion = cohesion}}));
-  scene.add(make_grains({{0, -grain_diameter, 0}}, {.grains = {.radius = grain_radius, .cohesion = cohesion_of_other}}));
+  scene.add(
+      make_grains({{0, -grain_diameter, 0}}, {.grains = {.radius = grain_radius, .cohesion = cohesion_of_other}}));
   scene.objects[0].masses[0] = INFINITY;
   scene.gravity = {};
   scene.settings.threads = 1;
@@ -178,8 +180,8 @@ TEST(KindsOfGrains, AreThoseOfThePage) {
   page << file.rdbuf();
   std::string table = "| kind | density, kg/m^3 | friction | cohesion, Pa |\n|---|---|---|---|\n";
   for (const GrainKind& of : grain_kinds())
-    table +=
-        "| " + of.name + " | " + number(of.density) + " | " + number(of.friction) + " | " + number(of.cohesion) + " |\n";
+    table += "| " + of.name + " | " + number(of.density) + " | " + number(of.friction) + " | " + number(of.cohesion) +
+             " |\n";
   EXPECT_NE(page.str().find(table), std::string::npos) << table;
   for (const GrainKind& of : grain_kinds()) {
     const std::string line = "- **" + of.name + "**: " + of.source + "\n";

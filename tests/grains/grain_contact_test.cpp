@@ -62,7 +62,8 @@ double force_on_ground(const World& world) {
   return force;
 }
 
-// The ground bears the tray and what lies in it. A step is a substep, so the mean has all of them: forces vary a little from one to the next.
+// The ground bears the tray and what lies in it. A step is a substep, so the mean has all of them: forces vary a little
+// from one to the next.
 TEST(GrainContact, PressesOnABodyByItsWeight) {
   constexpr float h = 1.f / 1500;
   Scene scene;
@@ -79,7 +80,8 @@ TEST(GrainContact, PressesOnABodyByItsWeight) {
   EXPECT_NEAR(force, (1 + mass_of(scene.objects[1])) * static_cast<double>(gravity), 0.005 * force);
 }
 
-/// How far the underside of a cube of 8 cm lies below the surface of a bed of sand 10 cm deep, a second after it was put there [m].
+/// How far the underside of a cube of 8 cm lies below the surface of a bed of sand 10 cm deep, a second after it was
+/// put there [m].
 double sinking(float density) {
   constexpr float half = 0.04f;
   Scene scene;
@@ -96,7 +98,8 @@ double sinking(float density) {
   return static_cast<double>(top + half - world.object(cube).positions()[0].y);
 }
 
-// Grains at rest bear a body by friction, so it lies on them, light or heavy: it does not sink until it displaces its weight.
+// Grains at rest bear a body by friction, so it lies on them, light or heavy: it does not sink until it displaces its
+// weight.
 TEST(GrainContact, BearsLightAndHeavyBodies) {
   EXPECT_LT(sinking(200), 0.5 * static_cast<double>(grain_diameter));
   EXPECT_LT(sinking(7800), 1.5 * static_cast<double>(grain_diameter));  // of iron, three times as dense as a grain

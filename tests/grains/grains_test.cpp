@@ -37,12 +37,14 @@ Collider wall(const Vec3f& at, const Quatf& rotation, float friction) {
   return plane;
 }
 
-/// A block of grains between planes without friction, free along x on one side, on ground that no grain slides on. Rows are shifted, so
-/// that no column stands.
+/// A block of grains between planes without friction, free along x on one side, on ground that no grain slides on. Rows
+/// are shifted, so that no column stands.
 Scene block(const Vec3f& size, float friction) {
   std::vector<Vec3f> places = fill_box({0, 0, 0}, size, 1.07f * grain_diameter);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto part = [&](std::size_t prime) { return 0.05f * grain_diameter * static_cast<float>(i * prime % 101) / 101; };
+    const auto part = [&](std::size_t prime) {
+      return 0.05f * grain_diameter * static_cast<float>(i * prime % 101) / 101;
+    };
     places[i] = places[i] + Vec3f{part(37), part(59), part(83)};
   }
   Scene scene;
@@ -56,7 +58,8 @@ Scene block(const Vec3f& size, float friction) {
   return scene;
 }
 
-/// Places that fill a box loosely, in no order: a lattice of 1.3 diameters, each place moved by up to 0.14 along each axis.
+/// Places that fill a box loosely, in no order: a lattice of 1.3 diameters, each place moved by up to 0.14 along each
+/// axis.
 std::vector<Vec3f> shaken(const Vec3f& size) {
   std::vector<Vec3f> places = fill_box({0, 0, 0}, size, 1.3f * grain_diameter);
   std::uint32_t seed = 1;
@@ -72,8 +75,8 @@ TEST(Grains, KeepTheirMomentumWhenTheyCollide) {
   Scene scene;
   scene.gravity = {};
   scene.add(make_grains({{0, 0, 0}}, {.grains = {.radius = grain_radius}, .velocity = {1, 0, 0}}));
-  scene.add(
-      make_grains({{0.1f, 0.005f, 0}}, {.name = "other", .grains = {.radius = 2 * grain_radius}, .velocity = {0, 0, 0}}));
+  scene.add(make_grains({{0.1f, 0.005f, 0}},
+                        {.name = "other", .grains = {.radius = 2 * grain_radius}, .velocity = {0, 0, 0}}));
   World world(scene);
   advance(world, 30);
   const Vec3f a = world.object(0).velocities()[0], b = world.object(1).velocities()[0];
@@ -84,7 +87,8 @@ TEST(Grains, KeepTheirMomentumWhenTheyCollide) {
   EXPECT_LE(length_squared(a) + 8 * length_squared(b), 1);
 }
 
-/// Where a light grain on a fixed sphere of 1 m is after a second, `degrees` from its top at the start; how far it has moved [m].
+/// Where a light grain on a fixed sphere of 1 m is after a second, `degrees` from its top at the start; how far it has
+/// moved [m].
 double slip_on_sphere(float friction, double degrees) {
   Scene scene;
   Object sphere = make_grains({{0, 0, 0}}, {.name = "sphere", .grains = {.radius = 1, .friction = friction}});
@@ -149,8 +153,8 @@ bool has_all(const std::vector<GrainContact>& these, const std::vector<GrainCont
   return std::includes(these.begin(), these.end(), of.begin(), of.end(), in_order_of_particles);
 }
 
-// Grains fall and mix for half a second, in frames in which lists are found again. One more substep then has the contacts that brute force
-// finds, but for those that hardly touch.
+// Grains fall and mix for half a second, in frames in which lists are found again. One more substep then has the
+// contacts that brute force finds, but for those that hardly touch.
 TEST(Grains, TouchWhereBruteForceFindsThemTouching) {
   Scene scene = block({0.3f, 0.2f, 0.1f}, 0.5f);
   World world(scene);
@@ -176,7 +180,8 @@ TEST(Grains, DoNotOverlapMuchWhereTheyLie) {
   EXPECT_TRUE(pairs_within(world.state(), 0.94f).empty());  // twice the overlap that the substeps are chosen for
 }
 
-/// The slope of a surface between 20 and 80 % of its height, by least squares over columns of grains across z [degrees].
+/// The slope of a surface between 20 and 80 % of its height, by least squares over columns of grains across z
+/// [degrees].
 double slope_of(const std::vector<Vec3f>& grains) {
   std::map<std::pair<int, int>, double> tops;  // by column along x, and along z of twice the width
   for (const Vec3f& p : grains) {
@@ -330,8 +335,8 @@ double lowest_overlap(int grains, float mass_scaling, int substeps) {
   return static_cast<double>(grain_diameter - (at[1].y - at[0].y));
 }
 
-/// A contact yields by twice g h^2 over the stiffness for each grain that lies on it. With mass scaling, r being the ratio of the masses of
-/// neighbours, the series is geometric: (1 + r) (1 - r^n) / (1 - r) instead of 2 n.
+/// A contact yields by twice g h^2 over the stiffness for each grain that lies on it. With mass scaling, r being the
+/// ratio of the masses of neighbours, the series is geometric: (1 + r) (1 - r^n) / (1 - r) instead of 2 n.
 TEST(Grains, OfAHighPileYieldLittleWithMassScaling) {
   constexpr int grains = 31, substeps = 40;
   const double h = 1. / 60 / substeps, of_one = 9.81 * h * h / static_cast<double>(grain_formulas::stiffness);

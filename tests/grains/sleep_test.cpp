@@ -30,10 +30,12 @@ Collider ground() {
 
 /// A block of 5 x 6 x 5 grains a little above the ground.
 Scene heap(bool sleeps) {
-  std::vector<Vec3f> places =
-      fill_box({0, 0, 0}, {5.4f * grain_diameter, 6.4f * grain_diameter, 5.4f * grain_diameter}, 1.05f * grain_diameter);
+  std::vector<Vec3f> places = fill_box({0, 0, 0}, {5.4f * grain_diameter, 6.4f * grain_diameter, 5.4f * grain_diameter},
+                                       1.05f * grain_diameter);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto part = [&](std::size_t prime) { return 0.05f * grain_diameter * static_cast<float>(i * prime % 101) / 101; };
+    const auto part = [&](std::size_t prime) {
+      return 0.05f * grain_diameter * static_cast<float>(i * prime % 101) / 101;
+    };
     places[i] = places[i] + Vec3f{part(37), part(59), part(83)};
   }
   Scene scene;
@@ -271,8 +273,8 @@ TEST(SleepingGrains, FollowFromTheState) {
   run(again, 160);
   EXPECT_EQ(hash(again.state()), hash(kept));
   State wrong = kept;
-  const auto channel =
-      std::find_if(wrong.channels.begin(), wrong.channels.end(), [](const Channel& of) { return of.name == "rest_time"; });
+  const auto channel = std::find_if(wrong.channels.begin(), wrong.channels.end(),
+                                    [](const Channel& of) { return of.name == "rest_time"; });
   ASSERT_NE(channel, wrong.channels.end());
   const std::vector<float>& times = channel->values;
   const auto sleeper = static_cast<std::size_t>(std::find(times.begin(), times.end(), asleep) - times.begin());

@@ -1,4 +1,5 @@
-// Tests that scenes whose contact would take excessive memory and time are rejected, and that object and number are named.
+// Tests that scenes whose contact would take excessive memory and time are rejected, and that object and number are
+// named.
 #include <gtest/gtest.h>
 
 #include <algorithm>

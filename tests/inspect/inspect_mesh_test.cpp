@@ -78,12 +78,13 @@ TEST(Inspect, FindsWhatIsGraveAndStopsThere) {
 }
 
 TEST(Inspect, TellsWhatIsFarAway) {
-  EXPECT_TRUE(tells(moved(tetrahedron(), {0, 20000, 0}), "4 vertices lie more than 10 km from the origin, the first 0"));
+  EXPECT_TRUE(
+      tells(moved(tetrahedron(), {0, 20000, 0}), "4 vertices lie more than 10 km from the origin, the first 0"));
 }
 
 TEST(Inspect, FindsFlatAndSliverTriangles) {
-  EXPECT_TRUE(
-      tells({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 3}, {0, 1, 2}}}, "1 triangle has no area, the first 1"));
+  EXPECT_TRUE(tells({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 3}, {0, 1, 2}}},
+                    "1 triangle has no area, the first 1"));
   EXPECT_TRUE(tells({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0.0005f, 0}}, {{0, 1, 2}}},
                     "1 sliver triangle, the first 0 (worst aspect 1:2000)"));
   EXPECT_FALSE(tells({{{0, 0, 0}, {1, 0, 0}, {0.5f, 0.011f, 0}}, {{0, 1, 2}}}, "sliver"));
@@ -136,7 +137,8 @@ TEST(Inspect, FindsEdgesThatAreNoManifold) {
 }
 
 TEST(Inspect, CountsPiecesThatShareNoVertex) {
-  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {9, 9, 9}}, {{0, 1, 2}, {3, 4, 5}}};
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}, {9, 9, 9}},
+                    {{0, 1, 2}, {3, 4, 5}}};
   EXPECT_TRUE(tells(mesh, "2 pieces that share no vertex"));
   mesh.triangles.push_back({2, 3, 6});
   EXPECT_FALSE(tells(mesh, "pieces"));

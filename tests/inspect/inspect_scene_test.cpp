@@ -319,14 +319,16 @@ TEST(InspectScene, NamesConstraintsOnFlatElements) {
   for (const char* type :
        {"tetrahedron_shear", "corotational_strain", "green_strain", "green_trace", "tetrahedron_volume", "fibre"}) {
     const std::string text = finding(element(type, flat), "in one plane at rest");
-    EXPECT_NE(text.find("object 'one', constraint group 1, " + std::string(type) + " constraint 0: "), std::string::npos)
+    EXPECT_NE(text.find("object 'one', constraint group 1, " + std::string(type) + " constraint 0: "),
+              std::string::npos)
         << text;
     EXPECT_EQ(finding(element(type, solid), "constraint group"), "") << type;
   }
   const std::vector<Vec3f> line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, triangle{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
   for (const char* type : {"triangle_stretch", "triangle_shear"}) {
     const std::string text = finding(element(type, line), "on one line at rest");
-    EXPECT_NE(text.find("object 'one', constraint group 1, " + std::string(type) + " constraint 0: "), std::string::npos)
+    EXPECT_NE(text.find("object 'one', constraint group 1, " + std::string(type) + " constraint 0: "),
+              std::string::npos)
         << text;
     EXPECT_EQ(finding(element(type, triangle), "constraint group"), "") << type;
   }

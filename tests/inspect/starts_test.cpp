@@ -109,7 +109,8 @@ TEST(InspectStarts, NamesGrainsThatOverlap) {
     scene.add(make_grains({{0, 0, 0}, {apart, 0, 0}}, {.grains = {.radius = 0.01f}}));
     return findings_of(scene);
   };
-  EXPECT_TRUE(has(text_of(0.017f), "particle 1: starts nearer to another grain than they touch, particle 0 of 'grains'"))
+  EXPECT_TRUE(
+      has(text_of(0.017f), "particle 1: starts nearer to another grain than they touch, particle 0 of 'grains'"))
       << text_of(0.017f);
   EXPECT_FALSE(has(text_of(0.0195f), "another grain")) << text_of(0.0195f);
 }

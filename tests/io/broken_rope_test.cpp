@@ -58,7 +58,8 @@ Segments segments_in_ply(const std::string& bytes) {
 }
 
 Segments segments_in_vtp(const std::string& text) {
-  const std::string points = array(text, "Points"), corners = array(text, "connectivity"), ends = array(text, "offsets");
+  const std::string points = array(text, "Points"), corners = array(text, "connectivity"),
+                    ends = array(text, "offsets");
   Segments out;
   std::size_t at = 0;
   for (std::size_t i = 0; i < ends.size(); i += 8) {
@@ -105,7 +106,8 @@ Segments segments_in_glb(const Glb& glb) {
   for (std::size_t i = 0; i < places.size(); ++i) places[i] += moved.at(i);
   const std::vector<unsigned> indices = glb.read<unsigned>(primitive["indices"]);
   Segments out;
-  for (std::size_t i = 0; i < indices.size(); i += 2) add_segments({places.at(indices[i]), places.at(indices[i + 1])}, out);
+  for (std::size_t i = 0; i < indices.size(); i += 2)
+    add_segments({places.at(indices[i]), places.at(indices[i + 1])}, out);
   return out;
 }
 

@@ -15,8 +15,8 @@ namespace {
 using test::Folder;
 
 bool same(const DistanceField& a, const DistanceField& b) {
-  return a.low.x == b.low.x && a.low.y == b.low.y && a.low.z == b.low.z && a.spacing == b.spacing && a.nodes == b.nodes &&
-         a.distances == b.distances;
+  return a.low.x == b.low.x && a.low.y == b.low.y && a.low.z == b.low.z && a.spacing == b.spacing &&
+         a.nodes == b.nodes && a.distances == b.distances;
 }
 
 std::string only_file(const Folder& folder) { return folder / folder.names().at(0); }

@@ -49,7 +49,8 @@ struct Glb {
   T element(int accessor, std::size_t i) const {
     const nlohmann::json& a = document["accessors"][static_cast<std::size_t>(accessor)];
     const nlohmann::json& view = document["bufferViews"][a["bufferView"].get<std::size_t>()];
-    return value_at<T>(binary, view["byteOffset"].get<std::size_t>() + a["byteOffset"].get<std::size_t>() + i * sizeof(T));
+    return value_at<T>(binary,
+                       view["byteOffset"].get<std::size_t>() + a["byteOffset"].get<std::size_t>() + i * sizeof(T));
   }
   const nlohmann::json& node(const std::string& name) const {
     for (const nlohmann::json& one : document["nodes"])

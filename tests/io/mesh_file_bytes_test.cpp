@@ -45,7 +45,8 @@ TEST(FileBytes, RefusesWhatIsTooLarge) {
   put(folder / "file", "12345");
   EXPECT_EQ(error_of_reading(folder / "file", 5), "");
   EXPECT_TRUE(contains(error_of_reading(folder / "file", 4), folder / "file: is larger than 4 bytes"));
-  EXPECT_TRUE(contains(error_of_reading("/proc/self/status", 4), "is larger than 4 bytes")) << "found out while reading";
+  EXPECT_TRUE(contains(error_of_reading("/proc/self/status", 4), "is larger than 4 bytes"))
+      << "found out while reading";
 }
 
 }  // namespace

@@ -153,7 +153,8 @@ TEST(MeshFiles, SelfIntersectionsAreThoseOfTheManifest) {
       {"surface/pbd/bunny_10k.obj", ""},
   };
   for (const auto& [name, places] : expected) {
-    if (!fs::exists(test::in_shared_data(name))) GTEST_SKIP() << "the collection is not here: " << test::in_shared_data("");
+    if (!fs::exists(test::in_shared_data(name)))
+      GTEST_SKIP() << "the collection is not here: " << test::in_shared_data("");
     std::string found;
     for (const Finding& finding : inspect(read_mesh(test::in_shared_data(name))))
       if (finding.message.find("passes through itself") == 0) found = finding.message;
@@ -167,7 +168,8 @@ TEST(MeshFiles, SeamsCloseOnReading) {
   for (const char* name : {"nasty_mesh/assimp/cube_uv.ply", "nasty_mesh/mujoco/duplicate_vertices.stl",
                            "nasty_mesh/geometry-central/stl_box_binary.stl", "surface/mujoco/cube_cup.obj",
                            "nasty_mesh/mujoco/duplicate.obj"}) {
-    if (!fs::exists(test::in_shared_data(name))) GTEST_SKIP() << "the collection is not here: " << test::in_shared_data("");
+    if (!fs::exists(test::in_shared_data(name)))
+      GTEST_SKIP() << "the collection is not here: " << test::in_shared_data("");
     for (const Finding& finding : inspect(read_mesh(test::in_shared_data(name))))
       EXPECT_FALSE(contains(finding.message, "border")) << name;
   }

@@ -14,9 +14,10 @@ struct Sample {
 
 std::vector<Sample> samples() {
   std::vector<Sample> all;
-  all.push_back({"a.obj",
-                 "# a comment\nmtllib x.mtl\nv 0 0 0 1 0 0\nv 1.5 -2e-1 .25\nv +1 1 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\nl 1 2\n"
-                 "f 1 2 3 4\nf -1/1/1 -2//1 \\\n -3/1\ng a\nf 1/1 2/1 3/1\n"});
+  all.push_back(
+      {"a.obj",
+       "# a comment\nmtllib x.mtl\nv 0 0 0 1 0 0\nv 1.5 -2e-1 .25\nv +1 1 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\nl 1 2\n"
+       "f 1 2 3 4\nf -1/1/1 -2//1 \\\n -3/1\ng a\nf 1/1 2/1 3/1\n"});
   const std::string body =
       "element vertex 4\nproperty float x\nproperty double y\nproperty short z\nelement face 2\nproperty uchar flag\n"
       "property list uchar int vertex_indices\nproperty list int float more\nend_header\n";

@@ -9,8 +9,8 @@ using Triangles = std::vector<std::array<int, 3>>;
 
 TEST(MeshObj, ReadsEveryFormOfAFace) {
   for (const char* face :
-       {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3", "f 1// 2// 3//", "f 1/ 2/ 3/", "f -3 -2 -1",
-        "f -3/-1 -2/-1 -1/-1", "fo 1 2 3", "  f\t1   2 3  ", "f 1 2 3 # the only one"})
+       {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3", "f 1// 2// 3//", "f 1/ 2/ 3/",
+        "f -3 -2 -1", "f -3/-1 -2/-1 -1/-1", "fo 1 2 3", "  f\t1   2 3  ", "f 1 2 3 # the only one"})
     EXPECT_EQ(mesh_of(three + face, "a.obj").triangles, (Triangles{{0, 1, 2}})) << face;
 }
 
@@ -58,7 +58,8 @@ TEST(MeshObj, IgnoresWeightsAndColours) {
   const std::string rest = "\nv 1 0 0 1\nv 0 1 0 0.5 0.5 0.5 1\nf 1 2 3";
   for (const char* first : {"v 0 0 0", "v 0 0 0 1", "v 0 0 0 1 0 0", "v 0 0 0 1 1 0 0", "v 0 0 0 # origin"})
     EXPECT_EQ(mesh_of(first + rest, "a.obj").positions.size(), 3u) << first;
-  EXPECT_TRUE(contains(error_of("v 0 0 0 red" + rest, "a.obj"), "a.obj:1: value 4 of vertex 1, 'red', is not a number"));
+  EXPECT_TRUE(
+      contains(error_of("v 0 0 0 red" + rest, "a.obj"), "a.obj:1: value 4 of vertex 1, 'red', is not a number"));
   EXPECT_TRUE(contains(error_of("v 0 0 0 1 1 1 1 1 1" + rest, "a.obj"), "a.obj:1: a vertex has more than 8 values"));
   EXPECT_TRUE(contains(error_of("v 0 0" + rest, "a.obj"), "a.obj:1: a vertex has 2 coordinates"));
 }
@@ -103,10 +104,10 @@ TEST(MeshObj, SaysWhatItPassedOver) {
 TEST(MeshObj, NamesKeywordsThatTheFormatDoesNotHave) {
   const MeshFile file = parse_mesh(three + "seam 1 2\nstitch 1 3\nseam 2 3\nf 1 2 3\nseam-allowance 0.01\n", "a.obj");
   EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}}));
-  EXPECT_EQ(
-      joined(file.repairs),
-      "ignored unknown keywords 'seam' (2 lines, the first 4), 'seam-allowance' (1 line, the first 8), 'stitch' (1 line, "
-      "the first 5)\n");
+  EXPECT_EQ(joined(file.repairs),
+            "ignored unknown keywords 'seam' (2 lines, the first 4), 'seam-allowance' (1 line, the first 8), 'stitch' "
+            "(1 line, "
+            "the first 5)\n");
   std::string many;
   for (char c = 'a'; c <= 'k'; ++c) many += std::string("word") + c + "\n";
   EXPECT_TRUE(contains(joined(parse_mesh(many + three + "f 1 2 3\n", "a.obj").repairs),
@@ -135,11 +136,12 @@ TEST(MeshObj, TellsFormatsApartByTheirContent) {
   EXPECT_TRUE(contains(error_of("hello", "a.txt"), "has an unknown mesh format"));
   EXPECT_EQ(mesh_of("\xef\xbb\xbf" + three + "f 1 2 3", "A.OBJ").triangles.size(), 1u) << "a UTF-8 mark is no harm";
   EXPECT_EQ(mesh_of("# mesh\n" + three + "f 1 2 3", "mesh").triangles.size(), 1u) << "no suffix";
-  EXPECT_EQ(mesh_of("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
-                    "wrong.obj")
-                .triangles.size(),
-            1u);
+  EXPECT_EQ(
+      mesh_of("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
+              "wrong.obj")
+          .triangles.size(),
+      1u);
 }
 
 }  // namespace

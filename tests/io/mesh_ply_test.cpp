@@ -54,11 +54,13 @@ TEST(MeshPly, KeepsTheBitsOfAFloat) {
 
 TEST(MeshPly, PassesOverWhatItDoesNotNeed) {
   const std::string text =
-      "ply\r\nformat ascii 1.0\r\ncomment any\r\nobj_info thing\r\nelement edge 1\r\nproperty int vertex1\r\nproperty int "
+      "ply\r\nformat ascii 1.0\r\ncomment any\r\nobj_info thing\r\nelement edge 1\r\nproperty int vertex1\r\nproperty "
+      "int "
       "vertex2\r\n"
       "element face 1\r\nproperty uchar red\r\nproperty list uchar float texcoord\r\nproperty list uchar int "
       "vertex_index\r\n"
-      "element vertex 3\r\nproperty uchar red\r\nproperty double z\r\nproperty double y\r\nproperty double x\r\nproperty "
+      "element vertex 3\r\nproperty uchar red\r\nproperty double z\r\nproperty double y\r\nproperty double "
+      "x\r\nproperty "
       "float nx\r\n"
       "end_header\r\n0 1\r\n255 6 0 0 1 0 0 1 3 0 1 2\r\n9 0 0 0 nan\r\n\r\n9 0 0 1 0\r\n9 0 1 0 0\r\n";
   expect_the_triangle(text);
@@ -94,10 +96,12 @@ TEST(MeshPly, FindsTheFirstByteBehindTheHeader) {
 
 TEST(MeshPly, RefusesHeadersThatLie) {
   const std::pair<std::string, const char*> cases[] = {
-      {"ply\nformat ascii 1.0\nelement vertex 2147483647\n" + xyz, "ply:3: claims 2147483647 elements 'vertex', at least"},
+      {"ply\nformat ascii 1.0\nelement vertex 2147483647\n" + xyz,
+       "ply:3: claims 2147483647 elements 'vertex', at least"},
       {"ply\nformat binary_little_endian 1.0\nelement vertex 2000000000\n" + xyz, "ply:3: claims 2000000000 elements"},
       {"ply\nformat ascii 1.0\nelement vertex 99999999999\n" + xyz, "ply:3: claims 99999999999"},
-      {"ply\nformat ascii 1.0\nelement vertex 99999999999999999999\n" + xyz, "ply:3: an element needs a name and a count"},
+      {"ply\nformat ascii 1.0\nelement vertex 99999999999999999999\n" + xyz,
+       "ply:3: an element needs a name and a count"},
       {"ply\nformat ascii 1.0\nelement vertex -1\n" + xyz, "ply:3: an element needs a name and a count"},
       {"ply\nformat ascii 1.0\nelement vertex 3\nelement face 1\nproperty list uchar int vertex_indices\n",
        "ply:3: element 'vertex' has no properties"},
@@ -171,8 +175,8 @@ TEST(MeshPly, RefusesDamagedRowsByLineOrByte) {
   };
   EXPECT_TRUE(contains(error_of(with(4, bytes_of(NAN)), "a.ply"),
                        "byte " + std::to_string(data + 4) + ": coordinate y of vertex 0 is not finite"));
-  EXPECT_TRUE(
-      contains(error_of(with(37, bytes_of(7)), "a.ply"), "byte " + std::to_string(data + 37) + ": face 0 uses vertex 7"));
+  EXPECT_TRUE(contains(error_of(with(37, bytes_of(7)), "a.ply"),
+                       "byte " + std::to_string(data + 37) + ": face 0 uses vertex 7"));
   EXPECT_TRUE(contains(error_of(with(36, "\xff"), "a.ply"), "the file ends inside a row"));
   EXPECT_TRUE(contains(error_of(bytes.substr(0, bytes.size() - 1), "a.ply"), "the file ends inside a row"));
   const std::string wide = binary_mesh<double, std::uint8_t, std::int32_t>(true, "double", "uchar int");
@@ -182,8 +186,8 @@ TEST(MeshPly, RefusesDamagedRowsByLineOrByte) {
 }
 
 TEST(MeshPly, SaysWhatIsBehindTheLastRow) {
-  EXPECT_TRUE(
-      contains(joined(parse_mesh(text_ply + "\n1 2\n\n3 4\n", "a.ply").repairs), "ignored 2 lines after the last element"));
+  EXPECT_TRUE(contains(joined(parse_mesh(text_ply + "\n1 2\n\n3 4\n", "a.ply").repairs),
+                       "ignored 2 lines after the last element"));
   const std::string bytes = binary_mesh<float, std::uint8_t, std::int32_t>(false, "float", "uchar int");
   EXPECT_TRUE(contains(joined(parse_mesh(bytes + "12345", "a.ply").repairs), "ignored 5 bytes after the last element"));
 }

@@ -19,7 +19,8 @@ TEST(MeshRepair, MergesTwoHalvesAlongTheirSeam) {
 }
 
 TEST(MeshRepair, DropsTrianglesWithoutArea) {
-  const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 0.1 0.1 0.1\nv 0.2 0.2 0.2\nv 0.4 0.4 0.4\nf 1 2 3\n";
+  const std::string start =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 0.1 0.1 0.1\nv 0.2 0.2 0.2\nv 0.4 0.4 0.4\nf 1 2 3\n";
   for (const char* face : {"f 1 1 2", "f 1 2 4", "f 2 3 3", "f 5 6 7"}) {
     const MeshFile file = obj_file(start + face);
     EXPECT_EQ(file.mesh.triangles.size(), 1u) << face;
@@ -53,7 +54,8 @@ TEST(MeshRepair, DropsIsolatedVerticesAndRenumbers) {
 
 TEST(MeshRepair, SaysWhereFloatsAreCoarse) {
   const MeshFile file = obj_file("v 500000 0 0\nv 500000.1 0 0\nv 500000 0.1 0\nf 1 2 3\n");
-  EXPECT_TRUE(contains(joined(file.repairs), "lies 500000.1 from the origin, where floats are 0.031 apart, 28 % of its"));
+  EXPECT_TRUE(
+      contains(joined(file.repairs), "lies 500000.1 from the origin, where floats are 0.031 apart, 28 % of its"));
   EXPECT_TRUE(obj_file("v 5000 0 0\nv 5000.1 0 0\nv 5000 0.1 0\nf 1 2 3\n").repairs.empty());
 }
 
@@ -65,8 +67,8 @@ std::string sheet(int columns, int rows, int first_index) {
   for (int r = 0; r + 1 < rows; ++r)
     for (int c = 0; c + 1 < columns; ++c) {
       const int i = first_index + r * columns + c;
-      text += "f " + std::to_string(i) + " " + std::to_string(i + columns) + " " + std::to_string(i + columns + 1) + " " +
-              std::to_string(i + 1) + "\n";
+      text += "f " + std::to_string(i) + " " + std::to_string(i + columns) + " " + std::to_string(i + columns + 1) +
+              " " + std::to_string(i + 1) + "\n";
     }
   return text;
 }
@@ -91,7 +93,8 @@ TEST(MeshRepair, LeavesTwoSheetsInOnePlaceApart) {
   const MeshFile file = obj_file(sheet(4, 4, 1) + reversed_sheet(4, 4, 17));
   EXPECT_EQ(file.mesh.positions.size(), 32u);
   EXPECT_EQ(file.mesh.triangles.size(), 36u);
-  EXPECT_TRUE(contains(joined(file.repairs), "kept 16 vertices separate from others at the same position, the first 16"));
+  EXPECT_TRUE(
+      contains(joined(file.repairs), "kept 16 vertices separate from others at the same position, the first 16"));
 }
 
 TEST(MeshRepair, TakesASheetThatIsThereTwiceForOne) {

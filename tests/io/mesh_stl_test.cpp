@@ -1,4 +1,5 @@
-// Tests the STL reader: text and binary recognised by content, vertices merged by position, rejection with line and byte.
+// Tests the STL reader: text and binary recognised by content, vertices merged by position, rejection with line and
+// byte.
 #include "mesh_support.h"
 
 namespace pliant::test {
@@ -49,14 +50,15 @@ TEST(MeshStl, TakesKeywordsOfEitherCaseAndSeveralSolids) {
 }
 
 TEST(MeshStl, JoinsAllThatLiesInOnePlaceEvenWhereItBranches) {
-  const std::string fan =
-      "solid\n" + facet("0 0 0;0 0 1;1 0 0;") + facet("0 0 0;0 0 1;0 1 0;") + facet("0 0 0;0 0 1;-1 0 0;") + "endsolid\n";
+  const std::string fan = "solid\n" + facet("0 0 0;0 0 1;1 0 0;") + facet("0 0 0;0 0 1;0 1 0;") +
+                          facet("0 0 0;0 0 1;-1 0 0;") + "endsolid\n";
   EXPECT_EQ(parse_mesh(fan, "a.stl").mesh.positions.size(), 5u);
 }
 
 TEST(MeshStl, RefusesDamagedTextByLine) {
   const std::pair<std::string, const char*> cases[] = {
-      {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", "stl:6: 'endloop' where 'vertex'"},
+      {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n",
+       "stl:6: 'endloop' where 'vertex'"},
       {"solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 0 1 0\n",
        "stl:7: 'vertex' where 'endloop'"},
       {"solid\nfacet normal 0 0 1\nvertex 0 0 0\n", "stl:3: 'vertex' where 'outer'"},
@@ -77,8 +79,8 @@ TEST(MeshStl, RefusesDamagedBytes) {
   EXPECT_TRUE(contains(error_of(bytes.substr(0, bytes.size() - 1), "a.stl"),
                        "byte 80: claims 2 triangles, 184 bytes, but holds 183"));
   EXPECT_TRUE(contains(error_of(bytes.substr(0, 83), "a.stl"), "is neither a text STL"));
-  EXPECT_TRUE(
-      contains(error_of(std::string(bytes).replace(80, 4, "\xff\xff\xff\xff"), "a.stl"), "claims 4294967295 triangles"));
+  EXPECT_TRUE(contains(error_of(std::string(bytes).replace(80, 4, "\xff\xff\xff\xff"), "a.stl"),
+                       "claims 4294967295 triangles"));
   EXPECT_TRUE(contains(error_of(std::string(bytes).replace(84 + 50 + 12, 4, bytes_of(INFINITY)), "a.stl"),
                        "byte 146: a coordinate of triangle 1 is not finite"));
   EXPECT_TRUE(contains(error_of(std::string(bytes).replace(80, 4, std::string(4, '\0')).substr(0, 84), "a.stl"),

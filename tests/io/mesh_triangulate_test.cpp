@@ -35,7 +35,8 @@ PolygonMesh placed(const Polygon& polygon, const Vec3d& u, const Vec3d& v) {
   return mesh;
 }
 
-/// Triangulates the polygon facing along each axis in both directions, and obliquely; checks the areas along the normal.
+/// Triangulates the polygon facing along each axis in both directions, and obliquely; checks the areas along the
+/// normal.
 void expect_cut_well(const Polygon& polygon, const std::string& what) {
   const Vec3d frames[][2] = {{{1, 0, 0}, {0, 1, 0}},   {{0, 1, 0}, {0, 0, 1}},        {{0, 0, 1}, {1, 0, 0}},
                              {{0, 1, 0}, {1, 0, 0}},   {{0, 0, 1}, {0, 1, 0}},        {{1, 0, 0}, {0, 0, 1}},
@@ -65,7 +66,8 @@ TEST(MeshTriangulate, CutsKnownPolygons) {
   expect_cut_well({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, "square");
   expect_cut_well({{{0, 0}, {2, 0}, {0.5, 0.5}, {0, 2}}}, "dart");
   expect_cut_well({{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}}, "angle");
-  expect_cut_well({{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}}, "square with points on its sides");
+  expect_cut_well({{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}},
+                  "square with points on its sides");
   expect_cut_well({{{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}},
                   "comb");
   expect_cut_well({{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}}},
@@ -78,7 +80,8 @@ TEST(MeshTriangulate, CutsRandomStars) {
     Polygon star;
     const int n = 4 + static_cast<int>(random() % 60);
     for (int i = 0; i < n; ++i) {
-      const double radius = 0.1 + 0.9 * static_cast<double>(random() % 1024) / 1024, angle = 2 * 3.14159265358979 * i / n;
+      const double radius = 0.1 + 0.9 * static_cast<double>(random() % 1024) / 1024,
+                   angle = 2 * 3.14159265358979 * i / n;
       star.corners.push_back({radius * std::cos(angle), radius * std::sin(angle)});
     }
     expect_cut_well(star, "star " + std::to_string(round));

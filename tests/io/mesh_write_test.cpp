@@ -35,7 +35,8 @@ TEST(MeshWrite, ReadsBackToTheSameBits) {
     write_mesh(path, mesh);
     const TriangleMesh again = read_mesh_file(path, as_it_is).mesh;
     ASSERT_EQ(again.positions.size(), mesh.positions.size());
-    EXPECT_EQ(std::memcmp(again.positions.data(), mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f)), 0) << name;
+    EXPECT_EQ(std::memcmp(again.positions.data(), mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f)), 0)
+        << name;
     EXPECT_EQ(again.triangles, mesh.triangles);
   }
 }

@@ -46,8 +46,8 @@ TEST(ParseBytes, GivesTetrahedraByTheSuffixOfTheName) {
   const TetrahedralMesh mesh = parse_tetrahedral_mesh(two_tetrahedra, "two.t").mesh;
   EXPECT_EQ(mesh.positions.size(), 5u);
   EXPECT_EQ(mesh.tetrahedra.size(), 2u);
-  EXPECT_TRUE(
-      has_words(parse_error([] { parse_tetrahedral_mesh(two_tetrahedra, "two"); }), "which no format of tetrahedra has"));
+  EXPECT_TRUE(has_words(parse_error([] { parse_tetrahedral_mesh(two_tetrahedra, "two"); }),
+                        "which no format of tetrahedra has"));
   EXPECT_TRUE(has_words(parse_error([] { parse_tetrahedral_mesh("", "two.msh"); }), "two.msh: is empty"));
   EXPECT_TRUE(has_words(parse_error([] { parse_tetrahedral_mesh("1", "two.node"); }), "parse_tetgen"));
 }

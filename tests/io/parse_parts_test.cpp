@@ -29,8 +29,8 @@ std::string refused(const auto& action) {
 
 TEST(ParseObject, GivesTheObjectOfAScene) {
   const Scene whole = parse_scene(
-      std::string(R"({"objects": [)") + cloth_text + R"(], "colliders": [)" + ball_text + "," + ground_text + "]}", "scene",
-      ".");
+      std::string(R"({"objects": [)") + cloth_text + R"(], "colliders": [)" + ball_text + "," + ground_text + "]}",
+      "scene", ".");
   Scene built;
   built.add(parse_object(cloth_text));
   for (const char* text : {ball_text, ground_text})
@@ -53,11 +53,11 @@ TEST(ParseObject, TakesArraysValuesAndRepairs) {
 TEST(ParseObject, RefusesWhatASceneRefuses) {
   EXPECT_NE(refused([] { parse_object("{}", "call"); }).find("call:1:1"), std::string::npos);
   EXPECT_NE(refused([] { parse_object(R"({"cloth": {"mesh": {"array": "none"}}})"); }).find("none"), std::string::npos);
-  EXPECT_NE(
-      refused([] {
-        parse_object(R"({"cloth": {"mesh": {"grid": {"columns": 3, "rows": 3, "width": 1, "depth": 1}}}, "frixion": 1})");
-      }).find("frixion"),
-      std::string::npos);
+  EXPECT_NE(refused([] {
+              parse_object(
+                  R"({"cloth": {"mesh": {"grid": {"columns": 3, "rows": 3, "width": 1, "depth": 1}}}, "frixion": 1})");
+            }).find("frixion"),
+            std::string::npos);
   EXPECT_NE(refused([] { parse_object(ball_text); }), "");
   EXPECT_NE(refused([] { parse_collider(cloth_text); }), "");
   EXPECT_NE(refused([] { parse_collider("[1, 2"); }), "");

@@ -80,8 +80,9 @@ TEST(SaveBytes, DamagedOnesAreRefusedWithTheirName) {
   Scene other = scene;
   other.gravity.y = -1;
   EXPECT_EQ(why([&] { load_state_bytes(bytes, fingerprint(scene)); }), "");
-  EXPECT_NE(why([&] { load_state_bytes(bytes, fingerprint(other), "blob"); }).find("blob: was saved with another scene"),
-            std::string::npos);
+  EXPECT_NE(
+      why([&] { load_state_bytes(bytes, fingerprint(other), "blob"); }).find("blob: was saved with another scene"),
+      std::string::npos);
   EXPECT_NE(why([&] { load_world_bytes(bytes, "blob"); }).find("blob: holds a State"), std::string::npos);
   for (std::size_t size = 0; size < bytes.size(); size += 37)
     EXPECT_EQ(why([&] { load_state_bytes(std::span(bytes).first(size), "cut"); }).rfind("cut: ", 0), 0u) << size;

@@ -46,8 +46,8 @@ Scene lifts_and_belts() {
   scene.settings.threads = 1;
   scene.add(platform_with_crate("lift", {}));
   scene.add(platform_with_crate("keyframes", {3, 0, 0}, {{{0}, {1, {0, 0.5f, 0.2f}}}}));
-  scene.add(
-      gripping(make_body({{.shape = Box{{2, 0.1f, 1}}}}, {.name = "belt", .position = {0, -0.1f, 5}, .kinematic = true})));
+  scene.add(gripping(
+      make_body({{.shape = Box{{2, 0.1f, 1}}}}, {.name = "belt", .position = {0, -0.1f, 5}, .kinematic = true})));
   Collider belt;
   belt.name = "belt";
   belt.shape = Box{{2, 0.1f, 1}};

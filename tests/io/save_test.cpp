@@ -83,7 +83,8 @@ std::string hash_of_file(const std::string& bytes) {
   sha.add(bytes.data(), bytes.size());
   const std::string text = sha.finish();
   std::string digest;
-  for (std::size_t i = 0; i < text.size(); i += 2) digest += static_cast<char>(std::stoi(text.substr(i, 2), nullptr, 16));
+  for (std::size_t i = 0; i < text.size(); i += 2)
+    digest += static_cast<char>(std::stoi(text.substr(i, 2), nullptr, 16));
   return digest;
 }
 
@@ -395,7 +396,8 @@ TEST(Save, ForgedSizesAreRefusedBeforeMemoryIsTaken) {
   save(path, State{});
   const std::string whole = test::read(path);
   const std::size_t count_of_blocks = 24, first_block = 32, element_size = first_block + 28, count = first_block + 32;
-  for (const std::uint64_t huge : {std::uint64_t{2}, std::uint64_t{1} << 31, std::uint64_t{1} << 61, ~std::uint64_t{0}}) {
+  for (const std::uint64_t huge :
+       {std::uint64_t{2}, std::uint64_t{1} << 31, std::uint64_t{1} << 61, ~std::uint64_t{0}}) {
     for (const std::size_t at : {count_of_blocks, count}) {
       std::string forged = whole;
       forged.replace(at, 8, reinterpret_cast<const char*>(&huge), 8);

@@ -94,8 +94,9 @@ TEST(SceneArrays, AnUnknownNameIsRefusedWithTheNearest) {
   SceneArrays arrays;
   arrays.meshes["shirt"] = grid_mesh(2, 2, 1, 1);
   const std::string cloth = R"({"objects": [{"cloth": {"mesh": {"array": "shrit"}}}]})";
-  EXPECT_EQ(refusal_with(cloth, arrays),
-            "test:1:43: /objects/0/cloth/mesh/array: there is no array shrit of this kind; the nearest name is 'shirt'");
+  EXPECT_EQ(
+      refusal_with(cloth, arrays),
+      "test:1:43: /objects/0/cloth/mesh/array: there is no array shrit of this kind; the nearest name is 'shirt'");
   EXPECT_EQ(refusal_with(cloth, {}),
             "test:1:43: /objects/0/cloth/mesh/array: there is no array shrit of this kind; give an array of this name "
             "with the scene, or name a 'file'");
@@ -117,7 +118,8 @@ TEST(SceneArrays, IndicesAndValuesAreChecked) {
   EXPECT_NE(refusal_with(R"({"objects": [{"particles": {"positions": {"array": "p"}, "masses": 1}}]})", arrays), "");
   arrays.tetrahedra["t"] = {{{0, 0, 0}}, {{0, 0, 0, 4}}};
   const std::string body = R"({"objects": [{"soft_body": {"tetrahedra": {"array": "t"}}}]})";
-  EXPECT_NE(refusal_with(body, arrays).find("tetrahedron 0 of array t has vertex 4, but there are 1"), std::string::npos);
+  EXPECT_NE(refusal_with(body, arrays).find("tetrahedron 0 of array t has vertex 4, but there are 1"),
+            std::string::npos);
 }
 
 }  // namespace

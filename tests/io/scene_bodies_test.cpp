@@ -39,10 +39,11 @@ TEST(SceneBodies, HaveTheVelocityOfTheObjectUnlessTheyHaveTheirOwn) {
                                   "x.json", ".");
   const Vec3f own{0, 1, 0}, rests{}, objects{1, 0, 0};
   EXPECT_EQ(scene.objects[0].velocities, (std::vector<Vec3f>{own, own, rests, rests, objects, objects, objects}));
-  EXPECT_NE(test::scene_message(R"({"objects": [{"velocity": [1, 0, 0], "bodies": [{"solids": [{"sphere": {}}]}], "parts": [
+  EXPECT_NE(
+      test::scene_message(R"({"objects": [{"velocity": [1, 0, 0], "bodies": [{"solids": [{"sphere": {}}]}], "parts": [
       {"particles": {"positions": [[0, 9, 0]], "masses": 1, "velocities": [[0, 0, 1]]}}]}]})")
-                .find("/objects/0/velocity: this object already has a velocity per particle"),
-            std::string::npos);
+          .find("/objects/0/velocity: this object already has a velocity per particle"),
+      std::string::npos);
 }
 
 TEST_F(Heap, HasItsProperties) {
@@ -98,7 +99,8 @@ TEST_F(Heap, HasPartsThatAreTiedToItsBodies) {
   EXPECT_EQ(heap.attachments[0].particle, first + 5);
   EXPECT_EQ(heap.attachments[0].target, heap.positions.at(std::size_t(first) + 5));
   const ObjectBody &hammer = heap.bodies[0], &shard = heap.bodies[4];
-  EXPECT_EQ(group_of(heap, "body_anchor", 0.5f).particles, (std::vector<int>{hammer.particle, hammer.frame, first + 4}));
+  EXPECT_EQ(group_of(heap, "body_anchor", 0.5f).particles,
+            (std::vector<int>{hammer.particle, hammer.frame, first + 4}));
   EXPECT_EQ(group_of(heap, "body_anchor", 0).particles, (std::vector<int>{shard.particle, shard.frame, first + 9}));
   EXPECT_EQ(heap.triangles.size(), 2U);
 }

@@ -252,13 +252,14 @@ TEST(SceneContact, IsRefusedInItsWords) {
   EXPECT_NE(scene_message(with_collider(R"({"mesh": {"sphere": {"subdivisions": 0}}, "grid_spacing": 1})"))
                 .find("only a distance grid has a spacing"),
             std::string::npos);
-  EXPECT_NE(
-      scene_message(
-          with_collider(R"({"mesh": {"sphere": {"subdivisions": 0}}, "frames": [{"time": 0, "positions": [[0,0,0]]}]})"))
-          .find("this frame has 1 vertices, the mesh 12"),
-      std::string::npos);
-  EXPECT_NE(scene_message(R"({"objects": [], "pairs": [{"between": ["a", "b"]}]})").find("no object or mesh collider 'a'"),
+  EXPECT_NE(scene_message(
+                with_collider(
+                    R"({"mesh": {"sphere": {"subdivisions": 0}}, "frames": [{"time": 0, "positions": [[0,0,0]]}]})"))
+                .find("this frame has 1 vertices, the mesh 12"),
             std::string::npos);
+  EXPECT_NE(
+      scene_message(R"({"objects": [], "pairs": [{"between": ["a", "b"]}]})").find("no object or mesh collider 'a'"),
+      std::string::npos);
   EXPECT_NE(scene_message(with_collider(R"({"mesh": {"file": "no_such.obj"}})")).find("there is no file"),
             std::string::npos);
   EXPECT_NE(scene_message(R"({"objects": [{"rope": {"points": [[0,0,0],[0,1,0]]}, "groups": [32]}]})")
@@ -270,10 +271,10 @@ TEST(SceneContact, IsRefusedInItsWords) {
               R"({"mesh": {"heightfield": {"columns": 2, "rows": 2, "width": 1, "depth": 1, "heights": [1,2,3,4,5]}}})"))
           .find("5 heights for 4 vertices"),
       std::string::npos);
-  EXPECT_NE(
-      scene_message(with_collider(R"({"name": "a", "plane": {}}, {"name": "a", "mesh": {"sphere": {"subdivisions": 0}}})"))
-          .find("the name 'a' is taken"),
-      std::string::npos);
+  EXPECT_NE(scene_message(
+                with_collider(R"({"name": "a", "plane": {}}, {"name": "a", "mesh": {"sphere": {"subdivisions": 0}}})"))
+                .find("the name 'a' is taken"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -47,7 +47,8 @@ class Rig : public testing::Test {
     }
     ASSERT_EQ(found.constraints.size(), expected.constraints.size());
     for (std::size_t c = 0; c < found.constraints.size(); ++c)
-      EXPECT_EQ(described(rig, found.constraints[c]), described(same, expected.constraints[c])) << found.name << " " << c;
+      EXPECT_EQ(described(rig, found.constraints[c]), described(same, expected.constraints[c]))
+          << found.name << " " << c;
   }
 
   /// Type, slots, rest data and compliance of one constraint, as text.
@@ -77,8 +78,9 @@ TEST_F(Rig, HasTheJointsThatCodeMakes) {
   strong.name = "shoulder";
   strong.compliance = 0.001f, strong.damping = 2;
   strong.break_force = 100, strong.break_torque = 50;
-  add_joint(same,
-            BallJoint{0, 1, {1, 0, 0}, {0, 1, 0}, 60 * degree, JointRange{-30 * degree, 45 * degree, 0.25f}, 0.5f, strong});
+  add_joint(
+      same,
+      BallJoint{0, 1, {1, 0, 0}, {0, 1, 0}, 60 * degree, JointRange{-30 * degree, 45 * degree, 0.25f}, 0.5f, strong});
   expect_same(0);
   add_joint(same, FixedJoint{-1, 0, {0, 0, 1}, {}});
   expect_same(1);
@@ -95,8 +97,9 @@ TEST_F(Rig, HasTheJointsThatCodeMakes) {
                              JointSpring{30 * degree, 12, 0.5f}});
   expect_same(2);
   const JointMotor drive{JointMotor::Kind::speed, 0.25f, 7};
-  add_joint(same, SliderJoint{
-                      2, 3, {5, 0, 0}, {0, 1, 0}, JointRange{-1, 2, 0.5f}, drive, 0.5f, {}, 4, JointSpring{0.125f, 80, 2}});
+  add_joint(
+      same,
+      SliderJoint{2, 3, {5, 0, 0}, {0, 1, 0}, JointRange{-1, 2, 0.5f}, drive, 0.5f, {}, 4, JointSpring{0.125f, 80, 2}});
   expect_same(3);
   CylindricalJoint both{3, 4, {7, 0, 0}, {0, 1, 0}};
   both.slide_limit = JointRange{-1, 1};
@@ -142,7 +145,8 @@ TEST_F(Rig, HasTheOtherJointsThatCodeMakes) {
   expect_same(11);
   SixAxisJoint six{11, 12, {23, 0, 0}, rotation({0, 1, 0}, 90)};
   six.linear[1].kind = six.angular[1].kind = AxisFreedom::Kind::free;
-  six.linear[2] = {AxisFreedom::Kind::limited, {-1, 1}, JointMotor{JointMotor::Kind::speed, 0.5f}, 0.5f, JointSpring{0, 8}};
+  six.linear[2] = {
+      AxisFreedom::Kind::limited, {-1, 1}, JointMotor{JointMotor::Kind::speed, 0.5f}, 0.5f, JointSpring{0, 8}};
   six.angular[2] = {AxisFreedom::Kind::limited,
                     {-20 * degree, 20 * degree},
                     JointMotor{JointMotor::Kind::position, 10 * degree},
@@ -186,7 +190,8 @@ TEST(SceneJoints, AreNamedInErrors) {
       {R"({"between": ["arm_1", "arm_2"], "hinge": {"anchor": [0, 0, 0], "axis": [0, 0, 0]}})",
        "x.json:3:1: object 'bodies', /objects/0/joints/0"},
       {R"({"between": ["arm_1", "arm_1"], "fixed": {"anchor": [0, 0, 0]}})",
-       "x.json:3:1: object 'bodies', /objects/0/joints/0, joint 'fixed 0': joins body 0 ('arm_1') with itself; give two "
+       "x.json:3:1: object 'bodies', /objects/0/joints/0, joint 'fixed 0': joins body 0 ('arm_1') with itself; give "
+       "two "
        "bodies"},
       {R"({"between": ["arm_1", "arm_2"], "distance": {"anchors": [[0, 0, 0], [1, 0, 0]], "least": 2, "most": 1}})",
        "has a least distance of 2 m, more than its greatest of 1 m"},

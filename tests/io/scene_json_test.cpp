@@ -46,7 +46,8 @@ TEST(SceneJson, TreatsEveryFileOfTheSuiteAsItsNameSays) {
 }
 
 TEST(SceneJson, NamesLineAndColumnOfEveryValue) {
-  const JsonDocument document = parse_json("{ \"a\" : [1,\n  -2.5e1 ,\"x\\\"]\" ],\r\n\t\"b/~\":{\"c\":null}}", "x.json");
+  const JsonDocument document =
+      parse_json("{ \"a\" : [1,\n  -2.5e1 ,\"x\\\"]\" ],\r\n\t\"b/~\":{\"c\":null}}", "x.json");
   const JsonValue& list = document.root.items.at(0);
   const auto place = [&](const JsonValue& value) {
     const Location at = document.locate(value);

@@ -77,7 +77,8 @@ TEST_F(FullScene, HasStitches) {
 
 TEST_F(FullScene, HasItsGases) {
   const auto named = [&](const char* name) {
-    return *std::find_if(scene.objects.begin(), scene.objects.end(), [&](const Object& one) { return one.name == name; });
+    return *std::find_if(scene.objects.begin(), scene.objects.end(),
+                         [&](const Object& one) { return one.name == name; });
   };
   const Object steam = named("steam");
   ASSERT_TRUE(steam.gas && steam.fluid);

@@ -145,7 +145,8 @@ Motion motion_of(const std::string& keyframes, const std::string& others = "") {
   return parse_scene(text, "x.json", ".").colliders.at(0).motion;
 }
 
-/// By how many degrees a motion about z turns from its first keyframe to its last, by the shorter arc from each to the next.
+/// By how many degrees a motion about z turns from its first keyframe to its last, by the shorter arc from each to the
+/// next.
 double turned_about_z(const Motion& motion) {
   double degrees = 0;
   for (std::size_t k = 1; k < motion.keyframes.size(); ++k) {
@@ -168,10 +169,11 @@ TEST(SceneMotion, TurnsByAsManyDegreesAsItSays) {
 }
 
 TEST(SceneMotion, InsertsKeyframesEvenlyInTimeAndPlace) {
-  const Motion motion = motion_of(R"({"time": 1, "position": [1, 0, 0]}, )"
-                                  R"({"time": 3, "position": [5, 8, 0], "rotation": {"axis": [0, 0, 1], "degrees": 720}},
+  const Motion motion =
+      motion_of(R"({"time": 1, "position": [1, 0, 0]}, )"
+                R"({"time": 3, "position": [5, 8, 0], "rotation": {"axis": [0, 0, 1], "degrees": 720}},
                                       {"time": 4}, {"time": 5, "rotation": {"axis": [0, 0, -1], "degrees": 360}})",
-                                  R"(, "pivot": [1, 2, 3], "repeat": true)");
+                R"(, "pivot": [1, 2, 3], "repeat": true)");
   EXPECT_NEAR(turned_about_z(motion), -360, 1e-3) << "two turns there, two back and one more";
   ASSERT_EQ(motion.keyframes.size(), 4u + 7 + 7 + 3);
   EXPECT_EQ(motion.keyframes[1].time, 1.25f);
@@ -189,10 +191,11 @@ TEST(SceneMotion, TakesTheShorterArcBetweenOtherAxes) {
 }
 
 TEST(SceneMotion, RefusesMoreTurnsThanThereAreTimes) {
-  EXPECT_NE(test::scene_message(R"({"objects": [], "colliders": [{"plane": {}, "motion": {"keyframes": [{"time": 1000000},
+  EXPECT_NE(
+      test::scene_message(R"({"objects": [], "colliders": [{"plane": {}, "motion": {"keyframes": [{"time": 1000000},
                 {"time": 1000000.125, "rotation": {"axis": [0, 0, 1], "degrees": 720}}]}}]})")
-                .find("turns by too many degrees"),
-            std::string::npos);
+          .find("turns by too many degrees"),
+      std::string::npos);
 }
 
 TEST_F(FullScene, HasItsPinsAndAttachments) {

@@ -35,11 +35,12 @@ TEST(SceneRefusal, SaysWhatIsWrongAndWhatToDo) {
   EXPECT_EQ(scene_message(R"({"objects": [{"cloth": {"stretch": 1e-4}}]})"),
             "x.json:1:36: /objects/0/cloth/stretch: expected 'rigid', or an object (stiffness, with 'compliance' or "
             "'stiffness'), found a number");
-  EXPECT_EQ(scene_message(R"({"objects": [{}]})"),
-            "x.json:1:14: /objects/0: the kind of this object is missing; "
-            "give exactly one of 'cloth', 'soft_body', 'rope', 'rod', 'liquid', 'gas', 'tracers', 'grains', 'particles', "
-            "'bodies' "
-            "and 'urdf'");
+  EXPECT_EQ(
+      scene_message(R"({"objects": [{}]})"),
+      "x.json:1:14: /objects/0: the kind of this object is missing; "
+      "give exactly one of 'cloth', 'soft_body', 'rope', 'rod', 'liquid', 'gas', 'tracers', 'grains', 'particles', "
+      "'bodies' "
+      "and 'urdf'");
   EXPECT_EQ(scene_message(R"({"objects": [], "colliders": [{"box": {}, "plane": {}}]})"),
             "x.json:1:31: /colliders/0: more than one kind is given; "
             "give exactly one of 'plane', 'sphere', 'capsule', 'box' and 'mesh'");
@@ -97,10 +98,13 @@ TEST(SceneRefusal, KnowsWhereANameBelongs) {
   EXPECT_EQ(hint(R"({"objects": [{"material": "silk"}]})"), "it is a member of cloth, as 'cloth.material'");
   EXPECT_EQ(hint(R"({"objects": [], "self_colision": true})"), "did you mean 'objects[].self_collision'?");
   EXPECT_EQ(hint(R"({"objects": [], "settings": {"gravty": [0, 0, 0]}})"), "did you mean 'gravity' of the scene?");
-  EXPECT_EQ(hint(R"({"objects": [], "settings": {"substep": 10}})"), "did you mean 'substeps'?") << "here comes before all";
-  EXPECT_EQ(hint(R"({"objects": [], "sphere": {}})").rfind("it is a member of collider, as 'colliders[].sphere'", 0), 0U);
-  EXPECT_EQ(hint(R"({"objects": [{"rope": {"points": [[0, 0, 0], [1, 0, 0]]}, "pins": [{"particles": {"group": "a"}}]}]})"),
-            "known are 'box' and 'nearest'")
+  EXPECT_EQ(hint(R"({"objects": [], "settings": {"substep": 10}})"), "did you mean 'substeps'?")
+      << "here comes before all";
+  EXPECT_EQ(hint(R"({"objects": [], "sphere": {}})").rfind("it is a member of collider, as 'colliders[].sphere'", 0),
+            0U);
+  EXPECT_EQ(
+      hint(R"({"objects": [{"rope": {"points": [[0, 0, 0], [1, 0, 0]]}, "pins": [{"particles": {"group": "a"}}]}]})"),
+      "known are 'box' and 'nearest'")
       << "the groups of objects, which collide, are no selection";
   EXPECT_EQ(hint(R"({"objects": [{"bodies": [{"solids": [{"sphere": {}}]}], "joints": [
                     {"between": ["world", "body"], "ball": {"anchor": [0, 0, 0], "damping": 1}}]}]})"),
@@ -177,11 +181,12 @@ TEST_F(EveryField, MeetsItsLimits) {
   each_value(scene, Json::json_pointer(), [&](const Json& value, const Json::json_pointer& at) {
     if (!value.is_number()) return;
     const std::string name = at.back();
-    const bool may_be_negative =
-        name.size() == 1 || name == "degrees" || name == "low" || name == "high" || name == "speed" || name == "position" ||
-        name == "lift" || name == "start" || name == "end" || name == "rest" || name == "torque" || name == "force" ||
-        name == "target" ||
-        at.to_string().find("/helix/") != std::string::npos;  // parts of vectors, rest data, joints, balloons, times, coils
+    const bool may_be_negative = name.size() == 1 || name == "degrees" || name == "low" || name == "high" ||
+                                 name == "speed" || name == "position" || name == "lift" || name == "start" ||
+                                 name == "end" || name == "rest" || name == "torque" || name == "force" ||
+                                 name == "target" ||
+                                 at.to_string().find("/helix/") !=
+                                     std::string::npos;  // parts of vectors, rest data, joints, balloons, times, coils
     Json changed = scene;
     changed[at] = -0.001;
     const bool refused = std::string(scene_error(changed.dump()).what()) != "";
@@ -241,12 +246,14 @@ TEST(SceneRefusal, NamesValuesThatContradictEachOther) {
        "/objects/0/pins/1/particles: particle 1 is already pinned"},
       {cloth_with(R"("pins": [{"particles": {"box": {"min": [5, 5, 5], "max": [6, 6, 6]}}}])"),
        "/objects/0/pins/0/particles/box: there is no particle in this box; the one nearest to its centre is 8 at 0.5"},
-      {cloth_with(R"("pins": [{"particles": {"box": {"min": [1, 0, 0], "max": [0, 0, 0]}}}])"), "/box: the box is empty"},
+      {cloth_with(R"("pins": [{"particles": {"box": {"min": [1, 0, 0], "max": [0, 0, 0]}}}])"),
+       "/box: the box is empty"},
       {cloth_with(R"("pins": [{"particles": [0], "motion": {"keyframes": [{"time": 1}, {"time": 1}]}}])"),
        "/objects/0/pins/0/motion/keyframes/1/time: this time is not after the previous one"},
       {cloth_with(R"("static_friction": 0.2, "kinetic_friction": 0.3)"),
        "/objects/0/kinetic_friction: kinetic friction is larger"},
-      {R"({"rope": {"points": [[0, 0, 0], [1, 0, 0]]}, "pins": [{"particles": "corners"}]})", "only a grid has corners"},
+      {R"({"rope": {"points": [[0, 0, 0], [1, 0, 0]]}, "pins": [{"particles": "corners"}]})",
+       "only a grid has corners"},
       {R"({"rope": {"points": [[0, 0, 0], [0, 0, 0]]}})", "object 'rope', /objects/0/rope, "},
       {R"({"particles": {"positions": [[0, 0, 0]], "masses": [1, 2]}})",
        "/objects/0/particles/masses: 2 masses for 1 particles"},
@@ -288,12 +295,13 @@ TEST(SceneRefusal, NamesValuesThatContradictEachOther) {
 
 TEST(SceneRefusal, StopsScenesThatWouldFillTheMemory) {
   std::string object = R"({"particles": {"positions": [[0, 0, 0]], "masses": 1}})";
-  EXPECT_NE(
-      scene_message(R"({"objects": [{"cloth": {"mesh": {"grid": {"columns": 1e9, "rows": 2, "width": 1, "depth": 1}}}}]})"),
-      "");
-  EXPECT_NE(scene_message(R"({"objects": [{"cloth": {"mesh": {"sphere": {"subdivisions": 8}}}}]})"), "");
-  EXPECT_NE(scene_message(R"({"objects": [{"rope": {"line": {"from": [0,0,0], "to": [1,0,0], "points": 2147483647}}}]})"),
+  EXPECT_NE(scene_message(
+                R"({"objects": [{"cloth": {"mesh": {"grid": {"columns": 1e9, "rows": 2, "width": 1, "depth": 1}}}}]})"),
             "");
+  EXPECT_NE(scene_message(R"({"objects": [{"cloth": {"mesh": {"sphere": {"subdivisions": 8}}}}]})"), "");
+  EXPECT_NE(
+      scene_message(R"({"objects": [{"rope": {"line": {"from": [0,0,0], "to": [1,0,0], "points": 2147483647}}}]})"),
+      "");
   EXPECT_EQ(scene_message("{\"objects\": [" + object + "]}"), "");
 }
 
@@ -355,9 +363,11 @@ TEST_F(SceneFiles, InTheSameFolderAreRead) {
 }
 
 TEST_F(SceneFiles, OutsideAreReadOnlyWhereAllowed) {
-  for (const std::string& file : {std::string("../out.obj"), (folder / "out.obj").string(), (folder / "in/a.obj").string(),
-                                  std::string("leaving.obj"), std::string("up/out.obj"), std::string("up/in/../out.obj")}) {
-    EXPECT_NE(problem(file, false).find("leaves the scene's folder"), std::string::npos) << file << problem(file, false);
+  for (const std::string& file :
+       {std::string("../out.obj"), (folder / "out.obj").string(), (folder / "in/a.obj").string(),
+        std::string("leaving.obj"), std::string("up/out.obj"), std::string("up/in/../out.obj")}) {
+    EXPECT_NE(problem(file, false).find("leaves the scene's folder"), std::string::npos)
+        << file << problem(file, false);
     EXPECT_EQ(problem(file, true), "") << file;
   }
 }
@@ -385,7 +395,8 @@ TEST_F(SceneFiles, AreRefusedAsScenesUnlessRegular) {
     return std::string();
   };
   ASSERT_EQ(mkfifo((folder / "pipe.json").c_str(), 0600), 0);
-  EXPECT_EQ(message(folder / "pipe.json"), (folder / "pipe.json").string() + ": not a regular file; name a scene in JSON");
+  EXPECT_EQ(message(folder / "pipe.json"),
+            (folder / "pipe.json").string() + ": not a regular file; name a scene in JSON");
   EXPECT_EQ(message(folder / "none.json"),
             (folder / "none.json").string() +
                 ": the file does not exist; check the path; a relative one starts at the current folder");

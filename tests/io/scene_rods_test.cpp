@@ -40,7 +40,8 @@ TEST(SceneRods, AreReadWithEveryField) {
                                                [](const ConstraintGroup& g) { return g.type == "rod_joint"; });
   EXPECT_EQ(group.stiffness.damping, 0.25f);
   const float expected[6] = {1000, 500, 500, 8, 2, 4};  // over the half metre of a segment
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(group.rest[14 + i] * group.rest[14 + i] * 0.5f, expected[i], 1e-3) << i;
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_NEAR(group.rest[14 + i] * group.rest[14 + i] * 0.5f, expected[i], 1e-3) << i;
 }
 
 std::string rod_message(const std::string& rod) {

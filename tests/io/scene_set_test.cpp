@@ -58,7 +58,8 @@ TEST(SceneSet, RefusesWithThePathAndThePlaceInTheFile) {
   EXPECT_EQ(refusal_of_set({{"/objects/0x/name", "c"}}).find("test:1:13: /objects: there is no item '0x'"), 0u);
   EXPECT_EQ(refusal_of_set({{"/objects/1/name/x", "c"}}),
             "test:3:12: /objects/1/name: this has no member 'x' to set; it is neither an object nor an array");
-  EXPECT_EQ(refusal_of_set({{"settings", "c"}}), "'settings' is no JSON pointer; begin with '/', as in /settings/substeps");
+  EXPECT_EQ(refusal_of_set({{"settings", "c"}}),
+            "'settings' is no JSON pointer; begin with '/', as in /settings/substeps");
   EXPECT_NE(refusal_of_set({{"/setings/substeps", "7"}}).find("'setings' is unknown"), std::string::npos);
   EXPECT_NE(refusal_of_set({{"/settings/substeps", "seven"}}).find("/settings/substeps"), std::string::npos);
 }

@@ -64,7 +64,8 @@ TEST(SceneSoftBodies, HaveASkin) {
   EXPECT_EQ(ball.skin->vertices.size(), 162u);
   const std::vector<Vec3f> skin = skinned(*ball.skin, ball.positions);
   for (const Vec3f& p : skin) EXPECT_NEAR(length_squared(p - Vec3f{-24, 9, 1}), 1, 1e-4);
-  const std::string other = R"({"objects": [{"soft_body": {"tetrahedra": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
+  const std::string other =
+      R"({"objects": [{"soft_body": {"tetrahedra": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
     "skin": {"sphere": {"subdivisions": 1, "radius": 0.5}}}}]})";
   EXPECT_EQ(parse_scene(other, "x.json", ".").objects[0].skin->vertices.size(), 42u);
   const std::string none =
@@ -140,9 +141,10 @@ TEST(SceneSoftBodies, AreRefusedWithAReason) {
 
 TEST(SceneSoftBodies, HaveTheModelThatIsNamed) {
   const auto type_of = [](const std::string& model) {
-    const std::string text = R"({"objects": [{"soft_body": {"tetrahedra": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
+    const std::string text =
+        R"({"objects": [{"soft_body": {"tetrahedra": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
       "material": {"model": ")" +
-                             model + R"("}}}]})";
+        model + R"("}}}]})";
     return parse_scene(text, "x.json", ".").objects.at(0).constraints.at(0).type;
   };
   EXPECT_EQ(type_of("neo_hookean"), "tetrahedron_shear");

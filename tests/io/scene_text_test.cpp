@@ -51,7 +51,8 @@ TEST(SceneText, IsReadableAndCanBeChanged) {
   EXPECT_EQ(tree["objects"][0]["masses"][0], "infinity");
   EXPECT_EQ(tree["objects"][0]["positions"][1].dump(), "[0.1,0,0]");
   EXPECT_EQ(tree["settings"]["sweep"], "automatic");
-  const Scene changed = scene_from_json(with(scene_json(scene), "\"integrator\": \"pbd\"", "\"integrator\": \"energy\""));
+  const Scene changed =
+      scene_from_json(with(scene_json(scene), "\"integrator\": \"pbd\"", "\"integrator\": \"energy\""));
   EXPECT_EQ(changed.settings.integrator, Settings::Integrator::energy);
   EXPECT_EQ(changed.objects[0].masses, scene.objects[0].masses);
 }

@@ -1,4 +1,5 @@
-// Tests the readers of tetrahedral meshes: each format, what is damaged, and every file of real meshes where they are there.
+// Tests the readers of tetrahedral meshes: each format, what is damaged, and every file of real meshes where they are
+// there.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -36,24 +37,29 @@ const std::string medit =
     "MeshVersionFormatted 2\nDimension 3\n# two\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 -2 0\n9 9 9 0\n"
     "Triangles 1\n1 2 3 0\nTetrahedra 2\n1 2 3 4 0\n1 2 3 5 0\nEnd\n";
 const std::string vtk =
-    "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n0 0 0 1 0 0\n0 1 0 0 0 1 0 0 -2 9 9 "
+    "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n0 0 0 1 0 0\n0 1 0 0 0 1 0 0 -2 9 "
+    "9 "
     "9\n"
     "CELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 0 1 2 4\nCELL_TYPES 3\n5\n10\n10\nPOINT_DATA 6\nSCALARS s float\n";
 const std::string vtk_5 =
-    "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n0 0 0 1 0 0 0 1 0 0 0 1 0 0 -2 "
+    "# vtk DataFile Version 5.1\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 double\n0 0 0 1 0 0 0 1 0 0 0 1 0 0 "
+    "-2 "
     "9 9 9\n"
     "CELLS 3 8\nOFFSETS vtktypeint64\n0 4 8\nCONNECTIVITY vtktypeint64\n0 1 2 3 0 1 2 4\nCELL_TYPES 2\n10 10\n";
 const std::string gmsh_2 =
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"a body\"\n$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 1 0 "
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 1 \"a body\"\n$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 "
+    "1 0 "
     "0\n"
     "3 0 1 0\n4 0 0 1\n7 0 0 -2\n9 9 9 9\n$EndNodes\n$Elements\n3\n1 2 2 0 1 1 2 3\n2 4 2 0 1 1 2 3 4\n3 4 0 1 2 3 "
     "7\n$EndElements\n";
 const std::string gmsh_4 =
     "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n2 6 1 9\n2 1 1 2\n1\n2\n0 0 0 0.5 0.5\n1 0 0 0.5 0.5\n3 1 0 "
     "4\n3\n4\n7\n9\n0 1 0\n"
-    "0 0 1\n0 0 -2\n9 9 9\n$EndNodes\n$Elements\n2 3 1 3\n2 1 2 1\n1 1 2 3\n3 1 4 2\n2 1 2 3 4\n3 1 2 3 7\n$EndElements\n";
+    "0 0 1\n0 0 -2\n9 9 9\n$EndNodes\n$Elements\n2 3 1 3\n2 1 2 1\n1 1 2 3\n3 1 4 2\n2 1 2 3 4\n3 1 2 3 "
+    "7\n$EndElements\n";
 const std::string vertex_tet =
-    "Vertex 0 0 0 0\nVertex 1 1 0 0 {rgb=1}\nVertex 2 0 1 0\nVertex 3 0 0 1\nVertex 5 0 0 -2\nVertex 9 9 9 9\nTet 0 0 1 2 "
+    "Vertex 0 0 0 0\nVertex 1 1 0 0 {rgb=1}\nVertex 2 0 1 0\nVertex 3 0 0 1\nVertex 5 0 0 -2\nVertex 9 9 9 9\nTet 0 0 "
+    "1 2 "
     "3\nTet 1 0 1 2 5\n";
 const std::string node =
     "# nodes\n6 3 1 1\n1 0 0 0 7 0\n2 1 0 0 7 0\n3 0 1 0 7 0\n4 0 0 1 7 0\n5 0 0 -2 7 1\n6 9 9 9 7 1\n";
@@ -156,9 +162,10 @@ TEST(TetrahedralFiles, SayWherePartsTouchThatAreNotConnected) {
   const TetrahedralMeshFile file = read_tetrahedral_mesh(write("parts.t", parts));
   EXPECT_EQ(file.mesh.positions.size(), 8u) << "they stay two";
   ASSERT_EQ(file.repairs.size(), 1u);
-  EXPECT_EQ(file.repairs[0],
-            "3 nodes are at positions of nodes of another part, but not connected to it: the parts come apart; merge equal "
-            "nodes if they are one body");
+  EXPECT_EQ(
+      file.repairs[0],
+      "3 nodes are at positions of nodes of another part, but not connected to it: the parts come apart; merge equal "
+      "nodes if they are one body");
   const std::string cracked = replaced(replaced(parts, "4 6 5 7", "4 6 5 3"), "Vertex 7 0 0 -1\n", "");
   for (const std::string& repair : read_tetrahedral_mesh(write("cracked.t", cracked)).repairs)
     EXPECT_EQ(repair.find("part"), std::string::npos) << "they share node 3: " << repair;
@@ -198,7 +205,8 @@ TEST(TetrahedralFiles, ThatAreDamagedAreRefusedWithTheirLine) {
                           "CELL_TYPES 3\n5\n10\n10", "CELL_TYPES 0")},
        "has no tetrahedron"},
       {{"a.vtk", "solid"}, "is no VTK file"},
-      {{"a.vtk", replaced(vtk_5, "0 4 8", "0 9 8")}, "offset 1 is 9; offsets ascend from 0 to the number of corners, 8"},
+      {{"a.vtk", replaced(vtk_5, "0 4 8", "0 9 8")},
+       "offset 1 is 9; offsets ascend from 0 to the number of corners, 8"},
       {{"a.msh", replaced(gmsh_2, "2.2", "4.0")}, ":2: has version '4.0' of the format"},
       {{"a.msh", replaced(gmsh_2, "2 4 2 0 1", "2 5 2 0 1")}, ":20: has elements of type 5"},
       {{"a.msh", replaced(gmsh_2, "2 4 2 0 1", "2 11 2 0 1")}, "Mesh.ElementOrder = 1"},
@@ -238,9 +246,10 @@ TEST(TetrahedralFiles, SayWhereFloatsAreTooCoarse) {
   EXPECT_EQ(read_tetrahedral_mesh(write("near.t", moved("100000", "100001"))).repairs.size(), 2u);
   const std::vector<std::string> notes = read_tetrahedral_mesh(write("far.t", moved("200000", "200001"))).repairs;
   ASSERT_EQ(notes.size(), 3u);
-  EXPECT_EQ(notes[0],
-            "lies 200001 from the origin, where floats are 0.016 apart, 1 % of its mean edge: move it to the origin before "
-            "it is exported");
+  EXPECT_EQ(
+      notes[0],
+      "lies 200001 from the origin, where floats are 0.016 apart, 1 % of its mean edge: move it to the origin before "
+      "it is exported");
   EXPECT_NE(tetrahedra_message(write("farther.t", moved("5000000", "5000000.3")))
                 .find("farther.t: lies 5000000 from the origin, where floats are 0.5 apart, "),
             std::string::npos);

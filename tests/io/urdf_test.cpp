@@ -101,7 +101,8 @@ TEST_F(Urdf, HasTheInertiaOfTheFile) {
   const Object arm = read_urdf(arm_path);
   const Vec3f base = arm.frames[static_cast<std::size_t>(body(arm, "base").frame)].inertia;
   EXPECT_NEAR(base.x + base.y + base.z, 0.09, 1e-6);
-  // The upper link's inertia is turned by 90 degrees about z: Ixx and Iyy change places, as an oracle with the world's axes.
+  // The upper link's inertia is turned by 90 degrees about z: Ixx and Iyy change places, as an oracle with the world's
+  // axes.
   const ObjectFrame& frame = arm.frames[static_cast<std::size_t>(body(arm, "upper").frame)];
   const auto about = [&](const Vec3f& world) {  // n . I n
     const Quatf q{-frame.orientation.x, -frame.orientation.y, -frame.orientation.z, frame.orientation.w};
@@ -206,10 +207,10 @@ std::string warned(const std::string& type, const std::string& in_joint, const s
   const test::Folder folder;
   const std::string inertial = R"(<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial>)";
   const std::string shape = R"(<collision><geometry><sphere radius="0.1"/></geometry></collision>)";
-  test::put(folder / "a.urdf", "<robot name=\"r\">\n<link name=\"a\">" + inertial + shape + "</link>\n<link name=\"b\">" +
-                                   inertial + shape + "</link>\n<joint name=\"j\" type=\"" + type +
-                                   "\"><parent link=\"a\"/><child link=\"b\"/>" + in_joint + "</joint>\n" + after +
-                                   "</robot>\n");
+  test::put(folder / "a.urdf",
+            "<robot name=\"r\">\n<link name=\"a\">" + inertial + shape + "</link>\n<link name=\"b\">" + inertial +
+                shape + "</link>\n<joint name=\"j\" type=\"" + type + "\"><parent link=\"a\"/><child link=\"b\"/>" +
+                in_joint + "</joint>\n" + after + "</robot>\n");
   std::vector<std::string> warnings;
   static_cast<void>(read_urdf(folder / "a.urdf", {}, &warnings));
   std::string all;
@@ -235,13 +236,15 @@ TEST_F(Urdf, SuggestsANameForWhatIsUnknown) {
 std::string gripper(const std::string& first, const std::string& second) {
   const std::string base = R"(<link name="base"><inertial><mass value="1"/>
     <inertia ixx="0.01" iyy="0.01" izz="0.01"/></inertial><collision><geometry><box size="0.1 0.1 0.05"/></geometry></collision></link>)";
-  const auto finger = [](const std::string& name, const std::string& x, const std::string& axis, const std::string& more) {
+  const auto finger = [](const std::string& name, const std::string& x, const std::string& axis,
+                         const std::string& more) {
     return "\n<link name=\"" + name +
            R"("><collision><geometry><box size="0.02 0.03 0.06"/></geometry></collision></link>)" + "<joint name=\"j" +
            name + R"(" type="prismatic"><parent link="base"/><child link=")" + name + "\"/><origin xyz=\"" + x +
            " 0 0.06\"/><axis xyz=\"" + axis + " 0 0\"/>" + more + "</joint>";
   };
-  return "<robot name=\"r\">" + base + finger("l", "-0.04", "1", first) + finger("r", "0.04", "-1", second) + "</robot>";
+  return "<robot name=\"r\">" + base + finger("l", "-0.04", "1", first) + finger("r", "0.04", "-1", second) +
+         "</robot>";
 }
 
 struct Grip {
@@ -316,17 +319,19 @@ TEST_F(Urdf, NamesAMissingMeshOfAPackageByARelativePath) {
   static_cast<void>(read_urdf("a.urdf", options, &warnings));
   std::filesystem::current_path(before);
   ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_EQ(warnings[0],
-            "a.urdf:3: mesh 'package://x/no.stl' of link 'a' is ignored: there is no file './no.stl', and no 'x/no.stl' in "
-            "this folder or one above");
+  EXPECT_EQ(
+      warnings[0],
+      "a.urdf:3: mesh 'package://x/no.stl' of link 'a' is ignored: there is no file './no.stl', and no 'x/no.stl' in "
+      "this folder or one above");
 }
 
 TEST_F(Urdf, RefusesTargetsThatNoMotorReaches) {
   const std::string link = R"(<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
 )";
   for (const std::string type : {"fixed", "planar", "floating"}) {
-    const std::string robot = "<link name=\"a\">" + link + "<link name=\"b\">" + link + "<joint name=\"elbow\" type=\"" +
-                              type + "\"><parent link=\"a\"/><child link=\"b\"/></joint>";
+    const std::string robot = "<link name=\"a\">" + link + "<link name=\"b\">" + link +
+                              "<joint name=\"elbow\" type=\"" + type +
+                              "\"><parent link=\"a\"/><child link=\"b\"/></joint>";
     UrdfOptions options;
     options.targets["elbow"] = 1;
     EXPECT_NE(refused(robot, options).find("a.urdf:4: object 'r': joint 'elbow' is " + type + ", so no motor moves it"),
@@ -349,9 +354,11 @@ TEST_F(Urdf, RefusesTargetsThatNoMotorReaches) {
   };
   const std::vector<std::pair<std::string, std::string>> cases = {
       {R"({"joint": "sholder", "angle": 1})", "the robot has no joint 'sholder'; did you mean 'shoulder'?"},
-      {R"({"joint": "mount", "angle": 1})", "targets/0/joint: joint 'mount' is fixed, so no motor moves it to a target"},
+      {R"({"joint": "mount", "angle": 1})",
+       "targets/0/joint: joint 'mount' is fixed, so no motor moves it to a target"},
       {R"({"joint": "free", "angle": 1})", "targets/0/joint: joint 'free' is floating, so no motor"},
-      {R"({"joint": "grip", "angle": 1})", "targets/0/angle: joint 'grip' is prismatic, so its target is a displacement"},
+      {R"({"joint": "grip", "angle": 1})",
+       "targets/0/angle: joint 'grip' is prismatic, so its target is a displacement"},
       {R"({"joint": "shoulder", "displacement": 1})",
        "targets/0/displacement: joint 'shoulder' is revolute, so its target is an angle; give 'angle' in degrees"}};
   for (const auto& [target, message] : cases)
@@ -366,8 +373,8 @@ TEST_F(Urdf, IsAnObjectOfASceneFile) {
   const std::string targets =
       R"(, "targets": [{"joint": "shoulder", "angle": 90}, {"joint": "grip", "displacement": 0.05}])";
   const Object robot =
-      parse_scene(scene(R"(, "position": [1, 2, 3], "rotation": {"axis": [0, 1, 0], "degrees": 90})" + targets), "x.json",
-                  folder)
+      parse_scene(scene(R"(, "position": [1, 2, 3], "rotation": {"axis": [0, 1, 0], "degrees": 90})" + targets),
+                  "x.json", folder)
           .objects[0];
   UrdfOptions options;
   options.position = {1, 2, 3};
@@ -379,7 +386,8 @@ TEST_F(Urdf, IsAnObjectOfASceneFile) {
   EXPECT_EQ(robot.positions, same.positions);
   EXPECT_EQ(robot.joints.size(), same.joints.size());
   ASSERT_EQ(robot.constraints.size(), same.constraints.size());
-  for (std::size_t i = 0; i < robot.constraints.size(); ++i) EXPECT_EQ(robot.constraints[i].rest, same.constraints[i].rest);
+  for (std::size_t i = 0; i < robot.constraints.size(); ++i)
+    EXPECT_EQ(robot.constraints[i].rest, same.constraints[i].rest);
   EXPECT_THROW(parse_scene(scene(R"(, "targets": [{"joint": "elbow", "angle": 90}])"), "x.json", folder), Error);
   const Object free =
       parse_scene(scene(R"(, "z_up": false, "motors": true, "fixed_base": true)"), "x.json", folder).objects[0];
@@ -400,7 +408,8 @@ TEST_F(Urdf, ReadsNoMeshOutsideItsFolderUnlessPermitted) {
 }
 
 TEST_F(Urdf, RefusesWhatIsNoTreeOrNoRobot) {
-  const std::string link = R"(<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
+  const std::string link =
+      R"(<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>
 )";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"<link name=\"a\">",
@@ -413,13 +422,18 @@ TEST_F(Urdf, RefusesWhatIsNoTreeOrNoRobot) {
       {link + R"(<link name="b"/><joint name="j" type="screw"><parent link="a"/><child link="b"/></joint>)", "'screw'"},
       {link + R"(<joint name="j" type="fixed"><parent link="a"/><child link="a"/></joint>)",
        "a.urdf:3: object 'r': joint 'j' joins link 'a' to itself; name two links"},
-      {R"(<link name="a"><visual><geometry><sphere radius="x"/></geometry></visual></link>)", "a.urdf:2: sphere, radius: "},
+      {R"(<link name="a"><visual><geometry><sphere radius="x"/></geometry></visual></link>)",
+       "a.urdf:2: sphere, radius: "},
       {R"(<link name="a"><visual><geometry><box size="1 1"/></geometry></visual></link>)",
        "a.urdf:2: box, size: needs 3 numbers, has 2"},
-      {R"(<link name="a"><visual><geometry><box size="1,1,1"/></geometry></visual></link>)", "separate numbers by blanks"},
-      {R"(<link name="a"><visual><geometry><box size="1 1 1 1"/></geometry></visual></link>)", "needs 3 numbers, has 4"},
-      {R"(<link name="a"><inertial><mass value="1"/><inertia ixx="-1" iyy="1" izz="1"/></inertial></link>)", "a.urdf:2: "},
-      {link + R"(<link name="b"/><link name="c"/><joint name="j" type="fixed"><parent link="b"/><child link="c"/></joint>
+      {R"(<link name="a"><visual><geometry><box size="1,1,1"/></geometry></visual></link>)",
+       "separate numbers by blanks"},
+      {R"(<link name="a"><visual><geometry><box size="1 1 1 1"/></geometry></visual></link>)",
+       "needs 3 numbers, has 4"},
+      {R"(<link name="a"><inertial><mass value="1"/><inertia ixx="-1" iyy="1" izz="1"/></inertial></link>)",
+       "a.urdf:2: "},
+      {link +
+           R"(<link name="b"/><link name="c"/><joint name="j" type="fixed"><parent link="b"/><child link="c"/></joint>
 <joint name="k" type="fixed"><parent link="c"/><child link="b"/></joint>)",
        "a.urdf:3: object 'r': joints 'j' and 'k' form a loop"},
       {R"(<link name="a"><inertial><mass value="-1"/><inertia ixx="1" iyy="1" izz="1"/></inertial></link>)",

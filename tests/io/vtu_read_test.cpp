@@ -1,4 +1,5 @@
-// Reads .vtu files in all encodings. The base64 and the compressed blocks were made by Python's base64 and zlib, from the numbers of `as_text`.
+// Reads .vtu files in all encodings. The base64 and the compressed blocks were made by Python's base64 and zlib, from
+// the numbers of `as_text`.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -17,7 +18,9 @@ namespace {
 using test::replaced;
 using test::tetrahedra_message;
 
-std::string write_vtu(const std::string& name, const std::string& text) { return test::write_temporary("vtu", name, text); }
+std::string write_vtu(const std::string& name, const std::string& text) {
+  return test::write_temporary("vtu", name, text);
+}
 
 /// A triangle, and two tetrahedra of volumes 1/6 and 1/3; the second is inside out. The last point is in none.
 const std::string as_text =
@@ -80,7 +83,8 @@ const std::string big_end_first =
     "AAAAAAAAAEgAAAAAAAAAAAAAAAA/gAAAAAAAAAAAAAAAAAAAP4AAAAAAAAAAAAAAAAAAAD+AAAAAAAAAAAAAAMAAAABBEAAAQRAAAEEQAAA=\n"
     "</DataArray></Points>\n"
     "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"binary\">\n"
-    "AAAAAAAAAFgAAAAAAAAAAAAAAAAAAAABAAAAAAAAAAIAAAAAAAAAAAAAAAAAAAABAAAAAAAAAAIAAAAAAAAAAwAAAAAAAAAAAAAAAAAAAAEAAAAAAAAAAg"
+    "AAAAAAAAAFgAAAAAAAAAAAAAAAAAAAABAAAAAAAAAAIAAAAAAAAAAAAAAAAAAAABAAAAAAAAAAIAAAAAAAAAAwAAAAAAAAAAAAAAAAAAAAEAAAAAAA"
+    "AAAg"
     "AAAAAAAAAE\n"
     "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"binary\">\n"
     "AAAAAAAAABgAAAAAAAAAAwAAAAAAAAAHAAAAAAAAAAs=\n"
@@ -98,15 +102,18 @@ const std::string appended_compressed =
     "<Piece NumberOfPoints=\"6\" NumberOfCells=\"3\">\n"
     "<PointData/>\n"
     "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></Points>\n"
-    "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"appended\" offset=\"180\"/><DataArray type=\"Int64\" "
+    "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"appended\" offset=\"180\"/><DataArray "
+    "type=\"Int64\" "
     "Name=\"offsets\" format=\"appended\" offset=\"376\"/><DataArray type=\"UInt8\" Name=\"types\" format=\"appended\" "
     "offset=\"468\"/></Cells>\n"
     "</Piece>\n"
     "</UnstructuredGrid>\n"
     "<AppendedData encoding=\"base64\">\n"
     "_BQAAAAAAAAAQAAAAAAAAAAgAAAAAAAAADQAAAAAAAAANAAAAAAAAAA0AAAAAAAAAEAAAAAAAAAAOAAAAAAAAAA=="
-    "eJxjYEAGDfYAAU8AwHicY2BABg32AAFPAMB4nGNgQAYN9gABTwDAeJxjYICDAwwMAo4ABDEBEnicY2AQcGQAYgACDgCjBgAAAAAAAAAQAAAAAAAAAAgAAA"
-    "AAAAAADgAAAAAAAAALAAAAAAAAAA4AAAAAAAAACwAAAAAAAAAOAAAAAAAAAAsAAAAAAAAAeJxjYIAARigNAAAYAAJ4nGNiQAUAADAAA3icY2SAACYoDQAA"
+    "eJxjYEAGDfYAAU8AwHicY2BABg32AAFPAMB4nGNgQAYN9gABTwDAeJxjYICDAwwMAo4ABDEBEnicY2AQcGQAYgACDgCjBgAAAAAAAAAQAAAAAAAAAA"
+    "gAAA"
+    "AAAAAADgAAAAAAAAALAAAAAAAAAA4AAAAAAAAACwAAAAAAAAAOAAAAAAAAAAsAAAAAAAAAeJxjYIAARigNAAAYAAJ4nGNiQAUAADAAA3icY2SAACYo"
+    "DQAA"
     "MAAEeJxjZkAFAABAAAR4nGNkgAAmKA0AADAABHicY2GAAAAAKAAFAgAAAAAAAAAQAAAAAAAAAAgAAAAAAAAADgAAAAAAAAALAAAAAAAAAA=="
     "eJxjZoAAdigNAAB4AAt4nONmgAAAAGAADA==AQAAAAAAAAAQAAAAAAAAAAMAAAAAAAAACwAAAAAAAAA=eJxj5eICAAAwABo=\n"
     "</AppendedData>\n"
@@ -128,15 +135,16 @@ std::string raw() {
       text =
           "<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\" header_type=\"UInt32\"><UnstructuredGrid>"
           "<Piece NumberOfPoints=\"6\" NumberOfCells=\"3\">";
-  const char* const heads[] = {"<Points><DataArray type=\"Float32\"",
-                               "<Cells><DataArray type=\"Int32\" Name=\"connectivity\"",
-                               "<DataArray type=\"Int32\" Name=\"offsets\"", "<DataArray type=\"UInt8\" Name=\"types\""};
+  const char* const heads[] = {
+      "<Points><DataArray type=\"Float32\"", "<Cells><DataArray type=\"Int32\" Name=\"connectivity\"",
+      "<DataArray type=\"Int32\" Name=\"offsets\"", "<DataArray type=\"UInt8\" Name=\"types\""};
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     text += std::string(heads[i]) + " format=\"appended\" offset=\"" + std::to_string(data.size()) + "\"/>";
     if (i == 0) text += "</Points>";
     data += bytes_of<std::uint32_t>({static_cast<std::uint32_t>(arrays[i].size())}) + arrays[i];
   }
-  return text + "</Cells></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_" + data + "</AppendedData></VTKFile>";
+  return text + "</Cells></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_" + data +
+         "</AppendedData></VTKFile>";
 }
 
 /// Medit's binary format, of each version: places and counts of 32 or 64 bits, floats or doubles.

@@ -111,7 +111,8 @@ TEST(WriteBodies, AsSurfacesInEveryFormatWithoutBodies) {
   static_cast<void>(written(scene, folder / "run.pc2", 2));
   EXPECT_EQ(value_at<int>(test::read(folder / "run.pc2"), 16), static_cast<int>(3 + vertices));
   static_cast<void>(written(scene, folder / "run.ply", 1));
-  EXPECT_NE(test::read(folder / "run_0000.ply").find("element vertex " + std::to_string(3 + vertices)), std::string::npos);
+  EXPECT_NE(test::read(folder / "run_0000.ply").find("element vertex " + std::to_string(3 + vertices)),
+            std::string::npos);
   static_cast<void>(written(scene, folder / "run.pvd", 1));
   EXPECT_NE(test::read(folder / "run/heap_0000.vtp").find("NumberOfPoints=\"" + std::to_string(vertices) + '"'),
             std::string::npos);

@@ -245,7 +245,8 @@ TEST(Vtp, HoldsEveryFrameAndObject) {
 TEST(Vtp, WritesLinesAndPoints) {
   const Folder folder;
   test::write_sample(folder / "run.pvd", 1);
-  const std::string rope = test::read(folder / "run/rope_0000.vtp"), points = test::read(folder / "run/rope_2_0000.vtp");
+  const std::string rope = test::read(folder / "run/rope_0000.vtp"),
+                    points = test::read(folder / "run/rope_2_0000.vtp");
   EXPECT_TRUE(well_formed(rope));
   EXPECT_TRUE(well_formed(points));
   EXPECT_NE(rope.find("NumberOfLines=\"1\""), std::string::npos);

@@ -66,7 +66,8 @@ TEST(WriteLiquid, SurfacesReadBackInEachFrame) {
     MeshReadOptions as_it_is;
     as_it_is.merge_duplicates = as_it_is.drop_degenerate = as_it_is.drop_isolated = false;
     for (std::size_t frame = 0; frame < 3; ++frame) {
-      const TriangleMesh read = read_mesh_file(folder / ("run_000" + std::to_string(frame) + "." + suffix), as_it_is).mesh;
+      const TriangleMesh read =
+          read_mesh_file(folder / ("run_000" + std::to_string(frame) + "." + suffix), as_it_is).mesh;
       EXPECT_EQ(read.positions, surfaces[frame].positions) << suffix << ", frame " << frame;
       EXPECT_EQ(read.triangles, surfaces[frame].triangles) << suffix << ", frame " << frame;
     }
@@ -102,8 +103,9 @@ TEST(WriteLiquid, SurfacesAsMeshOfUsdWithSamplesOfItsTriangles) {
   const std::string water = text.substr(prim, text.find("\n    }\n", prim) - prim);
   const int triangles = static_cast<int>(surfaces[0].triangles.size() + surfaces[1].triangles.size());
   const int vertices = static_cast<int>(surfaces[0].positions.size() + surfaces[1].positions.size());
-  EXPECT_EQ(occurrences(samples(water, "faceVertexCounts"), "3, ") + occurrences(samples(water, "faceVertexCounts"), "3]"),
-            triangles);
+  EXPECT_EQ(
+      occurrences(samples(water, "faceVertexCounts"), "3, ") + occurrences(samples(water, "faceVertexCounts"), "3]"),
+      triangles);
   // One comma after each number, and one after each sample, less those at the end of a list.
   EXPECT_EQ(occurrences(samples(water, "faceVertexIndices"), ","), 3 * triangles);
   EXPECT_EQ(occurrences(samples(water, "points"), "("), vertices);

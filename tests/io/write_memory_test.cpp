@@ -77,7 +77,8 @@ TEST(FrameWriterInMemory, GivesTheBytesOfTheFiles) {
 TEST(FrameWriterInMemory, NeedsNoFolder) {
   for (const std::string suffix : all_suffixes) {
     int files = 0;
-    write_frames("/missing/run." + suffix, {.sink = [&](const std::string&, const std::vector<std::byte>&) { ++files; }});
+    write_frames("/missing/run." + suffix,
+                 {.sink = [&](const std::string&, const std::vector<std::byte>&) { ++files; }});
     EXPECT_GE(files, 1) << suffix;
   }
 }

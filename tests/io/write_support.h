@@ -34,7 +34,8 @@ class Folder {
   /// The names of the files in the folder, sorted.
   std::vector<std::string> names() const {
     std::vector<std::string> result;
-    for (const auto& entry : std::filesystem::directory_iterator(path_)) result.push_back(entry.path().filename().string());
+    for (const auto& entry : std::filesystem::directory_iterator(path_))
+      result.push_back(entry.path().filename().string());
     std::sort(result.begin(), result.end());
     return result;
   }
@@ -77,11 +78,14 @@ inline output::Objects sample_objects() {
 /// Frame k of these objects: the sheet rises by k, the rope swings.
 inline output::Frame sample_frame(int k) {
   const auto f = static_cast<float>(k);
-  return {
-      k / 60.,
-      {{{0, f, 0}, {1, f, 0}, {0, f, 1}, {1, f + 0.1f, 1}}, {{0, 2, 0}, {f, 1, 0}, {2 * f, 0, 0}}, {{5, 5, f}, {6, 6, f}}},
-      {{{0, 60, 0}, {0, 60, 0}, {0, 60, 0}, {0, 60, 0}}, {{0, 0, 0}, {60, 0, 0}, {120, 0, 0}}, {{0, 0, 60}, {0, 0, 60}}},
-      k};
+  return {k / 60.,
+          {{{0, f, 0}, {1, f, 0}, {0, f, 1}, {1, f + 0.1f, 1}},
+           {{0, 2, 0}, {f, 1, 0}, {2 * f, 0, 0}},
+           {{5, 5, f}, {6, 6, f}}},
+          {{{0, 60, 0}, {0, 60, 0}, {0, 60, 0}, {0, 60, 0}},
+           {{0, 0, 0}, {60, 0, 0}, {120, 0, 0}},
+           {{0, 0, 60}, {0, 0, 60}}},
+          k};
 }
 
 /// Writes `frames` frames of these objects to `path`.

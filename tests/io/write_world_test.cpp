@@ -135,7 +135,8 @@ TEST(FrameWriter, WritesThePiecesOfARopeThatBroke) {
   EXPECT_EQ(test::occurrences(test::read(folder / "run/rope_0001.vtp"), "NumberOfLines=\"2\""), 1);
   const std::string usd = test::read(folder / "run.usda");
   EXPECT_EQ(
-      test::occurrences(usd, "int[] curveVertexCounts.timeSamples = {\n            0: [4],\n            1: [2, 2],\n"), 1);
+      test::occurrences(usd, "int[] curveVertexCounts.timeSamples = {\n            0: [4],\n            1: [2, 2],\n"),
+      1);
 }
 
 /// The lines of a .glb do not change: the two ends of the link that broke come together.

@@ -29,7 +29,8 @@ double drift(const Mechanism& m, int links) {
 }
 
 struct ChainResult {
-  double drift = 0, gain = 0, end = 0;  ///< [m]; of energy, the largest and last, as shares of what all weight could gain
+  double drift = 0, gain = 0,
+         end = 0;  ///< [m]; of energy, the largest and last, as shares of what all weight could gain
 };
 
 ChainResult run_chain(int links, float end_mass, int substeps, double seconds) {
@@ -99,7 +100,8 @@ TEST(JointChains, ATreeWithAMotorAndALimitKeepsItsJoints) {
   const auto hinge = [&](int a, int b, float x) {
     return HingeJoint{.a = a, .b = b, .anchor = {x, 0, 0}, .axis = {0, 0, 1}};
   };
-  const int upper = m.box({0.25f, 0, 0}, 2, {0.25f, 0.05f, 0.05f}), lower = m.box({0.75f, 0, 0}, 1, {0.25f, 0.05f, 0.05f}),
+  const int upper = m.box({0.25f, 0, 0}, 2, {0.25f, 0.05f, 0.05f}),
+            lower = m.box({0.75f, 0, 0}, 1, {0.25f, 0.05f, 0.05f}),
             left = m.box({1.1f, 0, 0.1f}, 0.1f, {0.1f, 0.02f, 0.02f}),
             right = m.box({1.1f, 0, -0.1f}, 0.1f, {0.1f, 0.02f, 0.02f});
   HingeJoint shoulder = hinge(-1, upper, 0), elbow = hinge(upper, lower, 0.5f);

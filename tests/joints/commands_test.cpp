@@ -26,7 +26,8 @@ struct Arm : Mechanism {
     add_joint(object, HingeJoint{.b = upper, .motor = servo, .options = {.name = "shoulder"}});
     add_joint(
         object,
-        HingeJoint{.a = upper, .b = lower, .anchor = {upper_length, 0, 0}, .motor = servo, .options = {.name = "elbow"}});
+        HingeJoint{
+            .a = upper, .b = lower, .anchor = {upper_length, 0, 0}, .motor = servo, .options = {.name = "elbow"}});
     start();
   }
   Vec3d tip() const { return place(lower, {upper_length + lower_length, 0, 0}); }
@@ -60,7 +61,8 @@ TEST(MotorCommands, AnArmFollowsACircle) {
     const double time = frame / 60.;
     command(arm, time);
     arm.run(1 / 60.);
-    // A position motor follows a moving target with a lag of one over its rate; a frame is between command and comparison.
+    // A position motor follows a moving target with a lag of one over its rate; a frame is between command and
+    // comparison.
     const double late = 1 / 30. + 1 / 60.;
     if (time < 1.5) continue;
     EXPECT_LT(length(arm.tip() - course(time + 1 / 60. - late)), 0.01) << time;
@@ -169,7 +171,8 @@ TEST(MotorCommands, WrongOnesAreNamed) {
     return std::string();
   };
   EXPECT_EQ(refusal("nose", {}), "object 'mechanism', joint 'nose': does not exist; name one of 'plain', 'two'");
-  EXPECT_EQ(refusal("plain", {}), "object 'mechanism', joint 'plain': has no motor; describe one when you add the joint");
+  EXPECT_EQ(refusal("plain", {}),
+            "object 'mechanism', joint 'plain': has no motor; describe one when you add the joint");
   EXPECT_EQ(refusal("two", {}),
             "object 'mechanism', joint 'two': has several motors; name one of 'slide_motor', 'turn_motor'");
   EXPECT_EQ(refusal("two", {.motor = "motor"}),
@@ -185,7 +188,8 @@ TEST(MotorCommands, WrongOnesAreNamed) {
 
 // ---------------------------------------------------------------- edits
 
-/// Removes the first of three bodies, which spin differently: the others keep their orientations and angular velocities.
+/// Removes the first of three bodies, which spin differently: the others keep their orientations and angular
+/// velocities.
 TEST(BodyEdits, BodiesAfterARemovedOneKeepTheirOrientations) {
   Mechanism m;
   m.scene.gravity = {};

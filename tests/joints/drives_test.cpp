@@ -1,4 +1,5 @@
-// What drives joints beside motors of a speed or position: springs on every axis, torques and forces, targets by keyframes.
+// What drives joints beside motors of a speed or position: springs on every axis, torques and forces, targets by
+// keyframes.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -1,4 +1,5 @@
-// Tests wheels that turn by radians in a substep: a bearing that stands still neither speeds them up nor slows them down.
+// Tests wheels that turn by radians in a substep: a bearing that stands still neither speeds them up nor slows them
+// down.
 #include <gtest/gtest.h>
 
 #include <algorithm>

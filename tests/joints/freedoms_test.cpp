@@ -1,5 +1,5 @@
-// Tests of every joint of two bodies in the same way: what is free moves as it would without the joint, what is locked stays;
-// then limits, motors and friction of the joints with two freedoms or more.
+// Tests of every joint of two bodies in the same way: what is free moves as it would without the joint, what is locked
+// stays; then limits, motors and friction of the joints with two freedoms or more.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -12,7 +12,8 @@ namespace {
 
 using namespace testing_support;
 
-/// A cube, whose inertia is the same about all axes, with the joint at its centre: displacement and rotation are then independent.
+/// A cube, whose inertia is the same about all axes, with the joint at its centre: displacement and rotation are then
+/// independent.
 struct Cube : Mechanism {
   static constexpr float half = 0.2f, mass = 2;
   static constexpr Vec3f start{1, 2, 3};
@@ -216,7 +217,8 @@ TEST(JointFreedoms, MotorsOfSixAxesMoveAndTurnItsBody) {
   }
 }
 
-/// A motor of `most` that is asked for more speed than it can reach gives the acceleration most / mass, or most / inertia.
+/// A motor of `most` that is asked for more speed than it can reach gives the acceleration most / mass, or most /
+/// inertia.
 TEST(JointFreedoms, AMotorGivesTheAccelerationOfItsLimit) {
   const JointMotor weak{.kind = JointMotor::Kind::speed, .target = 1000, .most = 0.1f};
   const double seconds = 0.5, force = 0.1;
@@ -262,15 +264,17 @@ TEST(JointFreedoms, FrictionTakesTheMomentumAtItsRate) {
   EXPECT_NEAR(m.spin(m.body).y, 2 - torque / Cube::inertia() * seconds, 1e-3);
 }
 
-/// Where one angle of a universal joint is half a turn, the other cannot be measured (twist_of); a body that passes there often,
-/// with friction about both axes, keeps its joint and gains no energy.
+/// Where one angle of a universal joint is half a turn, the other cannot be measured (twist_of); a body that passes
+/// there often, with friction about both axes, keeps its joint and gains no energy.
 TEST(JointFreedoms, AUniversalJointWithFrictionPassesHalfATurn) {
   Mechanism m;
   const int b = m.box({0, -1, 0}, 1, {0.1f, 0.1f, 0.1f}, {9, 0, 0.3f}, {0, 0, 9});
-  add_joint(
-      m.object,
-      UniversalJoint{
-          .b = b, .anchor = {0, 0, 0}, .axis_a = {0, 0, 1}, .axis_b = {1, 0, 0}, .friction_a = 0.02f, .friction_b = 0.02f});
+  add_joint(m.object, UniversalJoint{.b = b,
+                                     .anchor = {0, 0, 0},
+                                     .axis_a = {0, 0, 1},
+                                     .axis_b = {1, 0, 0},
+                                     .friction_a = 0.02f,
+                                     .friction_b = 0.02f});
   m.start();
   const auto energy = [&] { return m.world->measure().kinetic_energy() + m.world->measure().potential_energy(); };
   const double start = energy();
@@ -313,7 +317,8 @@ TEST(JointFreedoms, ARangeOfDistancesIsFreeBetweenItsEnds) {
   }
 }
 
-/// A spring acts along its line alone, with the frequency of its stiffness; a body that its anchor is the centre of spins freely.
+/// A spring acts along its line alone, with the frequency of its stiffness; a body that its anchor is the centre of
+/// spins freely.
 TEST(JointFreedoms, ASpringOscillatesAtItsFrequencyAndLeavesTheRestFree) {
   Cube m({0.5f, 0, 0}, {0, 3, 0});
   m.scene.gravity = {};
@@ -321,12 +326,14 @@ TEST(JointFreedoms, ASpringOscillatesAtItsFrequencyAndLeavesTheRestFree) {
   const double stiffness = 80, rate = std::sqrt(stiffness / double(Cube::mass));
   add_joint(
       m.object,
-      SpringJoint{.b = m.body, .anchor_a = {0, 2, 3}, .anchor_b = Cube::start, .stiffness = static_cast<float>(stiffness)});
+      SpringJoint{
+          .b = m.body, .anchor_a = {0, 2, 3}, .anchor_b = Cube::start, .stiffness = static_cast<float>(stiffness)});
   for (int frame = 1; frame <= 60; ++frame) {
     m.run(1 / 60.);
     // The implicit spring loses rate^2 h / 2 of its amplitude a second.
     const double seconds = frame / 60., lost = rate * rate / 6000 / 2 * seconds;
-    EXPECT_LT(length(m.moved() - Vec3d{0.5 / rate * std::sin(rate * seconds), 0, 0}), 0.5 / rate * (lost + 2e-3)) << frame;
+    EXPECT_LT(length(m.moved() - Vec3d{0.5 / rate * std::sin(rate * seconds), 0, 0}), 0.5 / rate * (lost + 2e-3))
+        << frame;
   }
   EXPECT_LT(length(m.turned(m.body) - Vec3d{0, 3, 0}), 1e-3);
 }
@@ -334,11 +341,14 @@ TEST(JointFreedoms, ASpringOscillatesAtItsFrequencyAndLeavesTheRestFree) {
 /// The rope of a pulley only pulls: weights that both move upwards are free, and one that falls alone is caught.
 TEST(JointFreedoms, ARopeOverPulleysIsSlackUntilItIsLongEnough) {
   Mechanism m;
-  const int a = m.box({-1, 0, 0}, 1, {0.1f, 0.1f, 0.1f}, {0, 2, 0}), b = m.box({1, 0, 0}, 1, {0.1f, 0.1f, 0.1f}, {0, 2, 0});
-  add_joint(
-      m.object,
-      PulleyJoint{
-          .a = a, .b = b, .anchor_a = {-1, 0, 0}, .anchor_b = {1, 0, 0}, .pulley_a = {-1, 5, 0}, .pulley_b = {1, 5, 0}});
+  const int a = m.box({-1, 0, 0}, 1, {0.1f, 0.1f, 0.1f}, {0, 2, 0}),
+            b = m.box({1, 0, 0}, 1, {0.1f, 0.1f, 0.1f}, {0, 2, 0});
+  add_joint(m.object, PulleyJoint{.a = a,
+                                  .b = b,
+                                  .anchor_a = {-1, 0, 0},
+                                  .anchor_b = {1, 0, 0},
+                                  .pulley_a = {-1, 5, 0},
+                                  .pulley_b = {1, 5, 0}});
   m.run(0.2);
   for (const int body : {a, b}) EXPECT_NEAR(m.pose(body).position.y, 0.4 - gravity * 0.02, 0.01);
   m.run(2);
@@ -371,7 +381,8 @@ TEST(JointFreedoms, WrongRangesAndAxesAreNamed) {
 TEST(JointFreedoms, APlaneNeedsItsXForLimits) {
   Cube m;
   const auto refusal = [&](const PlanarJoint& joint) { return problem_of(m.object, joint); };
-  EXPECT_EQ(refusal({.b = m.body, .x_limit = joint_range}), "has limits, motors or springs in its plane, but no axis_x");
+  EXPECT_EQ(refusal({.b = m.body, .x_limit = joint_range}),
+            "has limits, motors or springs in its plane, but no axis_x");
   EXPECT_EQ(refusal({.b = m.body, .axis_x = Vec3f{1, 1, 0}}), "has an axis_x that is not in its plane");
   EXPECT_EQ(refusal({.b = m.body, .turn_limit = joint_range}), "");
 }

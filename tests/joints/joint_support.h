@@ -74,7 +74,9 @@ struct Mechanism {
             normalise(convert<double>(object.frames[static_cast<std::size_t>(of.frame)].orientation))};
   }
   /// Where a point of a body is now that was at `start` at time 0.
-  Vec3d place(int body, const Vec3f& start) const { return to_world(pose(body), to_local(start_pose(body), wide(start))); }
+  Vec3d place(int body, const Vec3f& start) const {
+    return to_world(pose(body), to_local(start_pose(body), wide(start)));
+  }
   /// The rotation of a body since time 0 as a vector in world axes, up to pi long [rad].
   Vec3d turned(int body) const {
     Quatd q = multiply(pose(body).rotation, conjugate(start_pose(body).rotation));
@@ -83,12 +85,13 @@ struct Mechanism {
     return Vec3d{q.x, q.y, q.z} * (sine > 0 ? 2 * std::atan2(sine, q.w) / sine : 0);
   }
   Vec3d velocity(int body) const {
-    return wide(
-        world->object(0).velocities()[static_cast<std::size_t>(object.bodies[static_cast<std::size_t>(body)].particle)]);
+    return wide(world->object(0)
+                    .velocities()[static_cast<std::size_t>(object.bodies[static_cast<std::size_t>(body)].particle)]);
   }
   Vec3d spin(int body) const {
-    return wide(world->object(0)
-                    .angular_velocities()[static_cast<std::size_t>(object.bodies[static_cast<std::size_t>(body)].frame)]);
+    return wide(
+        world->object(0)
+            .angular_velocities()[static_cast<std::size_t>(object.bodies[static_cast<std::size_t>(body)].frame)]);
   }
 };
 
@@ -97,7 +100,8 @@ inline double energy(const Mechanism& m) {
   return m.world->measure().kinetic_energy() + m.world->measure().potential_energy();
 }
 
-/// The body of link `i` of a chain that hangs from the world, which is the second body, since it is added with the first joint.
+/// The body of link `i` of a chain that hangs from the world, which is the second body, since it is added with the
+/// first joint.
 inline int body_of_link(int i) { return i == 0 ? 0 : i + 1; }
 
 /// The moment of inertia of a box about an axis through its centre that is perpendicular to sides 2a and 2b.

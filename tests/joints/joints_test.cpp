@@ -134,8 +134,8 @@ TEST(Joints, APlanarJointKeepsItsPlane) {
   EXPECT_LT(length(m.turned(b) - Vec3d{0, 2, 0}), 2e-3);
 }
 
-/// Two shafts along x and bent by `bend` about z meet in a universal joint; the speed of the second over that of the first
-/// when the first has turned by `angle` from where its fork lies in the plane of the bend.
+/// Two shafts along x and bent by `bend` about z meet in a universal joint; the speed of the second over that of the
+/// first when the first has turned by `angle` from where its fork lies in the plane of the bend.
 TEST(Joints, AUniversalJointTurnsAShaftAtTheKnownRatio) {
   const double bend = 0.5;
   Mechanism m;
@@ -151,9 +151,9 @@ TEST(Joints, AUniversalJointTurnsAShaftAtTheKnownRatio) {
   shaft.motor = JointMotor{.kind = JointMotor::Kind::speed, .target = 2, .most = 1000};
   add_joint(m.object, shaft);
   add_joint(m.object, HingeJoint{.b = second, .anchor = along, .axis = along});
-  add_joint(
-      m.object,
-      UniversalJoint{.a = first, .b = second, .anchor = {0, 0, 0}, .axis_a = {0, 0, 1}, .axis_b = {-along.y, along.x, 0}});
+  add_joint(m.object,
+            UniversalJoint{
+                .a = first, .b = second, .anchor = {0, 0, 0}, .axis_a = {0, 0, 1}, .axis_b = {-along.y, along.x, 0}});
   m.iterations = 20;
   m.run(0.5);
   for (int frame = 0; frame < 60; ++frame) {
@@ -179,7 +179,8 @@ TEST(Joints, ARodKeepsItsLengthAndARopeOnlyPulls) {
 TEST(Joints, ASpringCarriesAWeightWhereItsForceIsTheWeight) {
   Mechanism m;
   const int b = m.box({0, -1, 0}, 2);
-  add_joint(m.object, SpringJoint{.b = b, .anchor_a = {0, 0, 0}, .anchor_b = {0, -1, 0}, .stiffness = 200, .damping = 40});
+  add_joint(m.object,
+            SpringJoint{.b = b, .anchor_a = {0, 0, 0}, .anchor_b = {0, -1, 0}, .stiffness = 200, .damping = 40});
   m.run(5);
   EXPECT_NEAR(m.pose(b).position.y, -1 - 2 * gravity / 200, 1e-3);
 }
@@ -188,10 +189,12 @@ TEST(Joints, WeightsOverAPulleyAccelerateAsAtwoodFound) {
   Mechanism m;
   m.substeps = 50;
   const int a = m.box({-1, 0, 0}, 3), b = m.box({1, 0, 0}, 2);
-  add_joint(
-      m.object,
-      PulleyJoint{
-          .a = a, .b = b, .anchor_a = {-1, 0, 0}, .anchor_b = {1, 0, 0}, .pulley_a = {-1, 5, 0}, .pulley_b = {1, 5, 0}});
+  add_joint(m.object, PulleyJoint{.a = a,
+                                  .b = b,
+                                  .anchor_a = {-1, 0, 0},
+                                  .anchor_b = {1, 0, 0},
+                                  .pulley_a = {-1, 5, 0},
+                                  .pulley_b = {1, 5, 0}});
   m.run(1);
   const double known = 0.5 * gravity * (3 - 2) / (3. + 2);
   EXPECT_NEAR(m.pose(b).position.y, known, 0.02 * known);

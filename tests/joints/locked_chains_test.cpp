@@ -1,5 +1,5 @@
-// Tests chains whose joints hold angles, by themselves, at stops or by friction: they neither gain energy nor burst. In single
-// precision they did, since the smallest eigenvalues of such a chain fall with the fourth power of its length.
+// Tests chains whose joints hold angles, by themselves, at stops or by friction: they neither gain energy nor burst. In
+// single precision they did, since the smallest eigenvalues of such a chain fall with the fourth power of its length.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,9 +100,10 @@ TEST(LockedChains, FrictionHoldsThem) {
 TEST(LockedChains, StrongMotorsBendAnArm) {
   JointMotor motor{.target = 0.349f, .most = 1000, .rate = 20};
   motor.kind = JointMotor::Kind::position;
-  Mechanism m = chain({std::vector<float>(12, 0.72f), 0.1f, [&](Object& object, int a, int b, const Vec3f& anchor) {
-                         add_joint(object, HingeJoint{.a = a, .b = b, .anchor = anchor, .axis = {0, 1, 0}, .motor = motor});
-                       }});
+  Mechanism m =
+      chain({std::vector<float>(12, 0.72f), 0.1f, [&](Object& object, int a, int b, const Vec3f& anchor) {
+               add_joint(object, HingeJoint{.a = a, .b = b, .anchor = anchor, .axis = {0, 1, 0}, .motor = motor});
+             }});
   m.run(4);
   EXPECT_NEAR(length(m.turned(body_of_link(11)) - Vec3d{0, 12 * 0.349 - 2 * pi, 0}), 0, 0.05);
 }

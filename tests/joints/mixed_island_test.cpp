@@ -1,4 +1,5 @@
-// A long chain with a heavy end whose joints are balls and hinges with limits, motors and friction, and which touches what is in its way.
+// A long chain with a heavy end whose joints are balls and hinges with limits, motors and friction, and which touches
+// what is in its way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,8 +11,8 @@ namespace {
 
 using namespace testing_support;
 
-/// Links of 1 kg along x from the origin; of three joints one is a ball, one a hinge with a range, one a hinge with a motor that
-/// resists, and friction.
+/// Links of 1 kg along x from the origin; of three joints one is a ball, one a hinge with a range, one a hinge with a
+/// motor that resists, and friction.
 struct MixedChain : Mechanism {
   std::vector<int> links;
 

@@ -46,7 +46,8 @@ double creep(const Scene& scene) {
   return most;
 }
 
-/// The orientation's rounding at the arm from the first centre to the second, in every substep in the same direction [m].
+/// The orientation's rounding at the arm from the first centre to the second, in every substep in the same direction
+/// [m].
 double largest_rounding() { return 0.42 * std::ldexp(1., -24) * substeps * frames; }
 
 TEST(JointedBodiesAtRest, StayWithABallJoint) {
@@ -66,8 +67,8 @@ TEST(JointedBodiesAtRest, StayWithAFixedJoint) {
             largest_rounding());
 }
 
-/// A small plate fixed to the world, on whose end a box a hundred times as heavy rests: its push would turn the plate by more than a
-/// quarter of a radian in a substep, if no joint held it.
+/// A small plate fixed to the world, on whose end a box a hundred times as heavy rests: its push would turn the plate
+/// by more than a quarter of a radian in a substep, if no joint held it.
 Object heavy_load() {
   Object object;
   object.name = "load";

@@ -47,7 +47,8 @@ TEST(Stops, HoldAgainstTheMotorOfTheSameSlider) {
     Object cart;
     cart.name = "cart";
     add_body(cart, {{Box{{0.1f, 0.1f, 0.1f}}}}, {.mass = 10});
-    add_joint(cart, SliderJoint{.b = 0, .limit = JointRange{-0.2f, 0.5f}, .motor = JointMotor{.target = 1, .most = most}});
+    add_joint(cart,
+              SliderJoint{.b = 0, .limit = JointRange{-0.2f, 0.5f}, .motor = JointMotor{.target = 1, .most = most}});
     scene.add(cart);
     World world(scene);
     for (int frame = 0; frame < 240; ++frame) {

@@ -36,7 +36,8 @@ void solve_block_tree(Blocks& blocks) {
     std::copy_n(blocks[n].x.begin(), size, tree.x(n));
   }
   tree.solve();
-  for (std::size_t n = 0; n < blocks.size(); ++n) std::copy_n(tree.x(n), std::size_t(blocks[n].size), blocks[n].x.begin());
+  for (std::size_t n = 0; n < blocks.size(); ++n)
+    std::copy_n(tree.x(n), std::size_t(blocks[n].size), blocks[n].x.begin());
 }
 
 /// Bodies and joints in turn: a joint's diagonal is zero or slightly negative, as compliance makes it.

@@ -1,4 +1,5 @@
-// Compares the engine's own functions with the C library in higher precision, densely and at the ends of the number range.
+// Compares the engine's own functions with the C library in higher precision, densely and at the ends of the number
+// range.
 //
 // The bounds are those in functions.h. Errors are in units in the last place (ulp) of the true value.
 #include "math/functions.h"
@@ -279,7 +280,8 @@ TEST(Pow, SharesAStiffnessOut) {
   for (const double k : {0.0, 1e-7, 0.001, 0.3, 0.5, 0.9, 0.999999, 1.0}) {
     for (const int n : {1, 2, 3, 10, 100, 10000, 1000000}) {
       const double power = pow(1 - k, 1.0 / n);
-      EXPECT_NEAR(power, static_cast<double>(std::pow(1 - static_cast<long double>(k), 1.0L / n)), 1e-12) << k << " " << n;
+      EXPECT_NEAR(power, static_cast<double>(std::pow(1 - static_cast<long double>(k), 1.0L / n)), 1e-12)
+          << k << " " << n;
       double product = 1, factor = power;  // n factors by squaring: the definition itself
       for (int left = n; left > 0; left /= 2, factor *= factor) {
         if (left % 2 == 1) product *= factor;

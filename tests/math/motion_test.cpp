@@ -107,7 +107,8 @@ TEST(Motion, StandsStillWithoutKeyframesAndHoldsAtItsEnds) {
 
 TEST(Motion, FindsItsKeyframesAmongMany) {
   Motion motion;
-  for (int i = 0; i <= 100; ++i) motion.keyframes.push_back(key(static_cast<float>(i * i), {static_cast<float>(i), 0, 0}));
+  for (int i = 0; i <= 100; ++i)
+    motion.keyframes.push_back(key(static_cast<float>(i * i), {static_cast<float>(i), 0, 0}));
   for (int i = 0; i < 100; ++i) {
     expect_near(pose_at(motion, i * i).position, {static_cast<double>(i), 0, 0});
     expect_near(pose_at(motion, i * i + i + 0.5).position, {i + 0.5, 0, 0});

@@ -27,8 +27,8 @@ TEST(Body, OfTwoSolidsHasItsParticleAtTheCentreOfMass) {
   BodyOptions options;
   options.position = {0, 2, 0};
   options.mass = 3;
-  const Object body =
-      make_body({{Box{{0.5f, 0.5f, 0.5f}}, {-1, 0, 0}, {}, 100}, {Box{{0.5f, 0.5f, 0.5f}}, {1, 0, 0}, {}, 300}}, options);
+  const Object body = make_body(
+      {{Box{{0.5f, 0.5f, 0.5f}}, {-1, 0, 0}, {}, 100}, {Box{{0.5f, 0.5f, 0.5f}}, {1, 0, 0}, {}, 300}}, options);
   EXPECT_FLOAT_EQ(body.masses[0], 3);
   EXPECT_NEAR(body.positions[0].x, 0.5, 1e-6);
   EXPECT_NEAR(body.positions[0].y, 2, 1e-6);

@@ -127,7 +127,8 @@ TEST(Cloth, MassIsAreaTimesDensityWhateverTheMesh) {
     for (float m : cloth.masses) mass += m;
     EXPECT_NEAR(mass, 0.3 * area_of(mesh), 1e-6);
   }
-  EXPECT_FLOAT_EQ(make_cloth(grid_mesh(2, 2, 1, 1), with_material(material)).masses[1], 0.05f);  // a third of one triangle
+  EXPECT_FLOAT_EQ(make_cloth(grid_mesh(2, 2, 1, 1), with_material(material)).masses[1],
+                  0.05f);  // a third of one triangle
 }
 
 TEST(Cloth, StretchEnergyOfEqualStrainIsTheSameOnEveryMesh) {
@@ -203,7 +204,8 @@ TEST(Cloth, NoBendingWhereNoneIsAskedFor) {
   ClothOptions limp;
   limp.material.bending_stiffness = 0;
   EXPECT_EQ(make_cloth(grid_mesh(4, 4, 1, 1), limp).constraints.size(), 1u);
-  EXPECT_EQ(make_cloth({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}).constraints.size(), 1u);  // one triangle, no hinge
+  EXPECT_EQ(make_cloth({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}).constraints.size(),
+            1u);  // one triangle, no hinge
 }
 
 TEST(Cloth, BendingDampingIsTheFractionOfCriticalOfAHinge) {

@@ -71,7 +71,8 @@ TEST(Conversion, Limits) {
   EXPECT_EQ(stiffness_from_compliance(0, context), 1);
   EXPECT_EQ(stiffness_from_compliance(infinity, context), 0);
   EXPECT_EQ(compliance_from_stiffness(std::numeric_limits<float>::denorm_min(), context), infinity);
-  EXPECT_EQ(compliance_from_stiffness(0.3f, {2, 1.f / 60, 20, 1}), compliance_from_stiffness(0.3f, {2, 1.f / 60, 20, 50}));
+  EXPECT_EQ(compliance_from_stiffness(0.3f, {2, 1.f / 60, 20, 1}),
+            compliance_from_stiffness(0.3f, {2, 1.f / 60, 20, 50}));
 }
 
 TEST(Conversion, EachInvertsTheOther) {

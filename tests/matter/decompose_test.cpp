@@ -1,4 +1,5 @@
-// Tests the division of closed meshes into convex pieces: shapes of boxes exactly, rings and bowls within the tolerance.
+// Tests the division of closed meshes into convex pieces: shapes of boxes exactly, rings and bowls within the
+// tolerance.
 #include "pliant/decompose.h"
 
 #include <gtest/gtest.h>
@@ -122,7 +123,8 @@ TEST(Decompose, HasTheInertiaOfTheMesh) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(own[i], expected[i], 1e-4 * double(expected[i]));
 }
 
-/// A hole stays open, up to the tolerance and a cell of the grid, and nothing of the ring is lost but what 64 corners cut off.
+/// A hole stays open, up to the tolerance and a cell of the grid, and nothing of the ring is lost but what 64 corners
+/// cut off.
 TEST(Decompose, KeepsTheHoleOfARing) {
   DecomposeOptions options;
   options.tolerance = 0.04f;

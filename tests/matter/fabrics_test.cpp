@@ -1,4 +1,5 @@
-// Tests the fabrics: the table in docs/guide/materials.md agrees with the code, and the numbers are physically possible.
+// Tests the fabrics: the table in docs/guide/materials.md agrees with the code, and the numbers are physically
+// possible.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -26,7 +27,8 @@ std::string table_row(const Fabric& f) {
 /// The table that docs/guide/materials.md must contain; printed if it does not, to be copied.
 std::string table() {
   std::string rows =
-      "| name | kg/m^2 | thickness, mm | Y, N/m | weft, N/m | shear, N/m | B, N m | damping | static friction | kinetic "
+      "| name | kg/m^2 | thickness, mm | Y, N/m | weft, N/m | shear, N/m | B, N m | damping | static friction | "
+      "kinetic "
       "friction |\n"
       "|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Fabric& f : fabrics()) rows += table_row(f) + "\n";

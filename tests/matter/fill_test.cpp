@@ -23,8 +23,9 @@ TriangleMesh mesh_of_shape(const SolidShape& shape) { return pliant::mesh_of({{.
 
 TEST(FillMesh, HoldsTheVolumeOfASphereACylinderAndATurnedBox) {
   EXPECT_NEAR(volume_of(fill_mesh(mesh_of_shape(Sphere{.radius = 1}), 0.05f), 0.05) / (4 * pi / 3), 1, 0.01);
-  EXPECT_NEAR(volume_of(fill_mesh(mesh_of_shape(Cylinder{.radius = 0.5f, .half_length = 0.5f}), 0.025f), 0.025) / (pi / 4),
-              1, 0.02);
+  EXPECT_NEAR(
+      volume_of(fill_mesh(mesh_of_shape(Cylinder{.radius = 0.5f, .half_length = 0.5f}), 0.025f), 0.025) / (pi / 4), 1,
+      0.02);
   const Quatf turn = rotation({1, 2, 3}, 37);
   const TriangleMesh box = pliant::mesh_of({{.shape = Box{{0.5f, 0.4f, 0.3f}}, .rotation = turn}}, 8);
   EXPECT_NEAR(volume_of(fill_mesh(box, 0.025f), 0.025) / (1.0 * 0.8 * 0.6), 1, 0.01);
@@ -45,7 +46,8 @@ TEST(FillMesh, LeavesHollowsEmpty) {
   const TriangleMesh hollow = mesh_of_shape(Sphere{.radius = 0.5f});
   const int first = static_cast<int>(shell.positions.size());
   shell.positions.insert(shell.positions.end(), hollow.positions.begin(), hollow.positions.end());
-  for (const auto& [a, b, c] : hollow.triangles) shell.triangles.push_back({first + a, first + c, first + b});  // inward
+  for (const auto& [a, b, c] : hollow.triangles)
+    shell.triangles.push_back({first + a, first + c, first + b});  // inward
   const std::vector<Vec3f> points = fill_mesh(shell, 0.05f);
   EXPECT_NEAR(volume_of(points, 0.05) / (4 * pi / 3 * 0.875), 1, 0.01);
   for (const Vec3f& p : points) EXPECT_GT(std::sqrt(length_squared(p)), 0.49f);

@@ -29,7 +29,8 @@ float between(std::mt19937& random, float low, float high) {
   return low + (high - low) * static_cast<float>(random() % 10001) / 10000;
 }
 
-/// A block of uneven tetrahedra, some of them mirrored. With damping they are in several groups, in another order than the surface.
+/// A block of uneven tetrahedra, some of them mirrored. With damping they are in several groups, in another order than
+/// the surface.
 Object uneven_block(std::mt19937& random, float damping = 0) {
   TetrahedralMesh mesh = box_tetrahedra({1, 1, 1}, {2 + below(random, 4), 2 + below(random, 4), 2 + below(random, 4)});
   for (Vec3f& p : mesh.positions)

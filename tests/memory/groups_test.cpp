@@ -1,5 +1,5 @@
-// Tests that the memory of a World grows with its objects, although each object that follows its State is a substep group
-// of its own. Bytes are counted where they are allocated, so no measurement of the machine matters.
+// Tests that the memory of a World grows with its objects, although each object that follows its State is a substep
+// group of its own. Bytes are counted where they are allocated, so no measurement of the machine matters.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -36,7 +36,9 @@ void* aligned(std::size_t size, std::align_val_t alignment) {
 
 void* operator new(std::size_t size) { return counted(std::malloc(size > 0 ? size : 1)); }
 void* operator new[](std::size_t size) { return counted(std::malloc(size > 0 ? size : 1)); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(std::malloc(size > 0 ? size : 1)); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return counted(std::malloc(size > 0 ? size : 1));
+}
 void* operator new(std::size_t size, std::align_val_t alignment) { return aligned(size, alignment); }
 void* operator new[](std::size_t size, std::align_val_t alignment) { return aligned(size, alignment); }
 void operator delete(void* memory) noexcept { release(memory); }

@@ -103,7 +103,8 @@ std::vector<NamedFloat> every_float() {
 #undef PLIANT_VECTOR
   all.push_back({"sphere radius", [](Scene& s) -> float& { return std::get<Sphere>(s.colliders[1].shape).radius; }});
   all.push_back({"capsule radius", [](Scene& s) -> float& { return std::get<Capsule>(s.colliders[2].shape).radius; }});
-  all.push_back({"capsule length", [](Scene& s) -> float& { return std::get<Capsule>(s.colliders[2].shape).half_length; }});
+  all.push_back(
+      {"capsule length", [](Scene& s) -> float& { return std::get<Capsule>(s.colliders[2].shape).half_length; }});
   add_vector(all, "box", [](Scene& s) -> Vec3f& { return std::get<Box>(s.colliders[3].shape).half_extents; });
   return all;
 }

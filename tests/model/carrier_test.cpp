@@ -1,4 +1,5 @@
-// Tests the motion of mesh colliders: positions computed by hand, and bounds of displacements compared with every vertex.
+// Tests the motion of mesh colliders: positions computed by hand, and bounds of displacements compared with every
+// vertex.
 #include "model/carrier.h"
 
 #include <gtest/gtest.h>

@@ -48,7 +48,8 @@ std::map<std::pair<int, int>, Found> all_lanes(const CompiledObject& object) {
           EXPECT_LT(storage, object.particles);
           here.particles[static_cast<std::size_t>(slot)] = object.order[static_cast<std::size_t>(storage)];
         }
-        EXPECT_TRUE(found.emplace(std::make_pair(pool.type, origin), here).second) << "constraint " << origin << " twice";
+        EXPECT_TRUE(found.emplace(std::make_pair(pool.type, origin), here).second)
+            << "constraint " << origin << " twice";
       }
     }
   }
@@ -142,8 +143,8 @@ TEST_P(Compiled, NumbersParticlesBothWays) {
     const int storage = compiled_.place[static_cast<std::size_t>(user)];
     ASSERT_EQ(compiled_.order[static_cast<std::size_t>(storage)], user);
     const Record& r = compiled_.positions[static_cast<std::size_t>(storage)];
-    const Vec3f given =
-        user < compiled_.user_particles ? object_.positions[static_cast<std::size_t>(user)] : object_.attachments[0].target;
+    const Vec3f given = user < compiled_.user_particles ? object_.positions[static_cast<std::size_t>(user)]
+                                                        : object_.attachments[0].target;
     EXPECT_EQ((Vec3f{r.x, r.y, r.z}), given);
     const bool fixed = user <= 1 || user >= compiled_.user_particles;
     EXPECT_EQ(r.w, fixed ? 0.f : 1 / object_.masses[static_cast<std::size_t>(user)]);
@@ -270,8 +271,8 @@ TEST(Compile, IsTheSameEachTime) {
   for (std::size_t p = 0; p < a.pools.size(); ++p) {
     EXPECT_EQ(a.pools[p].indices, b.pools[p].indices);
     EXPECT_EQ(a.pools[p].origin, b.pools[p].origin);
-    EXPECT_TRUE(
-        std::equal(a.pools[p].blocks.begin(), a.pools[p].blocks.end(), b.pools[p].blocks.begin(), b.pools[p].blocks.end()));
+    EXPECT_TRUE(std::equal(a.pools[p].blocks.begin(), a.pools[p].blocks.end(), b.pools[p].blocks.begin(),
+                           b.pools[p].blocks.end()));
   }
 }
 

@@ -49,7 +49,8 @@ Object tangle(int points, unsigned seed) {
   const auto coordinate = [&] { return static_cast<float>(random() % 1000) * 1e-3f; };
   for (int i = 0; i < points; ++i) {
     positions.push_back({coordinate(), coordinate(), coordinate()});
-    for (unsigned k = 0; i > 0 && k <= random() % 4; ++k) edges.push_back({static_cast<int>(random() % unsigned(i)), i});
+    for (unsigned k = 0; i > 0 && k <= random() % 4; ++k)
+      edges.push_back({static_cast<int>(random() % unsigned(i)), i});
   }
   Object object = with_edges(positions, edges);
   for (int i = 0; i < points; i += 17) object.masses[static_cast<std::size_t>(i)] = infinity;
@@ -223,7 +224,8 @@ void expect_sums(const MultigridLevel& fine, const MultigridLevel& coarse) {
   std::size_t summed = 0;
   for (const auto& [pair, sum] : found_blocks) summed += sum.size();
   const auto no_block = std::count(coarse.sources.begin(), coarse.sources.end(), fine.no_block());
-  EXPECT_EQ(coarse.sources.size() - static_cast<std::size_t>(no_block), summed) << "slots without a neighbour sum nothing";
+  EXPECT_EQ(coarse.sources.size() - static_cast<std::size_t>(no_block), summed)
+      << "slots without a neighbour sum nothing";
   EXPECT_EQ(found_anchors, anchors);
 }
 

@@ -164,7 +164,8 @@ TEST_P(SheetEnergy, LevelsInterpolateLinearly) {
     ASSERT_EQ(std::count(is_known.begin(), is_known.end(), 0), 0) << "level " << l;
     for (std::size_t i = 0; i < exact.size(); ++i) {
       double found = 0;
-      for (std::size_t p = 0; p < 3; ++p) found += static_cast<double>(level.share[i][p]) * coarse[at(level.parent[i][p])];
+      for (std::size_t p = 0; p < 3; ++p)
+        found += static_cast<double>(level.share[i][p]) * coarse[at(level.parent[i][p])];
       EXPECT_NEAR(found, exact[i], 1e-4) << "level " << l << ", row " << i;
     }
     exact = coarse;
@@ -187,7 +188,8 @@ TEST(SheetBending, CoarseLevelsAreGalerkinProducts) {
   for (int i = 0; i < coarse.rows; ++i) w.push_back(static_cast<double>(random() % 1000) / 1000);
   std::vector<double> interpolated(at(fine.rows), 0);
   for (std::size_t i = 0; i < interpolated.size(); ++i)
-    for (std::size_t p = 0; p < 3; ++p) interpolated[i] += static_cast<double>(fine.share[i][p]) * w[at(fine.parent[i][p])];
+    for (std::size_t p = 0; p < 3; ++p)
+      interpolated[i] += static_cast<double>(fine.share[i][p]) * w[at(fine.parent[i][p])];
   EXPECT_NEAR(energy(coarse, w) / energy(fine, interpolated), 1, 1e-4);
 }
 

@@ -39,8 +39,9 @@ TEST(Damping, OfAHingeAndASliderIsTheirRateOfDecay) {
               sledge = m.box({0, 2, 0}, 2, {0.1f, 0.1f, 0.1f}, {3, 0, 0});
     const double rate = 20, inertia = box_inertia(3, 0.4, 0.4);
     add_joint(m.object, HingeJoint{.b = wheel, .axis = {0, 0, 1}, .damping = static_cast<float>(rate * inertia)});
-    add_joint(m.object,
-              SliderJoint{.b = sledge, .anchor = {0, 2, 0}, .axis = {1, 0, 0}, .damping = static_cast<float>(2 * rate)});
+    add_joint(
+        m.object,
+        SliderJoint{.b = sledge, .anchor = {0, 2, 0}, .axis = {1, 0, 0}, .damping = static_cast<float>(2 * rate)});
     m.run(0.25);
     EXPECT_NEAR(rate_of_fall(5, m.spin(wheel).z, 0.25) / rate, 1, 1e-3) << substeps;
     EXPECT_NEAR(rate_of_fall(3, m.velocity(sledge).x, 0.25) / rate, 1, 1e-3) << substeps;
@@ -101,7 +102,8 @@ TEST(Damping, OfASpringIsItsTimeBesideThatOfImplicitEuler) {
     std::vector<double> energies;
     for (int frame = 0; frame < 60; ++frame) {
       const double u = m.pose(b).position.x - 1, v = m.velocity(b).x;
-      energies.push_back(stiffness * u * u + damping * u * v + mass * v * v);  // of one phase: falls by exp(-b t / m) alone
+      energies.push_back(stiffness * u * u + damping * u * v +
+                         mass * v * v);  // of one phase: falls by exp(-b t / m) alone
       m.run(1. / 60);
     }
     const double h = 1. / 60 / substeps, own = std::log(1 + stiffness / mass * h * h + damping / mass * h) / h;

@@ -134,9 +134,10 @@ std::vector<Vec3f> places_after(const Scene& scene, const std::string& isa, int 
 }
 
 TEST(EnergyIntegrator, GivesTheSameBitsInLanesAndOnThreads) {
-  std::vector<Mode> modes{bar_mode(1e5, 0.3, 0, true),     bar_mode(1e5, 0.45, 0.004, false), rod_mode(1e8, 8),
-                          rod_mode(1e8, 7, 0.003),         cloth_mode(50, Sweep::tiled),      cloth_mode(50, Sweep::chains),
-                          line_mode(20, 40, Sweep::chains)};
+  std::vector<Mode> modes{
+      bar_mode(1e5, 0.3, 0, true),     bar_mode(1e5, 0.45, 0.004, false), rod_mode(1e8, 8),
+      rod_mode(1e8, 7, 0.003),         cloth_mode(50, Sweep::tiled),      cloth_mode(50, Sweep::chains),
+      line_mode(20, 40, Sweep::chains)};
   for (Mode& mode : modes) {
     mode.scene.gravity = {0, -9.81f, 0};
     const auto own = places_after(mode.scene, "", 1);

@@ -202,7 +202,8 @@ struct ModeTrace {
     double x = 0, v = 0, squares = 0;
     for (std::size_t i = 0; i < mode.shape.size(); ++i) {
       const Vec3d s = convert<double>(mode.shape[i]);
-      x += dot(s, convert<double>(world.object(0).positions()[i]) - convert<double>(mode.scene.objects[0].positions[i]));
+      x +=
+          dot(s, convert<double>(world.object(0).positions()[i]) - convert<double>(mode.scene.objects[0].positions[i]));
       v += dot(s, convert<double>(world.object(0).velocities()[i]));
       squares += length_squared(s);
     }

@@ -20,7 +20,8 @@ TEST(Executor, VisitsEveryIndexOnce) {
     EXPECT_EQ(executor.threads(), threads);
     for (int n : {0, 1, 2, 17, 1000}) {
       std::vector<std::atomic<int>> visits(static_cast<std::size_t>(n));
-      executor.enter([&] { executor.parallel_for("visits", n, [&](int i) { ++visits[static_cast<std::size_t>(i)]; }); });
+      executor.enter(
+          [&] { executor.parallel_for("visits", n, [&](int i) { ++visits[static_cast<std::size_t>(i)]; }); });
       executor.parallel_for("visits", n, [&](int i) { ++visits[static_cast<std::size_t>(i)]; });
       for (const auto& count : visits) EXPECT_EQ(count, 2);
     }

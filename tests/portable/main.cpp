@@ -38,8 +38,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> names(argv + 1, argv + argc);
   if (names.empty()) names = case_names();
   std::map<std::string, std::string> expected = read_hashes();
-  const auto differ =
-      std::count_if(names.begin(), names.end(), [&](const std::string& name) { return !run_case(name, expected[name]); });
+  const auto differ = std::count_if(names.begin(), names.end(),
+                                    [&](const std::string& name) { return !run_case(name, expected[name]); });
   std::printf("%d of %d hashes are equal\n", static_cast<int>(names.size()) - static_cast<int>(differ),
               static_cast<int>(names.size()));
   return differ == 0 && !names.empty() ? 0 : 1;

@@ -28,7 +28,8 @@ inline TriangleMesh soup(int vertices, int triangles, float reach) {
   TriangleMesh mesh;
   for (int i = 0; i < vertices; ++i) mesh.positions.push_back(point(reach));
   for (int i = 0; i < triangles; ++i) {
-    const int a = *rc::gen::inRange(0, vertices), b = *rc::gen::inRange(1, vertices), c = *rc::gen::inRange(1, vertices);
+    const int a = *rc::gen::inRange(0, vertices), b = *rc::gen::inRange(1, vertices),
+              c = *rc::gen::inRange(1, vertices);
     const std::array<int, 3> corners{a, (a + b) % vertices, (a + c) % vertices};
     if (corners[1] != corners[2]) mesh.triangles.push_back(corners);
   }
@@ -45,7 +46,8 @@ inline std::vector<int> stencils(int count, int size, int particles) {
   return all;
 }
 
-/// One or two sheets of cloth over a ball or the ground, with any sweep; they may collide with themselves and each other.
+/// One or two sheets of cloth over a ball or the ground, with any sweep; they may collide with themselves and each
+/// other.
 inline Scene small_scene() {
   Scene scene;
   const int sheets = *rc::gen::inRange(1, 3);
@@ -54,8 +56,8 @@ inline Scene small_scene() {
     ClothOptions options;
     options.name = "sheet " + std::to_string(i);
     options.material = fabric(*rc::gen::element<std::string>("cotton", "silk", "denim"));
-    Object object =
-        make_cloth(grid_mesh(columns, rows, 0.1f * static_cast<float>(columns), 0.1f * static_cast<float>(rows)), options);
+    Object object = make_cloth(
+        grid_mesh(columns, rows, 0.1f * static_cast<float>(columns), 0.1f * static_cast<float>(rows)), options);
     for (Vec3f& x : object.positions) x.y += 0.05f + 0.03f * static_cast<float>(i);
     object.thickness = 0.004f;
     object.self_collision = *rc::gen::arbitrary<bool>();
@@ -66,7 +68,8 @@ inline Scene small_scene() {
   Collider ground;
   if (*rc::gen::arbitrary<bool>()) ground.shape = Sphere{0.04f};
   scene.add(ground);
-  scene.settings.sweep = *rc::gen::element(Sweep::automatic, Sweep::tiled, Sweep::chains, Sweep::multigrid, Sweep::jacobi);
+  scene.settings.sweep =
+      *rc::gen::element(Sweep::automatic, Sweep::tiled, Sweep::chains, Sweep::multigrid, Sweep::jacobi);
   scene.settings.substeps = *rc::gen::inRange(1, 6);
   scene.settings.iterations = *rc::gen::inRange(1, 4);
   scene.settings.threads = 1;

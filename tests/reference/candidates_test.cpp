@@ -123,7 +123,8 @@ TEST(Candidates, HoldEveryPairThatComesWithinTheRadius) {
             const Vec3d a = convert<double>(m.from[static_cast<std::size_t>(vertex)]);
             return a + (convert<double>(m.to[static_cast<std::size_t>(vertex)]) - a) * (k / 10.0);
           };
-          const auto nearest = closest_on_triangle(at(static_cast<int>(v)), at(corners[0]), at(corners[1]), at(corners[2]));
+          const auto nearest =
+              closest_on_triangle(at(static_cast<int>(v)), at(corners[0]), at(corners[1]), at(corners[2]));
           if (std::sqrt(nearest.distance_squared) > radius) continue;
           ++close;
           ASSERT_TRUE(found.count({static_cast<int>(v), static_cast<int>(t)})) << i;

@@ -67,7 +67,8 @@ TEST(SpatialHash, FindsPointsWithinARadius) {
     std::vector<BoxBounds> boxes;
     for (int i = 0; i < 1500; ++i) {
       points.push_back(far + testing_support::random_vector(random, 1));
-      if (i % 10 == 0) points.back() = far + Vec3f{static_cast<float>(i % 7) * 0.125f, 0.25f, -0.5f};  // on cell boundaries
+      if (i % 10 == 0)
+        points.back() = far + Vec3f{static_cast<float>(i % 7) * 0.125f, 0.25f, -0.5f};  // on cell boundaries
       boxes.push_back({points.back(), points.back()});
     }
     const float radius = 0.125f;

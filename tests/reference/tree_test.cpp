@@ -77,7 +77,8 @@ TYPED_TEST(TreeOf, FindsExactlyBruteForcesPairsInTenThousandNastySets) {
     tree.pairs(other, [&](int x, int y) { pairs.emplace_back(x, y); });
     ASSERT_EQ(sorted(pairs), brute_pairs(a, b, false)) << "set " << i;
     pairs.clear();
-    for (std::size_t k = 0; k < b.size(); ++k) tree.query(b[k], [&](int x) { pairs.emplace_back(x, static_cast<int>(k)); });
+    for (std::size_t k = 0; k < b.size(); ++k)
+      tree.query(b[k], [&](int x) { pairs.emplace_back(x, static_cast<int>(k)); });
     ASSERT_EQ(sorted(pairs), brute_pairs(a, b, false)) << "set " << i;
   }
   EXPECT_GT(found, 100000u);
@@ -105,9 +106,9 @@ TYPED_TEST(TreeOf, MissesNoPairThatIsWithinTheMargin) {
           least = std::min(least, closest_on_triangle(p(s[k]), p(t[0]), p(t[1]), p(t[2])).distance_squared);
           least = std::min(least, closest_on_triangle(p(t[k]), p(s[0]), p(s[1]), p(s[2])).distance_squared);
           for (int m = 0; m < 3; ++m)
-            least = std::min(
-                least,
-                closest_on_segments<double>({p(s[k]), p(s[(k + 1) % 3])}, {p(t[m]), p(t[(m + 1) % 3])}).distance_squared);
+            least =
+                std::min(least, closest_on_segments<double>({p(s[k]), p(s[(k + 1) % 3])}, {p(t[m]), p(t[(m + 1) % 3])})
+                                    .distance_squared);
         }
         if (std::sqrt(least) > static_cast<double>(radius)) continue;
         ++close;
@@ -145,7 +146,8 @@ TYPED_TEST(TreeOf, FindsTheClosestAndTheFirstOfEquals) {
   for (int i = 0; i < 1500; ++i) {
     const auto triangles = nasty_triangles(random, i % nasty_kinds);
     tree.build(bounds_of<B>(triangles, 0));
-    const Vec3f p = testing_support::random_vector(random, 2) + (i % nasty_kinds == 2 ? Vec3f{-4096, 8191, 1e5f} : Vec3f{});
+    const Vec3f p =
+        testing_support::random_vector(random, 2) + (i % nasty_kinds == 2 ? Vec3f{-4096, 8191, 1e5f} : Vec3f{});
     const auto distance = [&](int leaf) {
       const Corners3& t = triangles[static_cast<std::size_t>(leaf)];
       const auto found =
@@ -177,7 +179,8 @@ TYPED_TEST(TreeOf, HoldsThePointsAndNoMoreThanItShould) {
         ASSERT_TRUE(overlap(leaves[k].grown(detail::float_above(away)), B::of(&beside, 1))) << i;
       }
     // The middle is at most some diagonals away from the points, and a box ten diagonals away overlaps nothing.
-    const BoxBounds box = BoxBounds::merged(bounds_of<BoxBounds>(triangles, 0).data(), static_cast<int>(triangles.size()));
+    const BoxBounds box =
+        BoxBounds::merged(bounds_of<BoxBounds>(triangles, 0).data(), static_cast<int>(triangles.size()));
     const Vec3f outside = box.high + 10.f * (box.high - box.low) + Vec3f{1, 1, 1};
     ASSERT_FALSE(overlap(all, B::of(&outside, 1))) << i;
   }

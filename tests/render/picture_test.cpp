@@ -60,7 +60,9 @@ class Picture : public testing::Test {
 
   /// A camera that looks along -z at the origin; there, 1 m is `pixels_per_metre` pixels high.
   static Camera straight(float distance = 4) { return {{0, 0, distance}, {}, 40}; }
-  static float pixels_per_metre(float distance = 4) { return height / (2 * distance * std::tan(20 * 3.14159265f / 180)); }
+  static float pixels_per_metre(float distance = 4) {
+    return height / (2 * distance * std::tan(20 * 3.14159265f / 180));
+  }
 
   std::unique_ptr<Renderer> renderer;
 };
@@ -451,8 +453,8 @@ TEST(FrameCamera, HasEveryPointInThePicture) {
       for (const Vec3f& point : scene.meshes[0].positions) {
         const Vec3f way = point - camera.eye;
         const float depth = dot(way, ahead);
-        widest =
-            std::max({widest, std::abs(dot(way, right)) / depth / (1.5f * slope), std::abs(dot(way, up)) / depth / slope});
+        widest = std::max(
+            {widest, std::abs(dot(way, right)) / depth / (1.5f * slope), std::abs(dot(way, up)) / depth / slope});
         EXPECT_GT(depth, 0);
       }
       EXPECT_LT(widest, 0.95f) << azimuth << ", " << elevation;

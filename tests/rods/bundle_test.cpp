@@ -1,4 +1,5 @@
-// Rods of equal shape are solved side by side (solver/bodies/rod_bundle.h). A rod must move to the bit as it does alone.
+// Rods of equal shape are solved side by side (solver/bodies/rod_bundle.h). A rod must move to the bit as it does
+// alone.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -50,7 +51,8 @@ struct Rods {
     together.name = "together";
     for (int i = 0; i < count; ++i) {
       const Vec3f from{0.5f * static_cast<float>(i), 0.3f, 0};
-      const Vec3f to = from + Vec3f{random.between(0.1f, 0.2f), random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f)};
+      const Vec3f to =
+          from + Vec3f{random.between(0.1f, 0.2f), random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f)};
       RodMaterial material = material_of(double(random.between(variety.least_modulus, 1e8f)), 1e6, 1200);
       material.damping = variety.some_damped && i % 2 == 0 ? 0.004f : variety.damping;
       RodOptions options = clamped_rod(material, random.between(0.002f, 0.003f));
@@ -88,7 +90,8 @@ struct Outcome {
       const std::vector<Vec3f> x = world.object(o).positions();
       const std::vector<Quatf> q = world.object(o).orientations();
       for (const ObjectBody& body : objects[static_cast<std::size_t>(o)].bodies) {
-        if (body.name.find("rod") == std::string::npos) continue;  // what holds rods in the world is one body of an object
+        if (body.name.find("rod") == std::string::npos)
+          continue;  // what holds rods in the world is one body of an object
         positions.push_back(x[static_cast<std::size_t>(body.particle)]);
         orientations.push_back(q[static_cast<std::size_t>(body.frame)]);
       }
@@ -129,7 +132,9 @@ TEST(RodBundle, MovesDampedRodsAsAlone) { expect_as_alone(Rods(21, {0.004f, fals
 TEST(RodBundle, MovesRodsThatAreHeldNowhereAsAlone) { expect_as_alone(Rods(33, {0, true, 1e6f}), plain_scene()); }
 
 /// They have constraints in two pools.
-TEST(RodBundle, MovesRodsOfWhichSomeAreDampedAsAlone) { expect_as_alone(Rods(21, {0, false, 1e6f, true}), plain_scene()); }
+TEST(RodBundle, MovesRodsOfWhichSomeAreDampedAsAlone) {
+  expect_as_alone(Rods(21, {0, false, 1e6f, true}), plain_scene());
+}
 
 TEST(RodBundle, MovesRodsAsAloneOnTwoThreads) {
   Scene scene = plain_scene();
@@ -137,7 +142,9 @@ TEST(RodBundle, MovesRodsAsAloneOnTwoThreads) {
   expect_as_alone(Rods(40), scene);
 }
 
-TEST(RodBundle, MovesRodsAsAloneInSeveralIterations) { expect_as_alone(Rods(20, {0.004f, false, 1e6f}), plain_scene(3)); }
+TEST(RodBundle, MovesRodsAsAloneInSeveralIterations) {
+  expect_as_alone(Rods(20, {0.004f, false, 1e6f}), plain_scene(3));
+}
 
 /// Limp rods in few substeps turn faster than these can follow, so joints are solved with their stiffness.
 TEST(RodBundle, MovesRodsThatJointsPullHardAsAlone) {

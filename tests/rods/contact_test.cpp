@@ -71,7 +71,8 @@ Scene head_with_hair() {
   options.material = material_of(4e6, 1.5e6, 1300);
   options.material.damping = 0.003f;
   options.radius = 0.0006f;
-  options.start = {RodEnd::Kind::clamped, add_body(hair, {{Sphere{0.01f}}}, {.name = "scalp", .position = turning.pivot})};
+  options.start = {RodEnd::Kind::clamped,
+                   add_body(hair, {{Sphere{0.01f}}}, {.name = "scalp", .position = turning.pivot})};
   for (int i = 0; i < hairs; ++i) {
     const double y = 1 - 0.8 * (i + 0.5) / hairs, angle = 2.4 * i, across = std::sqrt(1 - y * y);
     const Vec3f out = convert<float>(Vec3d{across * std::cos(angle), y, across * std::sin(angle)});
@@ -94,7 +95,8 @@ TEST(RodInContact, OfHairDoesNotPassThroughAHeadThatTurns) {
   const auto nearest = [&] {
     double found = 1;
     const std::vector<Vec3f> x = world.object(0).positions();
-    for (std::size_t i = 1; i < x.size(); ++i) found = std::min(found, double(length_squared(x[i] - Vec3f{0, 0.3f, 0})));
+    for (std::size_t i = 1; i < x.size(); ++i)
+      found = std::min(found, double(length_squared(x[i] - Vec3f{0, 0.3f, 0})));
     return std::sqrt(found);
   };
   for (int frame = 0; frame < 150; ++frame) {

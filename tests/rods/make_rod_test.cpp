@@ -68,7 +68,10 @@ TEST(MakeRod, BendsARopeMoreEasilyThanASolidRod) {
   for (const float share : {0.f, 1.5f}) {
     RodOptions options = clamped_rod(rope, 0.01f);
     options.material.bending_share = share;
-    EXPECT_NE(refusal([&] { make_rod(line({0, 0, 0}, {1, 0, 0}, 10), options); }).find("bending_share"), std::string::npos);
+    EXPECT_NE(refusal([&] {
+                make_rod(line({0, 0, 0}, {1, 0, 0}, 10), options);
+              }).find("bending_share"),
+              std::string::npos);
   }
 }
 

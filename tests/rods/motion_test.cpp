@@ -132,8 +132,8 @@ TEST(RodInMotion, KeepsItsMomentum) {
   EXPECT_LT(std::sqrt(length_squared(end.angular - start.angular)), 1e-3 * std::sqrt(length_squared(start.angular)));
 }
 
-/// Momenta after two seconds of free flight in 8 substeps, over those at first. The rod of steel begins to spin about its middle
-/// at `spin` [rad/s], as if it were rigid.
+/// Momenta after two seconds of free flight in 8 substeps, over those at first. The rod of steel begins to spin about
+/// its middle at `spin` [rad/s], as if it were rigid.
 std::pair<Momenta, Momenta> of_baton(int segments, float spin) {
   RodOptions options;
   options.material = rod_material("steel wire");
@@ -283,7 +283,8 @@ TEST(RodInMotion, OfAHairBendsAsItDoesInFineSubsteps) {
   };
   const Vec3d fine = at_rest(40);
   EXPECT_LT(fine.y, -0.05);
-  for (const int substeps : {1, 4, 10}) EXPECT_LT(std::sqrt(length_squared(at_rest(substeps) - fine)), 0.001) << substeps;
+  for (const int substeps : {1, 4, 10})
+    EXPECT_LT(std::sqrt(length_squared(at_rest(substeps) - fine)), 0.001) << substeps;
 }
 
 /// A rod that hangs in a steady wind comes to rest where drag and weight are in equilibrium.
@@ -303,7 +304,8 @@ TEST(RodInWind, HangsAtTheAngleOfItsDrag) {
   scene.wind.air_density = float(air);
   World world(scene);
   for (int frame = 0; frame < 900; ++frame) ASSERT_TRUE(world.step(frame_time).ok());
-  // Drag acts across the rod: rho/2 c 2r (v cos a)^2 = (rho_rod pi r^2 g) sin a at each segment, so the rod is straight.
+  // Drag acts across the rod: rho/2 c 2r (v cos a)^2 = (rho_rod pi r^2 g) sin a at each segment, so the rod is
+  // straight.
   const double weight = density * pi * radius * radius * gravity, full = air * drag * radius * speed * speed;
   const double angle = std::asin((std::sqrt(weight * weight + 4 * full * full) - weight) / (2 * full));
   const std::vector<Vec3f> x = world.object(0).positions();

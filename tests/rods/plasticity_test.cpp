@@ -13,7 +13,8 @@ constexpr double length_of_rod = 1;
 constexpr float radius_of_rod = 0.01f;
 constexpr int segments_of_rod = 20;
 
-/// A rod clamped at x = 0 that is loaded across at its tip with a force, then let go: the angle of its last segment afterwards [rad].
+/// A rod clamped at x = 0 that is loaded across at its tip with a force, then let go: the angle of its last segment
+/// afterwards [rad].
 double angle_left(double strain_at_clamp, const Plasticity& plasticity, int substeps, const Vec3f& clamp = {}) {
   RodMaterial material = material_of(1e8, 4e7, 1000);
   material.damping = 0.002f;
@@ -37,7 +38,8 @@ double angle_left(double strain_at_clamp, const Plasticity& plasticity, int subs
 
 TEST(PlasticRod, SpringsBackBelowItsYieldStrain) { EXPECT_NEAR(angle_left(0.002, {.yield = 0.0025f}, 20), 0, 2e-4); }
 
-// The moment falls linearly to the tip. Without hardening nothing bears more than the yield moment: so it folds at the clamp.
+// The moment falls linearly to the tip. Without hardening nothing bears more than the yield moment: so it folds at the
+// clamp.
 TEST(PlasticRod, StaysBentBeyondIt) { EXPECT_GT(angle_left(0.004, {.yield = 0.0025f}, 20), 0.02); }
 
 TEST(PlasticRod, YieldsAtAClampWhereverThatIs) {
@@ -46,7 +48,8 @@ TEST(PlasticRod, YieldsAtAClampWhereverThatIs) {
   EXPECT_NEAR(angle_left(0.0027, {.yield = 0.0025f}, 20, {5, 2, -3}) / at_origin, 1, 0.02);
 }
 
-/// The angle that is left of a rod that was held in an arc and is let go. As it springs back it is elastic: its ends overshoot.
+/// The angle that is left of a rod that was held in an arc and is let go. As it springs back it is elastic: its ends
+/// overshoot.
 double arc_left(double angle, double yield, int substeps) {
   RodMaterial material = material_of(1e8, 4e7, 1000);
   material.damping = 0.002f;

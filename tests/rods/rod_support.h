@@ -66,8 +66,11 @@ struct Lone {
   Vec3d velocity(int particle) const {
     return convert<double>(world.object(0).velocities()[static_cast<std::size_t>(particle)]);
   }
-  /// The free end of a rod of so many segments, which are the first bodies: half a segment beyond the middle of the last.
-  Vec3d tip(int segments) const { return position(segments - 1) + (position(segments - 1) - position(segments - 2)) * 0.5; }
+  /// The free end of a rod of so many segments, which are the first bodies: half a segment beyond the middle of the
+  /// last.
+  Vec3d tip(int segments) const {
+    return position(segments - 1) + (position(segments - 1) - position(segments - 2)) * 0.5;
+  }
 
  private:
   static Scene scene_of(Object object, int substeps, bool falls) {

@@ -13,7 +13,8 @@ namespace {
 
 using namespace testing_support;
 
-/// Sag of the free end of a horizontal rod 1 m long under its own weight, over that of Euler and Bernoulli's beam, q L^4 / (8 E I).
+/// Sag of the free end of a horizontal rod 1 m long under its own weight, over that of Euler and Bernoulli's beam, q
+/// L^4 / (8 E I).
 double sag(int segments, int substeps) {
   constexpr double e = 1e9, density = 1000;
   constexpr float radius = 0.01f;
@@ -114,7 +115,8 @@ TEST(RodAtRest, BendsFarAsTheElasticaDoes) {
   }
 }
 
-/// Where the top of a vertical column of 1 m is sideways after a push, with a load that is this share of Euler's, pi^2 E I / (4 L^2).
+/// Where the top of a vertical column of 1 m is sideways after a push, with a load that is this share of Euler's, pi^2
+/// E I / (4 L^2).
 double sideways(double share) {
   constexpr double e = 1e9;
   constexpr float radius = 0.01f;

@@ -36,7 +36,8 @@ Extent extent_of(const World& world) {
   return extent;
 }
 
-/// Counts the particles that are in a bag, and those that have left it through its cloth. Single drops splash over the rim.
+/// Counts the particles that are in a bag, and those that have left it through its cloth. Single drops splash over the
+/// rim.
 struct Count {
   int inside = 0, passed = 0;
 };
@@ -88,7 +89,8 @@ double height_above(const Vec3f& p, const Vec3f& a, const Vec3f& b, const Vec3f&
   return std::abs(dot(ap, normal)) / std::sqrt(nn);
 }
 
-// A grain weighs 70 times as much as a particle of the cloth. With the default substeps grains lay 1 mm from the cloth, not their radius.
+// A grain weighs 70 times as much as a particle of the cloth. With the default substeps grains lay 1 mm from the cloth,
+// not their radius.
 TEST(GrainBag, KeepsGrainsARadiusFromTheCloth) {
   constexpr double radius = 0.01;
   constexpr int frames = 60, settled = 20;
@@ -101,8 +103,9 @@ TEST(GrainBag, KeepsGrainsARadiusFromTheCloth) {
     const auto cloth = world.object(0).positions();
     for (const Vec3f& p : world.object(1).present_positions())
       for (const auto& t : scene.objects[0].triangles)
-        least = std::min(least, height_above(p, cloth[static_cast<std::size_t>(t[0])],
-                                             cloth[static_cast<std::size_t>(t[1])], cloth[static_cast<std::size_t>(t[2])]));
+        least =
+            std::min(least, height_above(p, cloth[static_cast<std::size_t>(t[0])],
+                                         cloth[static_cast<std::size_t>(t[1])], cloth[static_cast<std::size_t>(t[2])]));
   }
   EXPECT_GT(least, 0.9 * radius);
 }

@@ -1,5 +1,5 @@
-// Simulates scenes of contact that multigrid once tore apart: with pushes and friction that nothing had exerted, and with a
-// residual that did work.
+// Simulates scenes of contact that multigrid once tore apart: with pushes and friction that nothing had exerted, and
+// with a residual that did work.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,8 @@ double pull_over_edge(int substeps) {
   return p99;
 }
 
-/// The last row snaps off the edge in one frame, by chance more or less gently: the largest p99 with 8 to 14 substeps is
+/// The last row snaps off the edge in one frame, by chance more or less gently: the largest p99 with 8 to 14 substeps
+/// is
 /// 1.2 to 5.0 %. So the median of three counts.
 TEST(MultigridScenes, PullClothOverAnEdgeWithoutTearingIt) {
   std::array<double, 3> p99 = {pull_over_edge(10), pull_over_edge(11), pull_over_edge(12)};

@@ -150,7 +150,8 @@ TEST(RemoveTetrahedra, LetsGoOfWhatTheyHeld) {
   Object whole = block();
   int corner = 0;
   for (int i = 0; i < static_cast<int>(whole.positions.size()); ++i)
-    if (whole.positions[static_cast<std::size_t>(i)].x > whole.positions[static_cast<std::size_t>(corner)].x) corner = i;
+    if (whole.positions[static_cast<std::size_t>(i)].x > whole.positions[static_cast<std::size_t>(corner)].x)
+      corner = i;
   whole.positions.push_back({1, 0, 0});
   whole.masses.push_back(1);
   ConstraintGroup link;

@@ -61,8 +61,8 @@ TEST(Elasticity, NearRestAFloatSeesStrainsOfAMillionth) {
 
 // ------------------------------------------------------------------------------------------------ bars
 
-/// A bar along x whose end at the smallest x is pinned; it hangs by its weight. The sag of its other end over that of a beam
-/// with bending and shear (Timoshenko), after a time in which damping takes its motion.
+/// A bar along x whose end at the smallest x is pinned; it hangs by its weight. The sag of its other end over that of a
+/// beam with bending and shear (Timoshenko), after a time in which damping takes its motion.
 double sag_over_beam(int cells, float youngs_modulus, float poisson_ratio, int substeps) {
   const float length = 0.4f, side = 0.1f;
   const double gravity = 0.5, density = 1000, e = youngs_modulus, nu = poisson_ratio;
@@ -93,7 +93,8 @@ double sag_over_beam(int cells, float youngs_modulus, float poisson_ratio, int s
   return sag / (bending + shear);
 }
 
-// Linear tetrahedra are too stiff in bending, the less the finer they are (docs/guide/soft_bodies.md): so a share of the beam's sag.
+// Linear tetrahedra are too stiff in bending, the less the finer they are (docs/guide/soft_bodies.md): so a share of
+// the beam's sag.
 TEST(Elasticity, ABarSagsAsABeamTheMoreTheFinerItIs) {
   EXPECT_NEAR(sag_over_beam(2, 1e5f, 0.3f, 40), 0.52, 0.02);
   EXPECT_NEAR(sag_over_beam(4, 1e5f, 0.3f, 40), 0.78, 0.02);
@@ -382,7 +383,8 @@ double swing(float damping) {
 }
 
 TEST(SoftBodyMotion, DampingTakesEnergyFromASwing) {
-  // The first mode of the beam has 9 rad/s; a viscous stress of 10 ms takes exp(-0.01 9^2 t / 2) of its amplitude, 0.78 at 0.62 s.
+  // The first mode of the beam has 9 rad/s; a viscous stress of 10 ms takes exp(-0.01 9^2 t / 2) of its amplitude, 0.78
+  // at 0.62 s.
   EXPECT_NEAR(swing(0.01f) / swing(0), 0.78, 0.1);
 }
 

@@ -35,7 +35,8 @@ Muscle muscle_of(const Fibres& fibres, double load, int substeps = 160) {
   options.material = solid_of(static_cast<float>(muscle_modulus), 0.3f, mass_density);
   options.fibres = fibres;
   TetrahedralMesh mesh = box_tetrahedra(
-      {static_cast<float>(muscle_side), static_cast<float>(length_at_rest), static_cast<float>(muscle_side)}, {2, 12, 2});
+      {static_cast<float>(muscle_side), static_cast<float>(length_at_rest), static_cast<float>(muscle_side)},
+      {2, 12, 2});
   for (Vec3f& p : mesh.positions) p.y -= static_cast<float>(length_at_rest / 2);
   Object object = make_soft_body(mesh, options);
   object.collides = false;
@@ -48,16 +49,19 @@ Muscle muscle_of(const Fibres& fibres, double load, int substeps = 160) {
     if (y < -static_cast<float>(length_at_rest) + 1e-4f) muscle.lower.push_back(i);
   }
   for (const int i : muscle.lower)
-    object.masses[static_cast<std::size_t>(i)] += static_cast<float>(load / 10 / static_cast<double>(muscle.lower.size()));
+    object.masses[static_cast<std::size_t>(i)] +=
+        static_cast<float>(load / 10 / static_cast<double>(muscle.lower.size()));
   muscle.scene = scene_of(std::move(object), substeps);
   muscle.scene.gravity = {0, -10, 0};
   muscle.scene.pin(0, upper);
   return muscle;
 }
 
-/// The stretch of a bar in which the fibres pull against the solid, and a load and half its own weight bear on both, to first order.
+/// The stretch of a bar in which the fibres pull against the solid, and a load and half its own weight bear on both, to
+/// first order.
 double stretch_of(double fibre_modulus, double rest, double load) {
-  const double stress = load / (muscle_side * muscle_side) + 10 * static_cast<double>(mass_density) * length_at_rest / 2;
+  const double stress =
+      load / (muscle_side * muscle_side) + 10 * static_cast<double>(mass_density) * length_at_rest / 2;
   return 1 + (stress - fibre_modulus * (1 - rest)) / (muscle_modulus + fibre_modulus);
 }
 

@@ -111,10 +111,12 @@ TEST(JoinVolumes, ThereIsAboutOneForEachParticle) {
   EXPECT_LT(constraints, static_cast<int>(object.positions.size()));
 }
 
-/// Three tetrahedra around an edge, and a fourth over one of them, as no mesh has: a walk from the fourth comes to the ring.
+/// Three tetrahedra around an edge, and a fourth over one of them, as no mesh has: a walk from the fourth comes to the
+/// ring.
 TEST(JoinVolumes, TakesEachOnceWhereTetrahedraOverlap) {
   Object object;
-  object.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5f}, {-0.5f, 0.9f, 0.5f}, {-0.5f, -0.9f, 0.5f}, {0.9f, -0.5f, 0.5f}};
+  object.positions = {{0, 0, 0},          {0, 0, 1}, {1, 0, 0.5f}, {-0.5f, 0.9f, 0.5f}, {-0.5f, -0.9f, 0.5f},
+                      {0.9f, -0.5f, 0.5f}};
   object.masses.assign(6, 1);
   const std::vector<int> corners{0, 1, 2, 3, 0, 1, 3, 4, 0, 1, 4, 2, 0, 1, 5, 2};
   object.constraints = {{"tetrahedron_shear", corners, {}, Stiffness::compliance(1e-4f), {}},

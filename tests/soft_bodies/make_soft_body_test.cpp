@@ -128,7 +128,8 @@ TEST(MakeSoftBody, NamesWhatItRefuses) {
             }).find("shares a face"),
             std::string::npos);
   EXPECT_NE(of_options([](auto& o) { o.material.youngs_modulus = 0; }).find("youngs_modulus"), std::string::npos);
-  EXPECT_NE(of_options([&](auto& o) { o.material.youngs_modulus = infinity; }).find("youngs_modulus"), std::string::npos);
+  EXPECT_NE(of_options([&](auto& o) { o.material.youngs_modulus = infinity; }).find("youngs_modulus"),
+            std::string::npos);
   EXPECT_NE(of_options([](auto& o) { o.material.poisson_ratio = 0.5f; }).find("0.495"), std::string::npos);
   EXPECT_NE(of_options([&](auto& o) { o.material.density = nan; }).find("density"), std::string::npos);
   EXPECT_NE(of_options([](auto& o) { o.material.damping = -1; }).find("damping"), std::string::npos);
@@ -187,8 +188,9 @@ TEST(FillWithTetrahedra, FillsASphere) {
   const auto border = border_triangles(filled.mesh);
   for (const auto& triangle : border)
     for (const int corner : triangle)
-      farthest = std::max(
-          farthest, std::fabs(static_cast<double>(length(filled.mesh.positions[static_cast<std::size_t>(corner)])) - 1));
+      farthest =
+          std::max(farthest,
+                   std::fabs(static_cast<double>(length(filled.mesh.positions[static_cast<std::size_t>(corner)])) - 1));
   EXPECT_LT(farthest, 0.25 * 0.2);  // a quarter of an edge
   EXPECT_TRUE(is_closed(find_edges(border, static_cast<int>(filled.mesh.positions.size()))));
 }

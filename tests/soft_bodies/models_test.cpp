@@ -1,4 +1,5 @@
-// The models of elastic solids against their energies: at small and large strain, turned, and as bodies that carry a weight.
+// The models of elastic solids against their energies: at small and large strain, turned, and as bodies that carry a
+// weight.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -59,7 +60,8 @@ TEST(SolidModels, FollowHookesLawAtSmallStrain) {
   EXPECT_NEAR(st_venant_kirchhoff(swollen) / of_swelling, 1, 1e-4);
 }
 
-// The nearest rotation of diag(s, 1, 1) is none, of a shape turned inside out along x that by half a turn about what is left.
+// The nearest rotation of diag(s, 1, 1) is none, of a shape turned inside out along x that by half a turn about what is
+// left.
 TEST(SolidModels, HaveTheirEnergiesAtLargeStrain) {
   for (const double s : {0.2, 0.5, 0.9, 1.1, 1.5, 4.0}) {
     const auto pulled = [&](const Vec3d& x) { return rotate(turn, Vec3d{s * x.x, x.y, x.z}); };
@@ -71,8 +73,8 @@ TEST(SolidModels, HaveTheirEnergiesAtLargeStrain) {
   EXPECT_NEAR(corotational(inverted), mu * (4 + 1 + 2.25) + lambda / 2 * 16, 1e-9);
 }
 
-/// The stretch of a bar of 0.1 x 0.2 x 0.1 m and 2 kg, Young's modulus 1e5 Pa and a Poisson ratio of 0, by a mean force along it: a weight at
-/// its end and half of its own.
+/// The stretch of a bar of 0.1 x 0.2 x 0.1 m and 2 kg, Young's modulus 1e5 Pa and a Poisson ratio of 0, by a mean force
+/// along it: a weight at its end and half of its own.
 double stretch_of(SolidModel model, double force) {
   SoftBodyOptions options;
   options.material = solid_of(1e5f, 0);
@@ -104,8 +106,8 @@ double stretch_of(SolidModel model, double force) {
   return (0.1 - mean) / 0.2;
 }
 
-// Without narrowing, the force over the section at rest is E (s - 1) in a co-rotational bar and E s (s^2 - 1) / 2 in one of St. Venant and
-// Kirchhoff.
+// Without narrowing, the force over the section at rest is E (s - 1) in a co-rotational bar and E s (s^2 - 1) / 2 in
+// one of St. Venant and Kirchhoff.
 TEST(SolidModels, CarryWeightsAsTheirEnergiesSay) {
   const double section = 0.01, modulus = 1e5;
   for (const double s : {1.1, 1.5}) {

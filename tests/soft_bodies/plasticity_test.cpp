@@ -28,8 +28,8 @@ Scene bar_of(const Plasticity& plasticity, int substeps) {
   return scene;
 }
 
-/// Holds every particle of a bar where it is `stretch` times as long at the same volume, lets it go after `seconds`, and returns the
-/// logarithmic strain that is left. As it springs back nothing flows.
+/// Holds every particle of a bar where it is `stretch` times as long at the same volume, lets it go after `seconds`,
+/// and returns the logarithmic strain that is left. As it springs back nothing flows.
 double strain_left(const Scene& scene, double stretch, double seconds) {
   World world(scene);
   const Object& object = scene.objects[0];
@@ -65,7 +65,8 @@ TEST(Plasticity, WhatIsBelowTheYieldStrainSpringsBack) {
 TEST(Plasticity, ABarKeepsWhatIsBeyondTheYieldStrain) {
   for (const double stretch : {0.5, 1.3, 2.0}) {
     const double beyond = std::fabs(std::log(stretch)) - 0.1;
-    EXPECT_NEAR(strain_left(bar_of({.yield = 0.1f}, 20), stretch, 0.1) / std::copysign(beyond, std::log(stretch)), 1, 2e-3)
+    EXPECT_NEAR(strain_left(bar_of({.yield = 0.1f}, 20), stretch, 0.1) / std::copysign(beyond, std::log(stretch)), 1,
+                2e-3)
         << stretch;
   }
 }

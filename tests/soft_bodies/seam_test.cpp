@@ -44,7 +44,8 @@ std::vector<std::array<int, 2>> sides_of(bool both = true) {
   std::vector<std::array<int, 2>> pairs;
   for (int row = 0; row < panel_rows; ++row)
     for (const int column : {0, panel_columns - 1})
-      if (both || column == 0) pairs.push_back({row * panel_columns + column, (panel_rows + row) * panel_columns + column});
+      if (both || column == 0)
+        pairs.push_back({row * panel_columns + column, (panel_rows + row) * panel_columns + column});
   return pairs;
 }
 

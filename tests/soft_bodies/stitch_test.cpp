@@ -106,7 +106,8 @@ TEST(Stitches, HoldBesideContact) {
   scene.add(Collider{.name = "floor", .shape = Plane{}, .position = {0, -0.01f, 0}});
   World world(scene);
   run(world, 180);
-  for (const auto& pair : seam_of(object)) EXPECT_LT(distance_of(world, pair), 4 * static_cast<double>(object.thickness));
+  for (const auto& pair : seam_of(object))
+    EXPECT_LT(distance_of(world, pair), 4 * static_cast<double>(object.thickness));
   double fastest = 0;
   for (const Vec3f& v : world.object(0).velocities())
     fastest = std::max(fastest, std::sqrt(static_cast<double>(dot(v, v))));
@@ -225,7 +226,8 @@ Object breakable_rope(const std::vector<Vec3f>& points, float alpha, float break
   rope.masses.assign(points.size(), mass);
   ConstraintGroup links;
   links.type = "distance";
-  for (int i = 0; i + 1 < static_cast<int>(points.size()); ++i) links.particles.insert(links.particles.end(), {i, i + 1});
+  for (int i = 0; i + 1 < static_cast<int>(points.size()); ++i)
+    links.particles.insert(links.particles.end(), {i, i + 1});
   links.stiffness = Stiffness::compliance(alpha);
   links.break_force = break_force;
   rope.constraints = {links};
@@ -440,7 +442,8 @@ TEST(Weld, JoinsSoftBodies) {
   const TetrahedralMesh other = mesh;
   const int first = static_cast<int>(mesh.positions.size());
   for (const Vec3f& p : other.positions) mesh.positions.push_back(p + Vec3f{0, -0.1f, 0});
-  for (const auto& [a, b, c, d] : other.tetrahedra) mesh.tetrahedra.push_back({a + first, b + first, c + first, d + first});
+  for (const auto& [a, b, c, d] : other.tetrahedra)
+    mesh.tetrahedra.push_back({a + first, b + first, c + first, d + first});
   const Object apart = make_soft_body(mesh, {.material = elastic_solid("rubber")});
   std::vector<int> low, high;
   for (int i = 0; i < first; ++i) {

@@ -21,7 +21,8 @@ struct StretchRange {
   double least = 1e9, most = 0;
 };
 
-StretchRange stretch_of(const Object& object, const std::vector<std::array<int, 2>>& edges, const std::vector<Vec3f>& at) {
+StretchRange stretch_of(const Object& object, const std::vector<std::array<int, 2>>& edges,
+                        const std::vector<Vec3f>& at) {
   const auto length_in = [](const std::vector<Vec3f>& x, const std::array<int, 2>& edge) {
     const Vec3f d = x[static_cast<std::size_t>(edge[1])] - x[static_cast<std::size_t>(edge[0])];
     return std::sqrt(static_cast<double>(dot(d, d)));

@@ -1,5 +1,5 @@
-// What `inspect` and the first Report say of how stiffly solids bend and yield, against linear finite elements of the same
-// mesh, beams and more substeps.
+// What `inspect` and the first Report say of how stiffly solids bend and yield, against linear finite elements of the
+// same mesh, beams and more substeps.
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -67,7 +67,8 @@ TEST(ToldStiffness, SaysHowStifflyBarsOfFewCellsBend) {
     for (const int cells : {1, 2, 3}) {
       const Object bar = slender_bar(cells, poisson_ratio);
       const double right = stiffness_over_beam(bar, static_cast<double>(poisson_ratio)), found = told_bending(bar);
-      EXPECT_NEAR(found / right, 1, 0.13) << cells << " cells, " << poisson_ratio << ": " << found << ", right " << right;
+      EXPECT_NEAR(found / right, 1, 0.13)
+          << cells << " cells, " << poisson_ratio << ": " << found << ", right " << right;
     }
 }
 
@@ -106,7 +107,8 @@ Object beam_of_wood() {
 TEST(ToldStiffness, SaysWhereTheMostSubstepsByDefaultAreTooFew) {
   Scene scene = testing_support::scene_of(beam_of_wood(), 0);
   const std::string text = told(scene, "the most by default");
-  EXPECT_NE(text.find("are 1000, the most by default, so that 'bar' will yield about 1.1 times as much"), std::string::npos)
+  EXPECT_NE(text.find("are 1000, the most by default, so that 'bar' will yield about 1.1 times as much"),
+            std::string::npos)
       << text;
   const double wanted = number_after(text, "\"substeps\": ");
   EXPECT_GT(wanted, 1500);

@@ -98,7 +98,8 @@ double area_of(const TriangleMesh& mesh) {
   return sum;
 }
 
-/// The patch test: any mesh of an area A in the same homogeneous deformation holds A (Y1 e1^2 + Y2 e2^2 + G angle^2) / 2.
+/// The patch test: any mesh of an area A in the same homogeneous deformation holds A (Y1 e1^2 + Y2 e2^2 + G angle^2) /
+/// 2.
 void expect_energy_of_moduli(const TriangleMesh& mesh, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   const Object cloth = make_cloth(mesh, woven(700, 300, 40, {static_cast<float>(s), 0.3f, static_cast<float>(c)}));
@@ -279,7 +280,8 @@ TEST(WovenCloth, IsSolvedByChains) {
   EXPECT_EQ(chosen_sweep(scene, 0), Sweep::chains);
 }
 
-/// Upright cloth, which the default warp is square to, has it downwards; a fabric that does not say how it shears, shears as most do.
+/// Upright cloth, which the default warp is square to, has it downwards; a fabric that does not say how it shears,
+/// shears as most do.
 TEST(WovenCloth, HasDefaultsThatHoldUpright) {
   TriangleMesh mesh = grid_mesh(4, 5, 1, 1);
   for (Vec3f& p : mesh.positions) p = {p.x, p.z, 0};

@@ -31,11 +31,12 @@ class Bodies {
 
   void add(const Vec3f& half, const Vec3d& place, float mass = 1, const Quatd& turned = {}) {
     polyhedra_.push_back(polyhedron_of_box(half));
-    add({ConvexShape::Kind::polyhedron, 0, 0, 0, &polyhedra_.back()}, moments_of_box(convert<double>(half)), place, mass,
-        turned);
+    add({ConvexShape::Kind::polyhedron, 0, 0, 0, &polyhedra_.back()}, moments_of_box(convert<double>(half)), place,
+        mass, turned);
   }
   /// Along y; the frame of a cone is in the middle of its height, not at its centre of mass.
-  void add_round(ConvexShape::Kind kind, float radius, float half_length, const Vec3d& place, const Quatd& turned = {}) {
+  void add_round(ConvexShape::Kind kind, float radius, float half_length, const Vec3d& place,
+                 const Quatd& turned = {}) {
     const double r = static_cast<double>(radius), l = static_cast<double>(half_length);
     const bool is_capsule = kind == ConvexShape::Kind::segment;
     const Moments solid = is_capsule                        ? moments_of_capsule(r, l)
@@ -44,7 +45,8 @@ class Bodies {
     add({kind, is_capsule ? radius : 0, is_capsule ? 0 : radius, half_length, nullptr}, solid, place, 1, turned);
   }
   void add_ball(float radius, const Vec3d& place, float mass = 1) {
-    add({ConvexShape::Kind::point, radius, 0, 0, nullptr}, moments_of_sphere(static_cast<double>(radius)), place, mass, {});
+    add({ConvexShape::Kind::point, radius, 0, 0, nullptr}, moments_of_sphere(static_cast<double>(radius)), place, mass,
+        {});
   }
 
   void frame() {

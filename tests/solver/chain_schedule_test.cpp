@@ -16,7 +16,8 @@ using namespace testing_support;
 
 TEST(Chains, hold_every_distance_once_and_batches_of_a_colour_share_nothing) {
   Object from = grid(40, 23, 0);
-  from.attachments.push_back({5, {0, 1, 0}, {}, Stiffness::rigid()});  // it has no direction, so it stays with the tiles
+  from.attachments.push_back(
+      {5, {0, 1, 0}, {}, Stiffness::rigid()});  // it has no direction, so it stays with the tiles
   const CompiledObject object = compile(from, chained(0.1f));
   std::vector<int> times(from.constraints[0].particles.size() / 2 + 1, 0);
   for (const Pool& pool : object.pools)
@@ -82,7 +83,8 @@ std::vector<int> joined(const CompiledObject& object) {
       const Segment& segment = object.segments[chain.first_segment + k];
       for (int slot = 0; slot < 2; ++slot)
         for (int lane = 0; lane < segment.last_count; ++lane)
-          ends.push_back(object.order[object.pools[chain.pool].indices[segment.index_offset + slot * batch_width + lane]]);
+          ends.push_back(
+              object.order[object.pools[chain.pool].indices[segment.index_offset + slot * batch_width + lane]]);
     }
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
@@ -127,7 +129,8 @@ TEST(Chains, leave_damped_and_pbd_distances_to_the_tiles) {
     Object from = line(6, 0, random);
     std::vector<int>& pairs = from.constraints[0].particles;
     from.constraints.insert(from.constraints.begin(), {"distance", {pairs.begin(), pairs.begin() + 6}, {}, other, {}});
-    from.constraints[1].particles.erase(from.constraints[1].particles.begin(), from.constraints[1].particles.begin() + 6);
+    from.constraints[1].particles.erase(from.constraints[1].particles.begin(),
+                                        from.constraints[1].particles.begin() + 6);
     std::vector<int> numbers;
     for_links(compile(from, chained(0)), [&](const Pool&, int, int, int number) { numbers.push_back(number); });
     std::sort(numbers.begin(), numbers.end());

@@ -20,7 +20,8 @@ inline Object line(int links, float compliance, std::mt19937& random) {
   for (int i = 0; i <= links; ++i) {
     object.positions.push_back(at);
     object.masses.push_back(static_cast<float>(uniform(random, 0.1, 2)));
-    at += Vec3f{0.1f, static_cast<float>(uniform(random, -0.02, 0.02)), static_cast<float>(uniform(random, -0.02, 0.02))};
+    at +=
+        Vec3f{0.1f, static_cast<float>(uniform(random, -0.02, 0.02)), static_cast<float>(uniform(random, -0.02, 0.02))};
     if (i > 0) group.particles.insert(group.particles.end(), {i - 1, i});
   }
   object.constraints.push_back(group);
@@ -77,8 +78,8 @@ struct ChainedSubstep {
     for (std::size_t c = 0; c < object.chains.size(); ++c) {
       const ChainBatch& chain = object.chains[c];
       kernels.solve_chain(object.pools[chain.pool], &object.segments[chain.first_segment], chain.steps,
-                          &object.chain_softness[c * batch_width], keeps ? multipliers.data() : nullptr, arguments(first),
-                          scratch.data());
+                          &object.chain_softness[c * batch_width], keeps ? multipliers.data() : nullptr,
+                          arguments(first), scratch.data());
     }
   }
   void hold(const ChainKernels& kernels) {

@@ -79,7 +79,8 @@ TEST(Chains, give_the_solution_of_the_dense_system) {
         Vec3d expected = x[i];
         if (i > 0) expected += n[i - 1] * (w(i) * change[i - 1]);
         if (i < links) expected -= n[i] * (w(i) * change[i]);
-        const Record &p = substep.positions[substep.object.place[i]], &d = substep.displacements[substep.object.place[i]];
+        const Record &p = substep.positions[substep.object.place[i]],
+                     &d = substep.displacements[substep.object.place[i]];
         EXPECT_NEAR(double(p.x) + d.x, expected.x, 1e-5);
         EXPECT_NEAR(double(p.y) + d.y, expected.y, 1e-5);
         EXPECT_NEAR(double(p.z) + d.z, expected.z, 1e-5);
@@ -126,7 +127,8 @@ TEST(Chains, and_tethers_give_the_bits_of_the_reference_in_lanes) {
     const bool nasty = round % 3 == 2;
     const int columns = 3 + static_cast<int>(random() % 30), rows = 3 + static_cast<int>(random() % 20);
     Object from = grid(columns, rows, round % 2 == 0 ? 0.f : 1e-6f);
-    for (int pin = 0; pin < round % 7; ++pin) from.pins.push_back({static_cast<int>(random() % from.positions.size()), {}});
+    for (int pin = 0; pin < round % 7; ++pin)
+      from.pins.push_back({static_cast<int>(random() % from.positions.size()), {}});
     ChainedSubstep start(from, chained(0.1f, true));
     disturb(start, random, nasty);
     ChainedSubstep reference = start;
@@ -142,7 +144,8 @@ TEST(Chains, and_tethers_give_the_bits_of_the_reference_in_lanes) {
       }
       ASSERT_NO_FATAL_FAILURE(expect_same(substep.displacements, reference.displacements, isa));
       for (std::size_t i = 0; i < substep.multipliers.size(); ++i)
-        ASSERT_TRUE(substep.object.pools[0].origin[i] < 0 || same_bits(substep.multipliers[i], reference.multipliers[i]))
+        ASSERT_TRUE(substep.object.pools[0].origin[i] < 0 ||
+                    same_bits(substep.multipliers[i], reference.multipliers[i]))
             << isa;
     }
   }

@@ -95,7 +95,8 @@ std::vector<Record> projected(const Kernels& kernels, int threads, const Tangle&
   executor.enter([&] {
     ContactSolver solver;
     solver.begin(kernels.contacts, contacts, contacts.size() / 3, from.positions.data(), from.positions.size());
-    for (const float yield : {0.f, 0.3f, 0.f}) solver.project(executor, "contacts", contacts, displacements.data(), yield);
+    for (const float yield : {0.f, 0.3f, 0.f})
+      solver.project(executor, "contacts", contacts, displacements.data(), yield);
   });
   return displacements;
 }
@@ -156,7 +157,8 @@ TEST(ContactSolver, GivesTheSameBitsOnAnyThreadsAndInstructionSet) {
       for (const std::string& isa : isas) {
         std::vector<Contact> contacts;
         const std::vector<Record> found = projected(pick_kernels(isa), threads, tangle, contacts);
-        ASSERT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(Record)), 0) << isa << " " << threads;
+        ASSERT_EQ(std::memcmp(found.data(), expected.data(), found.size() * sizeof(Record)), 0)
+            << isa << " " << threads;
         for (std::size_t i = 0; i < contacts.size(); ++i)
           ASSERT_EQ(std::memcmp(&contacts[i], &expected_contacts[i], sizeof(Contact)), 0) << isa << " " << i;
       }

@@ -155,7 +155,8 @@ TEST(JointTree, AHeavyEndOnALongChainKeepsJointsAndEnergy) {
   RecordProperty("drift", std::to_string(drift));
 }
 
-/// One link lets go from horizontal: a compound pendulum, T = 1.18034 x 2 pi sqrt((I + m r^2) / (m g r)) for swings of 90 degrees.
+/// One link lets go from horizontal: a compound pendulum, T = 1.18034 x 2 pi sqrt((I + m r^2) / (m g r)) for swings of
+/// 90 degrees.
 TEST(JointTree, OneLinkSwingsAsACompoundPendulum) {
   Chain chain(1, 1);
   const double period = 1.18034 * 2 * std::acos(-1) * std::sqrt((0.021 + 0.0625) / (double(earth_gravity) * 0.25));
@@ -171,7 +172,8 @@ TEST(JointTree, OneLinkSwingsAsACompoundPendulum) {
     passages += (now > 0) != (x > 0) ? 1 : 0;
     x = now;
   }
-  EXPECT_NEAR(substeps * double(h), 3.75 * period, 0.005 * 3.75 * period);  // the eighth passage below is after 15 quarters
+  EXPECT_NEAR(substeps * double(h), 3.75 * period,
+              0.005 * 3.75 * period);  // the eighth passage below is after 15 quarters
   EXPECT_LT(highest - start, 1e-3 * chain.scale());
   EXPECT_GT(chain.energy() - start, -1e-3 * chain.scale());
 }
@@ -179,7 +181,8 @@ TEST(JointTree, OneLinkSwingsAsACompoundPendulum) {
 /// Three links of a triangle: two joints are a tree, the third closes the loop.
 TEST(JointTree, LoopsAreLeftLoose) {
   EXPECT_EQ(JointTree(3, {{0, 1}, {1, 2}, {2, 0}}).loose(), std::vector<int>{2});
-  EXPECT_EQ(JointTree(3, {{0, 1}, {1, 2}, {-1, 0}, {2, -1}}).loose(), std::vector<int>{}) << "the ground closes no loop";
+  EXPECT_EQ(JointTree(3, {{0, 1}, {1, 2}, {-1, 0}, {2, -1}}).loose(), std::vector<int>{})
+      << "the ground closes no loop";
   EXPECT_EQ(JointTree(2, {{0, 1}, {-1, 0}, {-1, 0}}).loose(), std::vector<int>{2});
   EXPECT_EQ(JointTree(2, {{0, 0}, {-1, -1}, {0, 1}}).loose(), (std::vector<int>{0, 1}));
   EXPECT_EQ(JointTree(2, {{0, 1}, {1, 0}}).loose(), std::vector<int>{1});
@@ -236,9 +239,11 @@ TEST(JointTree, AStarIsSolvedAtOnce) {
 TEST(JointTree, ABridgeIsSolvedAtOnce) {
   const std::vector<JointEnds> ends{{-1, 0}, {0, 1}, {2, 1}, {2, 3}, {3, 4}, {4, -1}};
   std::vector<JointRows> rows;
-  for (const auto& [a, b] : ends) {  // plank i descends by 0.1 (2 - i) from its left end to its middle, so that they sag
+  for (const auto& [a, b] :
+       ends) {  // plank i descends by 0.1 (2 - i) from its left end to its middle, so that they sag
     const auto arm = [](int body, float side) { return Vec3f{0.25f * side, 0.1f * float(body - 2) * side, 0}; };
-    rows.push_back(ball_joint({0.01f, 0.02f * float(a), -0.01f}, arm(a, a < b || b < 0 ? 1 : -1), arm(b, b < a ? 1 : -1)));
+    rows.push_back(
+        ball_joint({0.01f, 0.02f * float(a), -0.01f}, arm(a, a < b || b < 0 ? 1 : -1), arm(b, b < a ? 1 : -1)));
   }
   const std::vector<BodyMass> masses(5, body_mass(2, {0.01f, 0.1f, 0.1f, 0, 0, 0}));
   std::vector<BodyCorrection> moved;

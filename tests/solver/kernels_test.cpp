@@ -80,7 +80,8 @@ struct Numbers {
 };
 
 /// The displacements after three passes of a substep.
-Records swept(const Kernels& kernels, const CompiledObject& object, Numbers numbers, AlignedVector<float>* multipliers) {
+Records swept(const Kernels& kernels, const CompiledObject& object, Numbers numbers,
+              AlignedVector<float>* multipliers) {
   SweepArguments a;
   a.positions = numbers.positions.data();
   a.displacements = numbers.displacements.data();
@@ -106,7 +107,8 @@ void compare_sweeps(const CompiledObject& object, const Numbers& numbers, bool k
     const Records found = swept(*kernels, object, numbers, keeps ? &multipliers : nullptr);
     ASSERT_NO_FATAL_FAILURE(expect_same(found, expected, what + ", " + kernels->isa));
     for (std::size_t lane = 0; lane < pool.origin.size(); ++lane) {
-      ASSERT_TRUE(pool.origin[lane] < 0 || same_bits(multipliers[lane], reference[lane])) << what << ", " << kernels->isa;
+      ASSERT_TRUE(pool.origin[lane] < 0 || same_bits(multipliers[lane], reference[lane]))
+          << what << ", " << kernels->isa;
     }
   }
 }
@@ -151,7 +153,8 @@ constexpr int sets_of_slots = slot_count<T> > largest_grouped_stencil ? 1 : 1 <<
 /// Batches with every set of contiguous slots, laid out by hand, because no object has them all.
 template <class T>
 CompiledObject every_set_of_slots(Law law, Random& random) {
-  CompiledObject compiled = compile(separate_constraints<T>(batch_width * sets_of_slots<T>, law, 0, random), {10, 4096});
+  CompiledObject compiled =
+      compile(separate_constraints<T>(batch_width * sets_of_slots<T>, law, 0, random), {10, 4096});
   Pool& pool = compiled.pools[0];
   std::vector<int> particles(static_cast<std::size_t>(compiled.particles));
   std::iota(particles.begin(), particles.end(), 0);
@@ -184,7 +187,8 @@ TYPED_TEST(SweepsInLanes, GiveTheBitsOfTheReferenceWithAnySlotsInRuns) {
 
 TYPED_TEST(SweepsInLanes, MeetRunsAndSinglesInThisTest) {
   using T = TypeParam;
-  const CompiledObject rows = compile(separate_constraints<T>(160, Law::damped, all_slots<T>, this->random_), {10, 4096});
+  const CompiledObject rows =
+      compile(separate_constraints<T>(160, Law::damped, all_slots<T>, this->random_), {10, 4096});
   EXPECT_EQ(rows.pools[0].block_floats, batch_width * (field_count<T> + 1))
       << "rest and compliance differ, damping does not";
   const auto batches_in_runs = [&](int ladder, int runs) {
@@ -267,8 +271,9 @@ void compare_on_all_lengths(const Act& act) {
         for (const Kernels* kernels : kernels_in_lanes()) {
           RandomParticles found = start;
           act(*kernels, found.arguments(first, last));
-          ASSERT_NO_FATAL_FAILURE(expect_same(
-              found, expected, std::string(kernels->isa) + ", " + std::to_string(first) + " to " + std::to_string(last)));
+          ASSERT_NO_FATAL_FAILURE(
+              expect_same(found, expected,
+                          std::string(kernels->isa) + ", " + std::to_string(first) + " to " + std::to_string(last)));
         }
       }
     }
@@ -347,7 +352,8 @@ TEST(Kernels, BoundThePathsAsTheReference) {
       RandomParticles again = start;
       PointBounds found;
       kernels->predict(again.arguments(0, count), &found);
-      EXPECT_TRUE(found.low.x == expected.low.x && found.low.y == expected.low.y && found.low.z == expected.low.z) << count;
+      EXPECT_TRUE(found.low.x == expected.low.x && found.low.y == expected.low.y && found.low.z == expected.low.z)
+          << count;
       EXPECT_TRUE(found.high.x == expected.high.x && found.high.y == expected.high.y && found.high.z == expected.high.z)
           << count;
     }

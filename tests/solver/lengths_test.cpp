@@ -38,7 +38,8 @@ struct Stretched {
     std::mt19937 random(seed);
     const auto record = [&](double range) {
       const double x = uniform(random, -range, range), y = uniform(random, -range, range);
-      return Record{static_cast<float>(x), static_cast<float>(y), static_cast<float>(uniform(random, -range, range)), 0};
+      return Record{static_cast<float>(x), static_cast<float>(y), static_cast<float>(uniform(random, -range, range)),
+                    0};
     };
     for (const Record& p : object.positions) {
       const Record by = record(0.004);
@@ -193,7 +194,9 @@ TEST(LengthDemand, IsTheLargerOfStrainAndTurn) {
   EXPECT_FLOAT_EQ(demanded(100, 30), 50);
 }
 
-std::string name_of(const testing::TestParamInfo<Sweep>& info) { return info.param == Sweep::tiled ? "tiled" : "chains"; }
+std::string name_of(const testing::TestParamInfo<Sweep>& info) {
+  return info.param == Sweep::tiled ? "tiled" : "chains";
+}
 INSTANTIATE_TEST_SUITE_P(Sweeps, Lengths, testing::Values(Sweep::tiled, Sweep::chains), name_of);
 
 }  // namespace

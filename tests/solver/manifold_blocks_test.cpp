@@ -1,5 +1,5 @@
-// Compares blocks of sixteen manifolds with the scalar functions bit by bit: every kernel, one and several threads, one to
-// four points, fixed bodies, free lanes, the tail.
+// Compares blocks of sixteen manifolds with the scalar functions bit by bit: every kernel, one and several threads, one
+// to four points, fixed bodies, free lanes, the tail.
 #include "solver/bodies/manifold_blocks.h"
 
 #include <gtest/gtest.h>
@@ -128,7 +128,8 @@ int solve_one_by_one(Pile& pile) {
       if (bounce(m, a, b, pile_step, fall)) bounced = true;
     });
     bounces += bounced ? 1 : 0;
-    one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, pile_step, pile_softness); });
+    one_by_one(pile,
+               [](Manifold& m, BodyMotion& a, BodyMotion& b) { position_pass(m, a, b, pile_step, pile_softness); });
     advance(pile);
     one_by_one(pile, [](Manifold& m, BodyMotion& a, BodyMotion& b) { velocity_pass(m, a, b, pile_step); });
   }
@@ -144,8 +145,8 @@ int solve_in_blocks(Pile& pile, const ManifoldKernels& kernels, int threads) {
   const auto manifold = [&](int i) -> Manifold& { return pile.manifolds[place_of[static_cast<std::size_t>(i)]]; };
   blocks.fill(
       executor, pile.colours, pile.is_fixed, [](int) {}, [&](int i) { return manifold(i); });
-  EXPECT_EQ(blocks.bounces(),
-            std::any_of(pile.manifolds.begin(), pile.manifolds.end(), [](const Manifold& m) { return m.restitution > 0; }));
+  EXPECT_EQ(blocks.bounces(), std::any_of(pile.manifolds.begin(), pile.manifolds.end(),
+                                          [](const Manifold& m) { return m.restitution > 0; }));
   blocks.prepare(executor, kernels, pile.motions);
   for (int substep = 0; substep < pile_substeps; ++substep) {
     blocks.warm_start(executor, kernels, pile.motions);

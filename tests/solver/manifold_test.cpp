@@ -151,7 +151,8 @@ TEST(Manifold, APyramidStands) {
     }
   run(boxes, 240);
   double most = 0;
-  for (std::size_t i = 1; i < start.size(); ++i) most = std::max(most, length(boxes.bodies[i].pose.position - start[i]));
+  for (std::size_t i = 1; i < start.size(); ++i)
+    most = std::max(most, length(boxes.bodies[i].pose.position - start[i]));
   EXPECT_LT(most, 5e-3);
   EXPECT_LT(fastest(boxes), 5e-3);
   RecordProperty("displacement", std::to_string(most));

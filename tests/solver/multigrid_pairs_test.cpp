@@ -56,8 +56,9 @@ System dense_system_of(const std::vector<Object>& objects, const Corrected& foun
         for (std::size_t j = 0; j < 4; ++j) {
           if (s.object[j] < 0) continue;
           for (std::size_t d = 0; d < 3; ++d)
-            joint.a[row(i, c)][row(j, d)] += double(s.weight[i]) * double(s.weight[j]) *
-                                             (double(s.along - s.across) * n[c] * n[d] + (c == d ? double(s.across) : 0));
+            joint.a[row(i, c)][row(j, d)] +=
+                double(s.weight[i]) * double(s.weight[j]) *
+                (double(s.along - s.across) * n[c] * n[d] + (c == d ? double(s.across) : 0));
         }
       }
     }
@@ -73,8 +74,8 @@ TEST(MultigridPairs, AreSolvedWithTheirObjectsAsOne) {
   EXPECT_LT(error_of(found.change(), eliminate(joint.a, joint.b)), 1e-3);
 }
 
-/// After few cycles the springs still overlap, and seem to push with forces that no particle has felt. So the projection of
-/// contacts starts from zero.
+/// After few cycles the springs still overlap, and seem to push with forces that no particle has felt. So the
+/// projection of contacts starts from zero.
 TEST(MultigridPairs, HandNoForcesToTheProjection) {
   const Corrected found(two_sheets(), 2);
   ASSERT_GT(found.springs().size(), 20u);
@@ -84,8 +85,8 @@ TEST(MultigridPairs, HandNoForcesToTheProjection) {
   }
 }
 
-/// The residual r acts like an outside force -r. Its work on the motion since the substep's start, less the mean motion of
-/// each sheet, must not be positive.
+/// The residual r acts like an outside force -r. Its work on the motion since the substep's start, less the mean motion
+/// of each sheet, must not be positive.
 TEST(MultigridPairs, LeaveAResidualThatFeedsNoEnergy) {
   const std::vector<Object> sheets = two_sheets();
   for (const int cycles : {1, 2, 3}) {
@@ -122,7 +123,8 @@ double overlap_of(const Contact& contact, const Corrected& found) {
   double apart = double(contact.gap);
   for (std::size_t i = 0; i < 4; ++i) {
     const Record& d = found.workspace.displacements[std::size_t(contact.point[i])];
-    apart += double(contact.weight[i]) * dot(convert<double>(contact.normal), Vec3d{double(d.x), double(d.y), double(d.z)});
+    apart +=
+        double(contact.weight[i]) * dot(convert<double>(contact.normal), Vec3d{double(d.x), double(d.y), double(d.z)});
   }
   return std::max(0., -apart);
 }

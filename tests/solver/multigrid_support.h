@@ -34,7 +34,8 @@ inline Object crumpled(int columns, int rows, unsigned seed) {
   for (Vec3f& p : object.positions)
     p += Vec3f{uniform_16_bit(random, -0.02f, 0.02f), uniform_16_bit(random, -0.02f, 0.02f),
                uniform_16_bit(random, -0.02f, 0.02f)};
-  for (std::size_t i = 0; i < object.positions.size(); ++i) object.masses.push_back(uniform_16_bit(random, 0.001f, 0.004f));
+  for (std::size_t i = 0; i < object.positions.size(); ++i)
+    object.masses.push_back(uniform_16_bit(random, 0.001f, 0.004f));
   object.pins = {{0, {}}, {columns + 2, {}}};
   ConstraintGroup rigid{"distance", {}, {}, Stiffness::rigid(), {}}, soft = rigid;
   soft.stiffness = Stiffness::compliance(0.01f);
@@ -252,7 +253,8 @@ struct Corrected {
   Vector change() const {
     Vector out;
     for (std::size_t i = 0; i < predicted.size(); ++i)
-      for (int c = 0; c < 3; ++c) out.push_back(double((&workspace.displacements[i].x)[c]) - double((&predicted[i].x)[c]));
+      for (int c = 0; c < 3; ++c)
+        out.push_back(double((&workspace.displacements[i].x)[c]) - double((&predicted[i].x)[c]));
     return out;
   }
 };

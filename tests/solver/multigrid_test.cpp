@@ -42,8 +42,9 @@ Vector flat(const Records& records, int rows) {
 }
 
 class Matrices : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Of, Matrices, testing::ValuesIn(available_isas()),
-                         [](const auto& isa) { return isa.param == "generic" ? isa.param : "v" + isa.param.substr(8); });
+INSTANTIATE_TEST_SUITE_P(Of, Matrices, testing::ValuesIn(available_isas()), [](const auto& isa) {
+  return isa.param == "generic" ? isa.param : "v" + isa.param.substr(8);
+});
 
 TEST_P(Matrices, OfTheFinestLevelAreTheHessian) {
   Linearised of(crumpled(9, 7, 2), GetParam(), true);
@@ -104,7 +105,8 @@ TEST_P(Matrices, ResidualAndJacobiAreThoseOfTheMatrix) {
     Records x(values.x.size()), out = x, right = x;
     for (int i = 0; i < level.rows; ++i) {
       if (l == 0 && !of.moves(i)) continue;
-      x[std::size_t(i)] = {uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1), 0};
+      x[std::size_t(i)] = {uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1),
+                           0};
       right[std::size_t(i)] = {uniform_16_bit(random, -1e4f, 1e4f), uniform_16_bit(random, -1e4f, 1e4f),
                                uniform_16_bit(random, -1e4f, 1e4f), 0};
     }
@@ -141,8 +143,8 @@ TEST_P(Matrices, RestrictionSumsAndProlongationCopies) {
   Records residual(of.values(0).x.size()), up(residual.size());
   Vector sums(3 * static_cast<std::size_t>(coarse.rows), 0);
   for (int i = 0; i < fine.rows; ++i) {
-    residual[std::size_t(i)] = {uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1),
-                                0};
+    residual[std::size_t(i)] = {uniform_16_bit(random, -1, 1), uniform_16_bit(random, -1, 1),
+                                uniform_16_bit(random, -1, 1), 0};
     const int parent = fine.parent[std::size_t(lane_place(i))];
     if (parent == coarse.nothing()) continue;
     for (std::size_t c = 0; c < 3; ++c) sums[3 * std::size_t(parent) + c] += double((&residual[std::size_t(i)].x)[c]);
@@ -201,7 +203,8 @@ TEST(MultigridCorrection, ThatIsNotFiniteIsNotMade) {
   for (const Record& d : found.predicted) ASSERT_TRUE(std::isfinite(d.x) && std::isfinite(d.y) && std::isfinite(d.z));
   for (const double moved : found.change()) ASSERT_EQ(moved, 0);
   for (const auto& pool : found.workspace.multipliers.at(0))
-    for (const float lambda : pool) ASSERT_EQ(lambda, 0) << "or sweeps take soft springs for met, which then hold nothing";
+    for (const float lambda : pool)
+      ASSERT_EQ(lambda, 0) << "or sweeps take soft springs for met, which then hold nothing";
 }
 
 }  // namespace

@@ -109,7 +109,8 @@ TEST(Points, FindWhatIsNotFinite) {
   particles.displacements[3].x = particles.displacements[1500].z - particles.displacements[1500].z;
   std::vector<unsigned char> nonfinite(point_count, 2);
   run_backwards(FindNonfinite{particles.displacements.data(), nonfinite.data()});
-  for (int i = 0; i < point_count; ++i) EXPECT_EQ(nonfinite[static_cast<std::size_t>(i)], i == 3 || i == 1500 ? 1 : 0) << i;
+  for (int i = 0; i < point_count; ++i)
+    EXPECT_EQ(nonfinite[static_cast<std::size_t>(i)], i == 3 || i == 1500 ? 1 : 0) << i;
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ inline GridStencils grid_stencils(int n) {
 }
 
 /// A closed ball of radius 0.2 m with 1 g per particle, and a skin of compliant edges.
-inline Object balloon(int subdivisions, float pressure, const Stiffness& stiffness, const Vec3f& centre = {0, 1.5f, 0.4f}) {
+inline Object balloon(int subdivisions, float pressure, const Stiffness& stiffness,
+                      const Vec3f& centre = {0, 1.5f, 0.4f}) {
   const TriangleMesh mesh = sphere_mesh(subdivisions);
   Object object;
   object.name = "balloon";

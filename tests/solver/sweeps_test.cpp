@@ -219,7 +219,8 @@ std::vector<double> displacements_after_one(const SweepOptions& options, Sweep s
   std::vector<double> moved;
   for (int i = 0; i < 3; ++i) {
     const int at = out.model.objects[0].place[i];
-    moved.push_back(static_cast<double>(out.state.positions[at].x) - static_cast<double>(three_particles().positions[i].x));
+    moved.push_back(static_cast<double>(out.state.positions[at].x) -
+                    static_cast<double>(three_particles().positions[i].x));
   }
   return moved;
 }

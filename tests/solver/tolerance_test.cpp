@@ -28,9 +28,10 @@ Stopped run_with_tolerance(const std::vector<Object>& objects, const SweepRun& r
   Stopped stopped;
   for (int frame = 0; frame < run.frames; ++frame) {
     stopped.reports.emplace_back();
-    step({out.model, out.state, out.workspace, executor, pick_kernels(run.isa), run.settings.substeps,
-          run.settings.iterations, run.settings.sweep_options, run.settings.record_residuals, nullptr, false, tolerance},
-         static_cast<double>(run.dt), stopped.reports.back());
+    step(
+        {out.model, out.state, out.workspace, executor, pick_kernels(run.isa), run.settings.substeps,
+         run.settings.iterations, run.settings.sweep_options, run.settings.record_residuals, nullptr, false, tolerance},
+        static_cast<double>(run.dt), stopped.reports.back());
   }
   stopped.state = out.state;
   stopped.model = out.model;
@@ -136,7 +137,8 @@ TEST(Tolerance, WithoutDistancesMakesAllIterations) {
 /// A batch has sixteen constraints. For numbers near multiples of it, padding must not count.
 TEST(Tolerance, CountsNoPadding) {
   for (int links : {1, 2, 15, 16, 17, 33, 70}) {
-    Object chain = stretched_chain(links, std::vector<double>(static_cast<std::size_t>(links), 0.0), Stiffness::rigid());
+    Object chain =
+        stretched_chain(links, std::vector<double>(static_cast<std::size_t>(links), 0.0), Stiffness::rigid());
     SweepRun run = run_of(Sweep::tiled, 1, 1);
     run.frames = 0;
     Outcome out = run_sweep({chain}, run, 0);

@@ -41,7 +41,9 @@ class Stencil : public testing::Test {
   static constexpr int slot_total = T::slots::count, samples = 100;
   using Params = typename T::template Params<double>;
 
-  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(random_()) / 4294967295.0); }
+  double uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(random_()) / 4294967295.0);
+  }
   Vec3d point(double reach) { return {uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)}; }
   Quatd rotation() { return normalise(Quatd{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(0.2, 1)}); }
 

@@ -105,7 +105,8 @@ struct Momenta {
 
 Momenta momenta_of(const World& world, const Scene& scene) {
   Momenta sum;
-  const auto x = world.object(0).positions(), v = world.object(0).velocities(), w = world.object(0).angular_velocities();
+  const auto x = world.object(0).positions(), v = world.object(0).velocities(),
+             w = world.object(0).angular_velocities();
   const auto q = world.object(0).orientations();
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double m = static_cast<double>(scene.objects[0].masses[i]);

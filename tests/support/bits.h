@@ -10,7 +10,8 @@
 
 namespace pliant::testing_support {
 
-/// True if both floats have the same bits. Two NaN always count as equal, because their payloads differ between machines.
+/// True if both floats have the same bits. Two NaN always count as equal, because their payloads differ between
+/// machines.
 inline bool same_bits(float a, float b) {
   return (std::isnan(a) && std::isnan(b)) || bits_as<std::uint32_t>(a) == bits_as<std::uint32_t>(b);
 }
@@ -38,7 +39,8 @@ inline float nasty_float(std::mt19937& random) {
   if (kind == 0) return special[random() % (sizeof special / sizeof *special)];
   if (kind == 1) return std::ldexp(unit, static_cast<int>(random() % 200) - 100);
   if (kind == 2)
-    return static_cast<float>(static_cast<int>(random() % 3) - 1);  // -1, 0 or 1, for coincident points and right angles
+    return static_cast<float>(static_cast<int>(random() % 3) -
+                              1);  // -1, 0 or 1, for coincident points and right angles
   return unit;
 }
 

@@ -124,11 +124,11 @@ bool is_well_spread(const std::array<Vec3d, n>& x) {
 
 /// True if a type has no rest shape without volume.
 template <class T>
-inline constexpr bool needs_volume =
-    std::is_base_of_v<TetrahedronStrain, T> || std::is_same_v<T, TetrahedronVolume> || std::is_same_v<T, VolumeAroundEdge>;
+inline constexpr bool needs_volume = std::is_base_of_v<TetrahedronStrain, T> || std::is_same_v<T, TetrahedronVolume> ||
+                                     std::is_same_v<T, VolumeAroundEdge>;
 
-/// True if C is a norm of several numbers. Its level sets are curved at any distance from rest, so one projection removes its share
-/// only roughly, and several turn the direction of the gradient.
+/// True if C is a norm of several numbers. Its level sets are curved at any distance from rest, so one projection
+/// removes its share only roughly, and several turn the direction of the gradient.
 template <class T>
 inline constexpr bool is_norm = std::is_base_of_v<TetrahedronStrain, T> && !std::is_same_v<T, GreenTrace>;
 

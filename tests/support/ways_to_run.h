@@ -46,7 +46,8 @@ std::string differing_ways(const std::string& expected, const Run& run) {
   std::string text;
   for (const std::string& isa : available_isas())
     for (const int threads : thread_counts)
-      text += "\n  " + std::to_string(threads) + " x " + isa + (run(threads, isa) == expected ? ": same" : ": DIFFERENT");
+      text +=
+          "\n  " + std::to_string(threads) + " x " + isa + (run(threads, isa) == expected ? ": same" : ": DIFFERENT");
   return text;
 }
 

@@ -104,8 +104,8 @@ TEST(ParticleCells, HaveEachParticleOnce) {
   EXPECT_EQ(cells.find({12345, 0, 0}), -1);
 }
 
-/// Checks all nodes of a field: their value is the sum of the kernels, or 1 where that sum is above the level by 0.1 or more. Returns the
-/// number of the latter.
+/// Checks all nodes of a field: their value is the sum of the kernels, or 1 where that sum is above the level by 0.1 or
+/// more. Returns the number of the latter.
 int expect_sums(const std::vector<Vec3f>& particles, float cell) {
   Executor executor(2);
   const ParticleCells cells = sort_into_cells(particles, spacing, executor);

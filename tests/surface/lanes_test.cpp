@@ -47,7 +47,8 @@ TEST(SurfaceKernels, AllLevelsGiveTheSameBits) {
     const Field field = make_field(cells, splats, spacing * 0.45f, executor, *levels.front());
     for (std::size_t level = 1; level < levels.size(); ++level) {
       const Splats others = make_splats(cells, spacing, anisotropic, executor, *levels[level]);
-      EXPECT_TRUE(same_bits(splats.all.data(), others.all.data(), splats.all.size() * sizeof(Splat))) << "level " << level;
+      EXPECT_TRUE(same_bits(splats.all.data(), others.all.data(), splats.all.size() * sizeof(Splat)))
+          << "level " << level;
       EXPECT_TRUE(splats.widest == others.widest && splats.per_x == others.per_x) << "level " << level;
       expect_same(field, make_field(cells, others, spacing * 0.45f, executor, *levels[level]), level);
     }
@@ -69,9 +70,9 @@ Kernel<float> expected_kernel(const std::vector<Vec3f>& particles, const Vec3f& 
     products.xy += w * d.x * d.y, products.xz += w * d.x * d.z, products.yz += w * d.y * d.z;
   }
   const auto f = [](double v) { return static_cast<float>(v); };
-  const Symmetric<float> c =
-      covariance(f(sum), convert<float>(places),
-                 {f(products.xx), f(products.yy), f(products.zz), f(products.xy), f(products.xz), f(products.yz)}, spacing);
+  const Symmetric<float> c = covariance(
+      f(sum), convert<float>(places),
+      {f(products.xx), f(products.yy), f(products.zz), f(products.xy), f(products.xz), f(products.yz)}, spacing);
   const float trace = trace_of(c);
   return make_kernel(squared_radii(c, trace, true), gain_of(trace), spacing);
 }

@@ -79,7 +79,8 @@ struct Bumps {
 Bumps bumps_of(const std::vector<float>& heights) {
   Bumps b;
   for (const float h : heights) b.mean += static_cast<double>(h) / static_cast<double>(heights.size());
-  for (const float h : heights) b.rms += std::pow(static_cast<double>(h) - b.mean, 2) / static_cast<double>(heights.size());
+  for (const float h : heights)
+    b.rms += std::pow(static_cast<double>(h) - b.mean, 2) / static_cast<double>(heights.size());
   b.rms = std::sqrt(b.rms);
   return b;
 }

@@ -65,7 +65,8 @@ inline double volume(const TriangleMesh& mesh) {
   return six / 6;
 }
 
-/// What is wrong with the mesh's topology; empty if it is closed, consistently oriented and two-manifold at edges and vertices.
+/// What is wrong with the mesh's topology; empty if it is closed, consistently oriented and two-manifold at edges and
+/// vertices.
 inline std::string topology_fault(const TriangleMesh& mesh) {
   std::set<std::pair<int, int>> directed;
   std::map<int, std::map<int, int>> fans;  // for each vertex, the vertex after each of its neighbours

@@ -1,5 +1,5 @@
-// Edits of large objects keep the schedule of what they do not reach, and the schedule stays sound: each constraint once, none that share a
-// particle at the same time. What is saved between edits goes on with the same bits.
+// Edits of large objects keep the schedule of what they do not reach, and the schedule stays sound: each constraint
+// once, none that share a particle at the same time. What is saved between edits goes on with the same bits.
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -38,7 +38,8 @@ Edit opened(const Object& object, float first, float last, float end) {
   return part_tetrahedra(object, part);
 }
 
-/// The constraints of a type in a compiled object, by the user's index of their particles, in ascending order, with how often they are there.
+/// The constraints of a type in a compiled object, by the user's index of their particles, in ascending order, with how
+/// often they are there.
 using Counts = std::map<std::pair<int, std::vector<int>>, int>;
 
 /// Checks the segments of a colour: no particle twice, all in the tile. Counts what is in it.
@@ -130,7 +131,8 @@ TEST(KeptSchedule, KeepsAllButWhatAnEditReaches) {
   const int copies = after.particles - before.particles;
   EXPECT_GT(copies, 20);
   EXPECT_GT(added_constraints(after), copies);
-  // At a particle in a grid of six tetrahedra a cell there are up to 14 edges, 24 tetrahedra and as many volumes; groups of four go with them.
+  // At a particle in a grid of six tetrahedra a cell there are up to 14 edges, 24 tetrahedra and as many volumes;
+  // groups of four go with them.
   EXPECT_LT(added_constraints(after), 2 * 4 * 62 * copies);
   EXPECT_LT(added_constraints(after), static_cast<int>(count_all(after).size()) / 8);
 }
@@ -149,8 +151,8 @@ TEST(KeptSchedule, StaysSoundOverManyEdits) {
   CompiledObject now = compile(block, CompileOptions{});
   for (int i = 0; i < 6; ++i) {
     const float place = 0.15f * static_cast<float>(i) - 0.45f;
-    Edit edit =
-        i == 3 ? remove_tetrahedra(block, std::vector<int>{5, 900, 901, 7000}) : opened(block, place, place + 0.1f, 0.4f);
+    Edit edit = i == 3 ? remove_tetrahedra(block, std::vector<int>{5, 900, 901, 7000})
+                       : opened(block, place, place + 0.1f, 0.4f);
     const std::optional<KeptSchedule> kept = follow_edit(now, edit.object, edit.from);
     ASSERT_TRUE(kept);
     now = compile(edit.object, CompileOptions{}, &*kept);

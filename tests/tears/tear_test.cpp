@@ -82,7 +82,8 @@ TEST(Tear, BreaksARopeWhereItBearsMost) {
   rope.masses.back() = 0.2f;
   rope.pins.push_back({0, {}});
   rope.damping = 20;  // above critical: no link is ever longer than at rest
-  // The uppermost link bears 0.2 kg and nine particles of 5 g: it is 1 + m g alpha / L = 1.481 times as long; the next one 1.471.
+  // The uppermost link bears 0.2 kg and nine particles of 5 g: it is 1 + m g alpha / L = 1.481 times as long; the next
+  // one 1.471.
   rope.tearing = Tearing{1.476f};
   Scene scene = weightless(rope, 50);
   scene.gravity = {0, -9.81f, 0};

@@ -41,7 +41,8 @@ void expect_runs(const Constraints& c, const Colour& colour) {
     for (int l = 1; l < 4; ++l) {
       for (int slot = 0; slot < c.size; ++slot) {
         if ((colour.runs >> slot & 1) == 0) continue;
-        EXPECT_EQ(c.at(colour.members[first + static_cast<std::size_t>(l)], slot), c.at(colour.members[first], slot) + l);
+        EXPECT_EQ(c.at(colour.members[first + static_cast<std::size_t>(l)], slot),
+                  c.at(colour.members[first], slot) + l);
       }
     }
   }
@@ -170,13 +171,15 @@ TEST(Colouring, NeverTakesAChainForARun) {
 }
 
 TEST(Colouring, GroupsWhatIsInRunsWithSomeSlotsAlone) {
-  // Particles 0..2047 joined to random others: no constraint is contiguous in both slots, nearly all can be in the first.
+  // Particles 0..2047 joined to random others: no constraint is contiguous in both slots, nearly all can be in the
+  // first.
   std::mt19937 random(6);
   std::vector<int> strangers(2048);
   std::iota(strangers.begin(), strangers.end(), 2048);
   std::shuffle(strangers.begin(), strangers.end(), random);
   Constraints joined{4096, 2, {}};
-  for (int i = 0; i < 2048; ++i) joined.stencils.insert(joined.stencils.end(), {i, strangers[static_cast<std::size_t>(i)]});
+  for (int i = 0; i < 2048; ++i)
+    joined.stencils.insert(joined.stencils.end(), {i, strangers[static_cast<std::size_t>(i)]});
   std::size_t in_runs = 0;
   for (const Colour& colour : checked_colours(joined, all_of(joined)))
     in_runs += colour.runs != 0 ? colour.members.size() : 0;
@@ -184,15 +187,18 @@ TEST(Colouring, GroupsWhatIsInRunsWithSomeSlotsAlone) {
 }
 
 TEST(Colouring, LeavesALittleThatIsLeftAlone) {
-  // A ladder of 64 rungs, and 16 constraints that could be contiguous in one slot: too few to fill batches of their own.
+  // A ladder of 64 rungs, and 16 constraints that could be contiguous in one slot: too few to fill batches of their
+  // own.
   std::mt19937 random(7);
   std::vector<int> strangers(16);
   std::iota(strangers.begin(), strangers.end(), 200);
   std::shuffle(strangers.begin(), strangers.end(), random);
   Constraints ladder{300, 2, {}};
   for (int i = 0; i < 64; ++i) ladder.stencils.insert(ladder.stencils.end(), {i, 64 + i});
-  for (int i = 0; i < 16; ++i) ladder.stencils.insert(ladder.stencils.end(), {i, strangers[static_cast<std::size_t>(i)]});
-  for (const Colour& colour : checked_colours(ladder, all_of(ladder))) EXPECT_TRUE(colour.runs == 0 || colour.runs == 3);
+  for (int i = 0; i < 16; ++i)
+    ladder.stencils.insert(ladder.stencils.end(), {i, strangers[static_cast<std::size_t>(i)]});
+  for (const Colour& colour : checked_colours(ladder, all_of(ladder)))
+    EXPECT_TRUE(colour.runs == 0 || colour.runs == 3);
 }
 
 TEST(Colouring, ShareInRuns) {

@@ -49,7 +49,8 @@ Mesh shuffled(const Mesh& mesh, unsigned seed) {
   std::shuffle(name.begin(), name.end(), random);
   Mesh out = mesh;
   for (std::size_t i = 0; i < name.size(); ++i) out.positions[static_cast<std::size_t>(name[i])] = mesh.positions[i];
-  for (auto& link : out.links) link = {name[static_cast<std::size_t>(link[0])], name[static_cast<std::size_t>(link[1])]};
+  for (auto& link : out.links)
+    link = {name[static_cast<std::size_t>(link[0])], name[static_cast<std::size_t>(link[1])]};
   return out;
 }
 

@@ -98,7 +98,8 @@ TEST(Audit, MeasuresTheLeastDistanceOfBruteForce) {
     }
     const std::vector<Triangle> triangles(mesh.triangles.begin(), mesh.triangles.end());
     EXPECT_NEAR(least_distance({mesh.positions, triangles}, 5), brute_force(triangles, mesh.positions), 1e-12);
-    EXPECT_EQ(least_distance({mesh.positions, triangles}, 1e-9), std::min(1e-9, brute_force(triangles, mesh.positions)));
+    EXPECT_EQ(least_distance({mesh.positions, triangles}, 1e-9),
+              std::min(1e-9, brute_force(triangles, mesh.positions)));
   }
 }
 

@@ -70,7 +70,8 @@ TEST(BenchQuality, FindsTheSubstepsThatKeepTheBounds) {
     for (const Row& row : rows) {
       EXPECT_EQ(row.workload, workload.as.name);
       EXPECT_EQ(row.met, row.stretch_p99 <= workload.p99 && row.stretch_max <= workload.largest) << row.engine;
-      EXPECT_TRUE(row.met) << workload.as.name << ", " << row.engine << ": " << row.stretch_p99 << ", " << row.stretch_max;
+      EXPECT_TRUE(row.met) << workload.as.name << ", " << row.engine << ": " << row.stretch_p99 << ", "
+                           << row.stretch_max;
       EXPECT_GT(row.stretch_p99, 1);
     }
     EXPECT_EQ(rows[2].engine, "multigrid");

@@ -120,7 +120,8 @@ TEST(Compare, MeasuresASubstepOfTheLengthThatTheSceneHad) {
     for (; world.state().frame < std::max(frame, 1);) substeps = world.step(scene.frame_time).substeps;
     EXPECT_DOUBLE_EQ(result.substep, static_cast<double>(scene.frame_time) / substeps) << frame;
     EXPECT_NE(substeps, 30) << "that was the length before";
-    // The first quarter of a scene has the length of 40 substeps a frame, as nothing was measured before it; then it falls.
+    // The first quarter of a scene has the length of 40 substeps a frame, as nothing was measured before it; then it
+    // falls.
     EXPECT_LT(substeps, frame == 0 ? 40 : 20) << frame;
   }
   scene.settings.least_substeps = 48;
@@ -225,7 +226,8 @@ std::string refusal(const Scene& scene, const Options& options) {
 }
 
 TEST(Compare, SaysWhichNamesThereAre) {
-  const std::string sweep = refusal(swinging(), quick({"tilde"})), option = refusal(swinging(), quick({"tiled+lasers"}));
+  const std::string sweep = refusal(swinging(), quick({"tilde"})),
+                    option = refusal(swinging(), quick({"tiled+lasers"}));
   EXPECT_NE(sweep.find("'tilde'"), std::string::npos) << sweep;
   for (const NamedSweep& one : sweeps()) EXPECT_NE(sweep.find(one.name), std::string::npos) << sweep;
   EXPECT_NE(option.find("'lasers'"), std::string::npos) << option;
@@ -338,7 +340,8 @@ TEST(Compare, DrawsSixPanelsWithALineASweep) {
       EXPECT_TRUE(std::is_sorted(chart.series[sweep].x.begin(), chart.series[sweep].x.end())) << chart.title;
     }
   }
-  EXPECT_DOUBLE_EQ(charts[0].series[2].y[4], 1000 * result.curves[2].residuals[5]) << "millimetres, from iteration 1 on";
+  EXPECT_DOUBLE_EQ(charts[0].series[2].y[4], 1000 * result.curves[2].residuals[5])
+      << "millimetres, from iteration 1 on";
   EXPECT_EQ(charts[1].series[2].y, charts[0].series[2].y) << "by time as by iterations, whatever was sampled";
   EXPECT_DOUBLE_EQ(charts[2].series[0].y[0], 100 * (result.curves[0].samples[0].stretch.largest - 1)) << "percent";
   EXPECT_DOUBLE_EQ(charts[5].series[1].y[6], 100 * (result.curves[1].samples[6].stretch.p99 - 1));

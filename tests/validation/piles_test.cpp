@@ -33,8 +33,8 @@ TEST(BenchPiles, APyramidHasAsManyBodiesAsItsRowsAndStands) {
   }
 }
 
-/// The mean height of the bodies' centres if these fill a paraboloid bowl (pour, height r^2 / size) with a flat surface: two thirds of
-/// the height h of volume pi size h^2 / 2 = solid volume / packing.
+/// The mean height of the bodies' centres if these fill a paraboloid bowl (pour, height r^2 / size) with a flat
+/// surface: two thirds of the height h of volume pi size h^2 / 2 = solid volume / packing.
 double mean_height_in_bowl(int bodies, double packing) {
   const double pi = 3.14159265, size = 0.2 * std::cbrt(bodies);
   const double box = 0.2 * 0.16 * 0.24, ball = 4 * pi / 3 * std::pow(0.11, 3), can = pi * 0.1 * 0.1 * 0.2;
@@ -58,8 +58,8 @@ double height_of_poured(PileEngine& engine, int count) {
   return mean / mean_height_in_bowl(count, 0.5);
 }
 
-/// Loose heaps of mixed bodies with friction take 0.5 to 0.64 of their room (random loose and random close packing). Piles
-/// are chaotic: single ones take 0.49 to 0.53, which differs by more than engines do.
+/// Loose heaps of mixed bodies with friction take 0.5 to 0.64 of their room (random loose and random close packing).
+/// Piles are chaotic: single ones take 0.49 to 0.53, which differs by more than engines do.
 TEST(BenchPiles, PouredBodiesFillTheBowlAsAPackingDoes) {
   const std::array<int, 3> counts{180, 200, 220};
   for (std::size_t engine = 0; engine < (has_bullet() ? 2 : 1); ++engine) {

@@ -86,8 +86,9 @@ SceneRow row(const std::string& settings, double milliseconds, double p99, doubl
 }
 
 TEST(SceneTable, NamesTheCheapestSettingThatHoldsTheBounds) {
-  std::vector<SceneRow> rows{row("default", 6, 0.01, 0.05),   row("own", 1, 0, 0),       row("tiled 20", 2, 0.021, 0.05),
-                             row("chains 20", 3, 0.01, 0.11), row("chains 40", 5, 0, 0), row("chains 30", 4, 0.02, 0.1)};
+  std::vector<SceneRow> rows{row("default", 6, 0.01, 0.05),   row("own", 1, 0, 0),
+                             row("tiled 20", 2, 0.021, 0.05), row("chains 20", 3, 0.01, 0.11),
+                             row("chains 40", 5, 0, 0),       row("chains 30", 4, 0.02, 0.1)};
   compare_costs(rows);
   EXPECT_EQ(rows[0].cheapest, "chains 30");
   EXPECT_EQ(rows[0].ratio, 1.5);

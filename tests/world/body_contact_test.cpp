@@ -326,7 +326,8 @@ TEST(BodyContact, WhatIsPressedIntoSomethingIsNamed) {
     add_body(pile, {{Box{{0.5f, 0.5f, 0.5f}}}}, {.position = {0, 0.7f, 0}, .mass = is_heavy ? 1000.f : 10.f});
     scene.add(pile);
     World world(scene);
-    std::string warnings;  // sag by the formula on the page: 1.04 h^2 F / m = 0.44 mm under 10 kg, and 44 mm under 1 000 kg
+    std::string
+        warnings;  // sag by the formula on the page: 1.04 h^2 F / m = 0.44 mm under 10 kg, and 44 mm under 1 000 kg
     for (int frame = 0; frame < 30; ++frame)
       for (const std::string& warning : world.step(dt).warnings) warnings += warning + "\n";
     EXPECT_EQ(warnings.empty(), !is_heavy) << warnings;

@@ -32,7 +32,8 @@ Object slack_sheet(const Vec3f& place) {
   cloth.thickness = 0.01f;
   for (std::size_t i = 0; i < cloth.positions.size(); ++i) {
     const Vec3f local{cloth.positions[i].x - centre.x, 0, cloth.positions[i].z - centre.z};
-    if (std::max(std::fabs(local.x), std::fabs(local.z)) > 0.499f * side) cloth.pins.push_back({static_cast<int>(i), {}});
+    if (std::max(std::fabs(local.x), std::fabs(local.z)) > 0.499f * side)
+      cloth.pins.push_back({static_cast<int>(i), {}});
     cloth.positions[i] = place + local * 0.93f;
   }
   return cloth;
@@ -160,8 +161,9 @@ TEST(BodyGuard, TwoSheetsAreTwoIslands) {
   EXPECT_TRUE(are_equal(path(guarded_scene({slack_sheet({}), both, slack_sheet({10, 0, 0})}), 1, 0), alone));
 }
 
-/// A motor of the island lifts a ball off a plate that lies on the sheet, at 2 m/s: it does work, so the guard may not hold the ball
-/// back. In 0.5 s it rises by 1 m; a tenth is left for the start and for the plate, which is pressed down.
+/// A motor of the island lifts a ball off a plate that lies on the sheet, at 2 m/s: it does work, so the guard may not
+/// hold the ball back. In 0.5 s it rises by 1 m; a tenth is left for the start and for the plate, which is pressed
+/// down.
 TEST(BodyGuard, AMotorOfTheIslandDoesWork) {
   Object lift;
   lift.collides = lift.self_collision = true;

@@ -21,8 +21,8 @@ inline Hull prism(float radius, float half_height) {
   Hull hull;
   for (const float y : {-half_height, half_height})
     for (const Vec3f& p :
-         {Vec3f{1, y, 0}, Vec3f{half_root, y, half_root}, Vec3f{0, y, 1}, Vec3f{-half_root, y, half_root}, Vec3f{-1, y, 0},
-          Vec3f{-half_root, y, -half_root}, Vec3f{0, y, -1}, Vec3f{half_root, y, -half_root}})
+         {Vec3f{1, y, 0}, Vec3f{half_root, y, half_root}, Vec3f{0, y, 1}, Vec3f{-half_root, y, half_root},
+          Vec3f{-1, y, 0}, Vec3f{-half_root, y, -half_root}, Vec3f{0, y, -1}, Vec3f{half_root, y, -half_root}})
       hull.points.push_back({radius * p.x, p.y, radius * p.z});
   return hull;
 }

@@ -58,7 +58,8 @@ constexpr float half_block = 1;
 template <class Add>
 void lay(const Add& add, float overlap = 0) {
   for (int i = 0; i < 4; ++i)
-    add(Vec3f{2 * half_block * static_cast<float>(i), -half_block, 0}, Vec3f{half_block + overlap, half_block, half_block});
+    add(Vec3f{2 * half_block * static_cast<float>(i), -half_block, 0},
+        Vec3f{half_block + overlap, half_block, half_block});
 }
 
 const std::vector<Floor>& floors() {
@@ -67,7 +68,8 @@ const std::vector<Floor>& floors() {
       {"overlapping boxes",
        [](Scene& s) { lay([&](const Vec3f& at, const Vec3f& half) { s.add(block(at, half)); }, 0.005f); }},
       {"meshes", [](Scene& s) { lay([&](const Vec3f& at, const Vec3f& half) { s.add(mesh_block(at, half)); }); }},
-      {"bodies", [](Scene& s) { lay([&](const Vec3f& at, const Vec3f& half) { lay_fixed_body(s, {{Box{half}}}, at); }); }},
+      {"bodies",
+       [](Scene& s) { lay([&](const Vec3f& at, const Vec3f& half) { lay_fixed_body(s, {{Box{half}}}, at); }); }},
       {"compound", [](Scene& s) {
          std::vector<Solid> solids;
          lay([&](const Vec3f& at, const Vec3f& half) { solids.push_back({Box{half}, at, {}, 1000}); });

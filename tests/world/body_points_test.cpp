@@ -159,8 +159,8 @@ Object slack_sheet(int n, float side) {
   return cloth;
 }
 
-/// An inextensible sheet stores no energy, so the impact is plastic: the ball does not rise above its place of rest by a tenth of
-/// its fall.
+/// An inextensible sheet stores no energy, so the impact is plastic: the ball does not rise above its place of rest by
+/// a tenth of its fall.
 TEST(BodyPoints, AHeavyBallDoesNotBounceOnAnInextensibleSheet) {
   for (const float mass : {1.f, 20.f}) {
     Scene scene;
@@ -185,7 +185,8 @@ TEST(BodyPoints, AHeavyBallDoesNotBounceOnAnInextensibleSheet) {
   }
 }
 
-/// The rope carries the body's inertia where it is tied, so 4 000 times the weight of a particle does not stretch it by 1 %.
+/// The rope carries the body's inertia where it is tied, so 4 000 times the weight of a particle does not stretch it by
+/// 1 %.
 TEST(BodyPoints, ARopeHoldsAHeavyBody) {
   constexpr int points = 41;
   std::vector<Vec3f> line;
@@ -229,9 +230,11 @@ bool passes(const Vec3f& place, const Vec3f& direction, int substeps) {
   return !(end < farthest + 0.03f);
 }
 
-/// On a face, an edge, a vertex and between, from above, below and aslant. In 4 substeps a frame it moves by 12.5 cm in each.
+/// On a face, an edge, a vertex and between, from above, below and aslant. In 4 substeps a frame it moves by 12.5 cm in
+/// each.
 TEST(BodyPoints, AFastSmallBallDoesNotPassCoarseCloth) {
-  const Vec3f places[] = {{0.03f, 0, 0.06f}, {0.05f, 0, 0.05f}, {0.05f, 0, 0}, {0, 0, 0.05f}, {0, 0, 0}, {0.01f, 0, 0.02f}};
+  const Vec3f places[] = {{0.03f, 0, 0.06f}, {0.05f, 0, 0.05f}, {0.05f, 0, 0},
+                          {0, 0, 0.05f},     {0, 0, 0},         {0.01f, 0, 0.02f}};
   const Vec3f directions[] = {{0, -1, 0}, {0, 1, 0}, {0.6f, -0.8f, 0}, {0, 0.8f, 0.6f}, {0.48f, -0.6f, 0.64f}};
   for (const int substeps : {0, 8, 4})
     for (std::size_t d = 0; d < std::size(directions); ++d)

@@ -74,7 +74,8 @@ TEST(BodyPose, OfWhatDoesNotExistIsRefused) {
   EXPECT_NE(refusal([&] { (void)world.object(0).pose(2); }).find("object 'pair', body 2: does not exist"),
             std::string::npos);
   EXPECT_NE(refusal([&] { (void)world.object(0).pose(-1); }).find("body -1"), std::string::npos);
-  EXPECT_NE(refusal([&] { (void)world.object(0).pose("wing"); }).find("body 'wing': does not exist"), std::string::npos);
+  EXPECT_NE(refusal([&] { (void)world.object(0).pose("wing"); }).find("body 'wing': does not exist"),
+            std::string::npos);
   EXPECT_NE(refusal([&] { (void)world.object(0).pose("body"); }).find("is the name of 2 bodies"), std::string::npos);
 }
 

@@ -213,8 +213,8 @@ TEST(BodySleep, AForceFieldKeepsBodiesAwake) {
   EXPECT_FALSE(fall_asleep(world, 1));
 }
 
-/// A ball rolls against a box that sleeps: it passes its momentum on as to a box that is awake, because the box wakes before the
-/// contact is solved.
+/// A ball rolls against a box that sleeps: it passes its momentum on as to a box that is awake, because the box wakes
+/// before the contact is solved.
 TEST(BodySleep, ABallWakesWhatItHits) {
   float after[2] = {};
   for (const bool sleeps : {false, true}) {
@@ -453,7 +453,8 @@ TEST(BodySleep, HasTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-/// Cloth with other substeps, which nothing touches, makes groups of several solvers. Each gets the bits that it gets alone.
+/// Cloth with other substeps, which nothing touches, makes groups of several solvers. Each gets the bits that it gets
+/// alone.
 TEST(BodySleep, HasTheSameBitsBesideOtherGroups) {
   Scene beside = busy_scene(1);
   Object cloth = make_cloth(grid_mesh(9, 9, 1, 1));

@@ -1,4 +1,5 @@
-// Tests contact events of things that bounce: their impulses are the changes of momentum, and each bounce is one contact that begins.
+// Tests contact events of things that bounce: their impulses are the changes of momentum, and each bounce is one
+// contact that begins.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,8 +54,8 @@ Sum events_of(World& world, int frames, const Thing& first, const Thing& second)
   return sum;
 }
 
-/// Expects one contact, with an impulse that is known within a share. What does not bounce stays where it is, and touches on without a
-/// weight, so that rounding begins and ends contacts.
+/// Expects one contact, with an impulse that is known within a share. What does not bounce stays where it is, and
+/// touches on without a weight, so that rounding begins and ends contacts.
 void expect_bounce(const Sum& sum, double impulse, double share, float restitution, const std::string& where) {
   EXPECT_NEAR(sum.impulse, impulse, share * impulse) << where;
   EXPECT_NEAR(std::sqrt(length_squared(sum.push)), impulse, share * impulse) << where;
@@ -227,7 +228,8 @@ TEST(BounceEvents, OfClothAndABodyHaveTheChangeOfMomentum) {
     }
 }
 
-/// Cloth that hardly stretches stops a ball. The corrections that would raise the energy do not become velocity, nor impulses of events.
+/// Cloth that hardly stretches stops a ball. The corrections that would raise the energy do not become velocity, nor
+/// impulses of events.
 TEST(BounceEvents, OfABallThatClothStopsHaveTheChangeOfMomentum) {
   Scene scene;
   scene.settings = settings_of(12);

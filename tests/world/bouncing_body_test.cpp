@@ -54,8 +54,9 @@ TEST(BouncingBody, ARodThatFallsFlatRisesNoHigher) {
   EXPECT_LT(highest_after_bounces(Capsule{0.01f, 0.3f}, {0, 0, half, half}, 0), 1.02f);
 }
 
-/// Friction of an impact lets a ball leave rolling, with 3 (1 - 1 / (1 + 2.5 k^2)) of its 3 m/s, k r being the arm of friction: 15/7 at
-/// its surface. Impacts are found up to half a frame's way ahead, between both surfaces, so k may be as much as 1.37.
+/// Friction of an impact lets a ball leave rolling, with 3 (1 - 1 / (1 + 2.5 k^2)) of its 3 m/s, k r being the arm of
+/// friction: 15/7 at its surface. Impacts are found up to half a frame's way ahead, between both surfaces, so k may be
+/// as much as 1.37.
 TEST(BouncingBody, ABallBouncesWithFriction) {
   Scene scene;
   scene.add(Collider{});
@@ -74,7 +75,8 @@ TEST(BouncingBody, ABallBouncesWithFriction) {
   EXPECT_LT(world.state().frames.angular_velocities[0].z, -15);
 }
 
-/// A ball that hits another one off its middle sends it along the line of centres: sin = offset / diameter (20.9 degrees).
+/// A ball that hits another one off its middle sends it along the line of centres: sin = offset / diameter (20.9
+/// degrees).
 TEST(BouncingBody, ABallIsSentAlongTheLineOfCentres) {
   for (const float speed : {1.f, 2.f}) {
     Scene scene;
@@ -140,7 +142,8 @@ Bouncer random_bouncer(Random& random, int kind) {
     case 6:
       return {"two boxes", {{box()}, {box(), beside(), random.rotation()}}};
     default:
-      return {"a ball with a cylinder", {{Sphere{length()}}, {Cylinder{length(), length()}, beside(), random.rotation()}}};
+      return {"a ball with a cylinder",
+              {{Sphere{length()}}, {Cylinder{length(), length()}, beside(), random.rotation()}}};
   }
 }
 

@@ -126,7 +126,8 @@ TEST(BoxOnRound, ADynamicBallBearsABox) {
   EXPECT_NEAR(length(world.object(0).positions()[0] - world.object(1).positions()[0]), 1.02f, 5e-4f);
 }
 
-/// Contacts have the normal of the frame's start, so that the box leans back by what the surface turns in a frame, and loses speed.
+/// Contacts have the normal of the frame's start, so that the box leans back by what the surface turns in a frame, and
+/// loses speed.
 TEST(BoxOnRound, WithoutFrictionItSlidesAlongTheSurface) {
   Lying lying;
   lying.friction = 0;

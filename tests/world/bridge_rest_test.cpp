@@ -13,7 +13,8 @@ namespace pliant {
 namespace {
 
 constexpr int planks = 8, links_a_plank = 5;
-constexpr float link_length = 0.05f, pitch = links_a_plank * link_length, half_span = 0.5f * pitch * planks, sag = 0.25f;
+constexpr float link_length = 0.05f, pitch = links_a_plank * link_length, half_span = 0.5f * pitch * planks,
+                sag = 0.25f;
 constexpr Vec3f half_plank{0.11f, 0.02f, 0.5f}, half_box{0.13f, 0.13f, 0.13f};
 
 /// A parabola through both ends of the ropes.
@@ -93,7 +94,8 @@ FastestMotion fastest(const World& world, const Scene& scene) {
   return most;
 }
 
-/// Contact forces are there when the ropes are solved. Otherwise these take up what friction has left, and all hums for ever.
+/// Contact forces are there when the ropes are solved. Otherwise these take up what friction has left, and all hums for
+/// ever.
 TEST(BridgeOfPlanks, ComesToRestWithBoxesOnIt) {
   Scene scene;
   scene.add(bridge_of_planks());

@@ -18,8 +18,9 @@ constexpr double bar = 0.1, strip_thickness = 0.004, strip_radius = bar + strip_
 constexpr double edge = 0.0125, sliding_seconds = 0.4;
 constexpr int across = 5, middle_of_strip = 2;
 
-/// By how much tension at the right end exceeds what hangs there if the strip accelerates by `a` at speed `v` [N m / kg].
-/// T' = mu (T + g r sin t - v^2) + g r cos t + a r around the bar, per mass and length; T starts as the left end's pull.
+/// By how much tension at the right end exceeds what hangs there if the strip accelerates by `a` at speed `v` [N m /
+/// kg]. T' = mu (T + g r sin t - v^2) + g r cos t + a r around the bar, per mass and length; T starts as the left end's
+/// pull.
 double excess(double left, double right, double v, double a) {
   constexpr int steps = 200;
   const double h = std::numbers::pi / steps;
@@ -38,7 +39,8 @@ double expected_way(double left, double right) {
   constexpr double step_time = sliding_seconds / steps;
   double way = 0, v = 0;
   for (int i = 0; i < steps; ++i) {
-    const double at_rest = excess(left - way, right + way, v, 0), slope = excess(left - way, right + way, v, 1) - at_rest;
+    const double at_rest = excess(left - way, right + way, v, 0),
+                 slope = excess(left - way, right + way, v, 1) - at_rest;
     const double a = -at_rest / slope;  // the excess is linear in a
     if (!(a > 0) && !(v > 0)) return 0;
     v += a * step_time;

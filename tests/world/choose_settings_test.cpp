@@ -257,7 +257,8 @@ TEST(ChosenSettings, AreChainsForInflatedObjectsWhereSubstepsAreShort) {
   EXPECT_EQ(empty.layout().sweeps[0], Sweep::tiled) << "also if it is added later";
 }
 
-/// The sweep of a balloon beside a rope that it can meet, by the content of the scene and if the balloon is added later.
+/// The sweep of a balloon beside a rope that it can meet, by the content of the scene and if the balloon is added
+/// later.
 Sweep beside(const Object& rope, Scene scene) {
   Object ball = scene.objects[0];
   ball.collides = true;

@@ -23,7 +23,8 @@ bool says(const std::string& text, const std::string& part) { return text.find(p
 
 Object colliding_sheet(const std::string& name, float height, bool upright = false) {
   TriangleMesh mesh = grid_mesh(5, 5, 1, 1);
-  for (Vec3f& p : mesh.positions) p = upright ? Vec3f{p.x + 0.04f, p.z + height + 0.03f, 0.01f} : Vec3f{p.x, height, p.z};
+  for (Vec3f& p : mesh.positions)
+    p = upright ? Vec3f{p.x + 0.04f, p.z + height + 0.03f, 0.01f} : Vec3f{p.x, height, p.z};
   Object object = make_cloth(mesh);
   object.name = name;
   object.thickness = 0.01f;
@@ -119,7 +120,8 @@ TEST(Cost, OfAThicknessOfManyEdgesIsSaid) {
   scene.objects[0].thickness = 3.f / 30;  // two layers keep six edges: expensive, but possible
   const std::string dear = words_of(scene);
   EXPECT_TRUE(says(dear, "doubtful: object 'sheet', thickness: is 0.1 m: about ")) << dear;
-  EXPECT_TRUE(says(dear, "times as many as usual, and a frame takes longer by the same factor; reduce it to about 0.02"))
+  EXPECT_TRUE(
+      says(dear, "times as many as usual, and a frame takes longer by the same factor; reduce it to about 0.02"))
       << dear;
   scene.objects[0].thickness =
       4.5f / 30;  // two layers keep nine edges: 1.33 million pairs were counted at 30 x 30 vertices, 1480 per vertex
@@ -146,9 +148,10 @@ TEST(Start, NearerThanTheTwoKeepIsDoubted) {
   scene.add(colliding_sheet("shirt", 1));
   scene.add(colliding_sheet("coat", 1.005f));
   const std::string text = words_of(scene);
-  EXPECT_TRUE(says(text,
-                   "object 'shirt', particle 0 and 24 more: starts nearer to object 'coat' than the 0.02 m that the two "
-                   "keep, the nearest 0.005"))
+  EXPECT_TRUE(
+      says(text,
+           "object 'shirt', particle 0 and 24 more: starts nearer to object 'coat' than the 0.02 m that the two "
+           "keep, the nearest 0.005"))
       << text;
   EXPECT_FALSE(says(text, "object 'coat', particle")) << "told once:\n" << text;
   scene.pairs.push_back({"coat", "shirt", 0.004f, std::nullopt, std::nullopt, std::nullopt});
@@ -241,7 +244,8 @@ TEST(Tangles, AreNamedInTheReport) {
   ASSERT_EQ(report.warnings.size(), 1U);
   const std::string& text = report.warnings[0];
   EXPECT_TRUE(says(text, "object 'table': edge ") || says(text, "object 'wall': edge ")) << text;
-  EXPECT_TRUE(says(text, "have intersected since the start or a tear, and have no contact until they are apart")) << text;
+  EXPECT_TRUE(says(text, "have intersected since the start or a tear, and have no contact until they are apart"))
+      << text;
   int a = 0, b = 0, c = 0, d = 0, e = 0;
   const std::size_t at = text.find("edge ");
   ASSERT_EQ(std::sscanf(text.c_str() + at, "edge %d-%d passes through triangle (%d, %d, %d)", &a, &b, &c, &d, &e), 5)
@@ -260,7 +264,8 @@ TEST(Tangles, WithColliderNameThem) {
   Scene scene = with_mesh(sphere_mesh(1));
   for (Vec3f& p : scene.mesh_colliders[0].mesh.positions) p.y += 2;  // a ball of radius 1 around the sheet of width 1
   for (Vec3f& p : scene.objects[0].positions) p = p + Vec3f{0.9f, 0.013f, 0.017f};
-  EXPECT_TRUE(says(words_of(scene), "collider 'rock'") || says(words_of(scene), "object 'rock', edge")) << words_of(scene);
+  EXPECT_TRUE(says(words_of(scene), "collider 'rock'") || says(words_of(scene), "object 'rock', edge"))
+      << words_of(scene);
   World world(scene);
   const Report report = world.step(1.f / 600);
   ASSERT_FALSE(report.warnings.empty());
@@ -300,7 +305,8 @@ TEST(Unresolvable, PinchesAreSaid) {
     EXPECT_EQ(report.pairs.unresolvable > 0, says(report.explain(), "unresolvable"));
     words += report.explain();
   }
-  EXPECT_TRUE(says(words, "object 'sheet' and collider 'floor': ") || says(words, "collider 'floor' and object 'sheet': "))
+  EXPECT_TRUE(says(words, "object 'sheet' and collider 'floor': ") ||
+              says(words, "collider 'floor' and object 'sheet': "))
       << words;
   EXPECT_TRUE(says(words, "unresolvable in this frame: no step limit keeps them apart")) << words;
   EXPECT_TRUE(says(words, "may pass through one another; give them more room")) << words;

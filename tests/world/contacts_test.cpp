@@ -281,7 +281,8 @@ TEST(Friction, StopsAfterItsDistance) {
       World world(scene, settings_of(substeps));
       for (int frame = 0; frame < 180; ++frame) world.step(dt);
       const float expected = 9 / (2 * mu * earth_gravity);
-      EXPECT_NEAR(world.object(0).positions()[0].x, expected, 0.01f * expected) << mu << ", " << substeps << " substeps";
+      EXPECT_NEAR(world.object(0).positions()[0].x, expected, 0.01f * expected)
+          << mu << ", " << substeps << " substeps";
       EXPECT_LT(length(world.object(0).velocities()[0]), 1e-4f);
     }
   }

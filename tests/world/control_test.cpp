@@ -35,7 +35,8 @@ TEST(Pins, FollowTheirKeyframes) {
   for (int frame = 1; frame <= 75; ++frame) {
     world.step(1.f / 64);
     const double time = frame / 64.0;
-    // Relative to the pivot (0.5, 0, 0) the rest position is (-0.5, 0, 0). After a quarter turn about y it is at z = +0.5.
+    // Relative to the pivot (0.5, 0, 0) the rest position is (-0.5, 0, 0). After a quarter turn about y it is at z =
+    // +0.5.
     if (frame == 32) {
       EXPECT_LT(distance(world.object(0).positions()[0], {0.8f, 0.1f, 0.5f}), 1e-6);
     }

@@ -42,7 +42,8 @@ MeshBounds bounds_of(const Placed& mesh, const std::array<int, 3>& triangle) {
   return bounds;
 }
 
-/// Edges of `a` through triangles of `b`, by exact signs. Every edge of a closed mesh is an edge of two triangles and counts twice.
+/// Edges of `a` through triangles of `b`, by exact signs. Every edge of a closed mesh is an edge of two triangles and
+/// counts twice.
 int edges_through(const Placed& a, const Placed& b) {
   MeshBounds of_b;
   for (const Vec3f& p : b.positions) of_b.add(p);
@@ -92,7 +93,8 @@ Scene covered(int n, float side, int k) {
 /// A level cloth of 30 x 30 vertices over 18 bodies of six shapes, all in the air above the ground.
 Scene covered_mixed() {
   Scene scene = covered(30, 0.9f, 3);
-  const std::vector<Vec3f> corners{{.08f, 0, 0}, {-.06f, .03f, 0}, {0, .07f, .02f}, {0, -.05f, .05f}, {.01f, -.03f, -.07f}};
+  const std::vector<Vec3f> corners{
+      {.08f, 0, 0}, {-.06f, .03f, 0}, {0, .07f, .02f}, {0, -.05f, .05f}, {.01f, -.03f, -.07f}};
   const std::vector<SolidShape> shapes{Box{{.07f, .05f, .06f}}, Sphere{.07f},     Capsule{.05f, .06f},
                                        Cylinder{.06f, .06f},    Cone{.07f, .07f}, Hull{corners}};
   const Object boxes = scene.objects[1];
@@ -172,7 +174,8 @@ TEST(CoveredBodies, AFastTipDoesNotPierceAPinnedCloth) {
 /// The path of a substep may be many times the body's size.
 TEST(CoveredBodies, AFastBodyDoesNotPassInAFewSubsteps) {
   for (const int substeps : {1, 4}) {
-    for (const SolidShape& shape : std::vector<SolidShape>{Sphere{0.04f}, Box{{0.04f, 0.06f, 0.05f}}, Cone{0.05f, 0.06f}}) {
+    for (const SolidShape& shape :
+         std::vector<SolidShape>{Sphere{0.04f}, Box{{0.04f, 0.06f, 0.05f}}, Cone{0.05f, 0.06f}}) {
       Scene scene = thrown(shape, 30, true);
       scene.settings.substeps = substeps;
       EXPECT_EQ(worst_crossings(scene, 20), 0) << substeps << " substeps, shape " << shape.index();
@@ -228,7 +231,8 @@ TEST(CoveredBodies, ATipThatIsKeptFromPiercingFreeClothKeepsTheMomentum) {
   }
 }
 
-/// A kinematic press: cloth between a falling heavy body and the ground is flat, and neither passes it unless the Report says so.
+/// A kinematic press: cloth between a falling heavy body and the ground is flat, and neither passes it unless the
+/// Report says so.
 TEST(CoveredBodies, ClothUnderAHeavyBodyIsNotPassedUnnamed) {
   Scene scene;
   scene.colliders.emplace_back();
@@ -278,8 +282,8 @@ TEST(CoveredBodies, ClothThatABodyOverlapsIsNamed) {
   EXPECT_NE(report.warnings[0].find(": the vertex is pinned"), std::string::npos) << report.warnings[0];
 }
 
-/// Where nothing presses from the other side and nothing is pinned, it is no pinch: the cloth started inside. A body with a
-/// name is called by it.
+/// Where nothing presses from the other side and nothing is pinned, it is no pinch: the cloth started inside. A body
+/// with a name is called by it.
 TEST(CoveredBodies, ABodyInLooseClothIsNotCalledPinched) {
   Scene scene = thrown(Box{{0.06f, 0.06f, 0.06f}}, 0, false);
   scene.settings.substeps = 1;

@@ -1,4 +1,5 @@
-// Tests bodies whose pins turn: they follow the pin with place and orientation, and carry what touches them or is jointed to them.
+// Tests bodies whose pins turn: they follow the pin with place and orientation, and carry what touches them or is
+// jointed to them.
 #include <gtest/gtest.h>
 
 #include <cmath>

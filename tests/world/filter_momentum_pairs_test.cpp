@@ -56,9 +56,10 @@ Collision collide(int seed) {
   for (Vec3f& p : shot.object.positions) p += from * away + beside;
   const float common = random.next() < 0.5f ? 0 : random.between(1, 20);
   const int frames = std::min(8 + static_cast<int>(60 * away / speed), 60);
-  return {shot.what + " at " + std::to_string(speed) + " m/s into " + target.what + ", " + std::to_string(common) +
-              " m/s in common, seed " + std::to_string(seed),
-          outcome_of(target.object, moving(shot.object, from * -speed), frames, rotate(random.rotation(), {common, 0, 0}))};
+  return {
+      shot.what + " at " + std::to_string(speed) + " m/s into " + target.what + ", " + std::to_string(common) +
+          " m/s in common, seed " + std::to_string(seed),
+      outcome_of(target.object, moving(shot.object, from * -speed), frames, rotate(random.rotation(), {common, 0, 0}))};
 }
 
 /// How often twenty-four pairs are thrown, each time others.
@@ -90,8 +91,8 @@ TEST(FilterMomentum, IsKeptByRandomPairs) {
   EXPECT_GE(filtered, pairs / 6);
 }
 
-/// What truncation takes from the motion of both is made up for in the substep. Before, the centre of mass of the first two
-/// lagged by 19 and 0.8 mm, which times their momentum was 17 and 7 % of what they exchange.
+/// What truncation takes from the motion of both is made up for in the substep. Before, the centre of mass of the first
+/// two lagged by 19 and 0.8 mm, which times their momentum was 17 and 7 % of what they exchange.
 TEST(FilterMomentum, CentresOfMassDoNotLag) {
   for (const int seed : {134, 264, 334, 368}) {
     const Collision collision = collide(seed);

@@ -88,7 +88,8 @@ inline Vec3d spin_of(const World& world) {
   for (std::size_t i = 0; i < frames.orientations.size(); ++i) {
     const Record &q = frames.orientations[i], &w = frames.angular_velocities[i], &inverse = frames.inverse_inertias[i];
     if (!(inverse.x > 0)) continue;
-    const Vec3d local{double(w.x) / double(inverse.x), double(w.y) / double(inverse.y), double(w.z) / double(inverse.z)};
+    const Vec3d local{double(w.x) / double(inverse.x), double(w.y) / double(inverse.y),
+                      double(w.z) / double(inverse.z)};
     sum += rotate(Quatd{double(q.x), double(q.y), double(q.z), double(q.w)}, local);
   }
   return sum;
@@ -101,8 +102,9 @@ struct Outcome {
   double exchanged = 0;     ///< change of the second object's momentum [kg m/s]
   double linear = 0;        ///< change of the sum, over `exchanged`
   double angular = 0;       ///< the same of angular momentum about the centre of mass, over `exchanged` times 1 m
-  double about_origin = 0;  ///< the same about the origin: a lag of the centre of mass times the momentum would be in it
-  double lag = 0;           ///< how far the centre of mass is from where its velocity at the start takes it [m]
+  double about_origin =
+      0;           ///< the same about the origin: a lag of the centre of mass times the momentum would be in it
+  double lag = 0;  ///< how far the centre of mass is from where its velocity at the start takes it [m]
   std::int64_t filtered = 0;
   std::size_t crossings = 0;
   std::vector<std::string> warnings;

@@ -56,8 +56,8 @@ TEST(FilterMomentum, WherePinnedClothAndCollidersAreFarAway) {
                          moving(free_sheet(16, 0.8f, 0.2f, {0.05f, 0.35f, 0}, 1.f), {0, -5, 0}), 20, {}, others));
 }
 
-/// 1 : 100 in mass. A centre of mass that lags by a millimetre, as it did, changes the angular momentum about the origin
-/// by 9 % of what the light sheet takes.
+/// 1 : 100 in mass. A centre of mass that lags by a millimetre, as it did, changes the angular momentum about the
+/// origin by 9 % of what the light sheet takes.
 TEST(FilterMomentum, HeavySheetOnLightSheet) {
   const Outcome outcome = sheets(5, {}, 20);
   expect_kept(outcome);

@@ -88,7 +88,8 @@ float deepest_of_a_box_that_tips_over(const Vec3f& half, float angle, float spin
   return deepest;
 }
 
-/// A box that tips over stays on the edge about which it turns, however fast it is: 2 m of plank sank by 25 cm, dominoes by 18 of 24 mm.
+/// A box that tips over stays on the edge about which it turns, however fast it is: 2 m of plank sank by 25 cm,
+/// dominoes by 18 of 24 mm.
 TEST(FlatBody, ABoxThatTipsOverStaysAboveThePlane) {
   for (const float spin : {0.f, 1.f, 2.f, 4.f})
     EXPECT_LT(deepest_of_a_box_that_tips_over({0.2f, 1, 0.05f}, 0.35f, spin), 0.01f) << spin;
@@ -98,7 +99,8 @@ TEST(FlatBody, ABoxThatTipsOverStaysAboveThePlane) {
     EXPECT_LT(deepest_of_a_box_that_tips_over({0.012f, 0.024f, 0.0037f}, 0, spin), 0.0011f) << spin;
 }
 
-/// How far a box at rest gets that is suddenly pushed towards a wall, 15 cm ahead in the mesh on whose floor it stands [m].
+/// How far a box at rest gets that is suddenly pushed towards a wall, 15 cm ahead in the mesh on whose floor it stands
+/// [m].
 float farthest_after_a_push(float speed) {
   Scene scene;
   scene.settings.threads = 1;

@@ -1,5 +1,5 @@
-// Tests that particles, grains, ropes and cloth keep speed, direction and height on flat meshes, one or several that are
-// flush, that friction brakes them as on a plane, and that ridges still stop them.
+// Tests that particles, grains, ropes and cloth keep speed, direction and height on flat meshes, one or several that
+// are flush, that friction brakes them as on a plane, and that ridges still stop them.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -149,8 +149,8 @@ struct GhostMotion {
         frame(std::pow(10.f, -random.next()) / 24),
         substeps(static_cast<int>(random.between(4, 41))) {}
   std::string what() const {
-    return " at " + std::to_string(speed) + " m/s, frames of " + std::to_string(frame) + " s, " + std::to_string(substeps) +
-           " substeps";
+    return " at " + std::to_string(speed) + " m/s, frames of " + std::to_string(frame) + " s, " +
+           std::to_string(substeps) + " substeps";
   }
 };
 
@@ -160,7 +160,8 @@ struct GhostPath {
   float rise = 0;   ///< the most above where it began [m]
   float sunk = 0;   ///< the most below [m]
   float aside = 0;  ///< the most from the straight line [m]
-  float lost = 0;   ///< the most change of the horizontal velocity, or of the velocity without gravity; share of the speed
+  float lost =
+      0;  ///< the most change of the horizontal velocity, or of the velocity without gravity; share of the speed
 };
 
 GhostPath follow(Scene scene, const Ghost& of, BodyOptions options, const GhostMotion& motion, int frames,
@@ -280,7 +281,8 @@ struct Obstacle {
 };
 
 Obstacle random_obstacle(Random& random, Scene& scene) {
-  const char* const names[] = {"a box", "a ball", "a capsule", "a mesh", "a distance grid", "a fixed", "a free", "terrain"};
+  const char* const names[] = {"a box",           "a ball",  "a capsule", "a mesh",
+                               "a distance grid", "a fixed", "a free",    "terrain"};
   const int kind = static_cast<int>(random.between(0, 8));
   Ghost of = random_solid(random, 0.05f, 0.6f);
   const float r = random.between(0.05f, 0.6f);
@@ -379,8 +381,8 @@ TEST(BodyGhosts, RandomSolidsSlideOverFlushSolids) {
 }
 
 /// The last two of 4 000 to rise by 0.1 mm or lose a thousandth of their speed: a ball that goes nearly along a joint,
-/// whose direction of contact was off by 0.06 degrees, and a capsule on contacts so soft, with four substeps of 7 ms, that
-/// it lay tilted, and sank as it came to the next solid.
+/// whose direction of contact was off by 0.06 degrees, and a capsule on contacts so soft, with four substeps of 7 ms,
+/// that it lay tilted, and sank as it came to the next solid.
 TEST(BodyGhosts, ABallAlongAJointAndASoftCapsuleSlide) {
   for (const int seed : {3709, 1078}) {
     const GhostPath path = slide(seed);

@@ -12,7 +12,8 @@ namespace {
 
 using namespace testing_support;
 
-static_assert(std::is_same_v<decltype(std::declval<const World&>().object(0)), ObjectView>, "a const World is not changed");
+static_assert(std::is_same_v<decltype(std::declval<const World&>().object(0)), ObjectView>,
+              "a const World is not changed");
 static_assert(std::is_same_v<decltype(std::declval<World&>().object(0)), ObjectHandle>);
 static_assert(std::is_same_v<decltype(std::declval<const World&>().collider(0)), ColliderView>);
 static_assert(std::is_same_v<decltype(std::declval<const World&>().mesh_collider(0)), MeshColliderView>);

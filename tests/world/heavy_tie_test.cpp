@@ -1,4 +1,5 @@
-// Tests ropes that are tied to bodies much heavier than they are: known lengths, and what the Report says of ties that open.
+// Tests ropes that are tied to bodies much heavier than they are: known lengths, and what the Report says of ties that
+// open.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -136,8 +137,8 @@ TEST(HeavyTie, ThatOpensIsNamed) {
   EXPECT_NE(report.warnings[0].find(" mm away from its place on body 0 ('weight') of 'swing', "), std::string::npos);
 }
 
-/// A tie with compliance opens by its force, which is no error. It is solved after the chain, whose last particle it moves by up to
-/// F h^2 / m in a substep.
+/// A tie with compliance opens by its force, which is no error. It is solved after the chain, whose last particle it
+/// moves by up to F h^2 / m in a substep.
 TEST(HeavyTie, WithComplianceOpensByItAndIsNotMeasured) {
   for (const int links : {10, 40}) {
     SCOPED_TRACE(links);

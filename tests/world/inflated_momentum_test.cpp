@@ -164,8 +164,8 @@ TEST(InflatedMomentum, DoesNotTurnABallOnASmoothMesh) {
   EXPECT_LT(std::abs(motion_of(after(scene, 120)).angular_velocity().y), 0.002);
 }
 
-/// Chains are solved again where the balls press on one another. Without friction a central impact causes no spin but by
-/// the flat triangles that meet.
+/// Chains are solved again where the balls press on one another. Without friction a central impact causes no spin but
+/// by the flat triangles that meet.
 TEST(InflatedMomentum, IsKeptByBallsThatCollide) {
   Scene scene;
   scene.gravity = {};
@@ -257,7 +257,8 @@ TEST(InflatedMomentum, DoesNotRollABallOnLevelGround) {
   EXPECT_LT(std::hypot(centre.x, centre.z), 0.02);
 }
 
-/// A rigid spherical shell that rolls down a slope accelerates by 3/5 g sin a. This one is soft and faceted, which costs energy.
+/// A rigid spherical shell that rolls down a slope accelerates by 3/5 g sin a. This one is soft and faceted, which
+/// costs energy.
 TEST(InflatedMomentum, LetsABallRollDownASlope) {
   const double sine = 0.1;
   const Scene scene = on_a_slope(ball(of_fabric("rubber sheet"), 1.4f), sine);

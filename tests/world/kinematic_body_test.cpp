@@ -176,8 +176,8 @@ TEST(KinematicBody, GoesOnAfterARestoreWithTheSameBits) {
   scene.add(loaded(other));
   World world(scene), resumed(scene);
   for (int frame = 1; frame <= 10; ++frame) {
-    world.object(0).set_pose(0,
-                             {{0, 0.01f * static_cast<float>(frame), 0}, rotation({0, 1, 0}, static_cast<float>(frame))});
+    world.object(0).set_pose(
+        0, {{0, 0.01f * static_cast<float>(frame), 0}, rotation({0, 1, 0}, static_cast<float>(frame))});
     run(world, 1);
   }
   resumed.restore(world.state());
@@ -195,7 +195,8 @@ TEST(KinematicBody, RefusesPosesThatItCannotHave) {
   const auto said = [&](const auto& body, const RigidPose& pose) {
     return refusal([&] { world.object(0).set_pose(body, pose); });
   };
-  EXPECT_NE(said(1, {}).find("object 'lift', body 1 'crate': is dynamic, so its pose cannot be set"), std::string::npos);
+  EXPECT_NE(said(1, {}).find("object 'lift', body 1 'crate': is dynamic, so its pose cannot be set"),
+            std::string::npos);
   EXPECT_NE(said("crate", {}).find("\"kinematic\": true"), std::string::npos);
   EXPECT_NE(said(2, {}).find("body 2: does not exist"), std::string::npos);
   EXPECT_NE(said("wing", {}).find("body 'wing': does not exist"), std::string::npos);

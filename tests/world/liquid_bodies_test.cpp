@@ -86,8 +86,8 @@ double share_below(double height, double radius) {
   return (2 + 3 * h - h * h * h) / 4;
 }
 
-// Archimedes: a ball of density r has the share r / 1000 of its volume under water. A quarter of a spacing, the bound of drafts, is a share
-// of 0.07 at a half and of 0.05 at nine tenths.
+// Archimedes: a ball of density r has the share r / 1000 of its volume under water. A quarter of a spacing, the bound
+// of drafts, is a share of 0.07 at a half and of 0.05 at nine tenths.
 TEST(LiquidBodies, ThatAreBallsDiveByTheShareOfTheirDensity) {
   constexpr double radius = 0.13, volume = 4. / 3 * std::numbers::pi * radius * radius * radius, tolerance = 0.04;
   constexpr float shallow_depth = 0.4f, shares[] = {0.25f, 0.5f, 0.9f};
@@ -119,7 +119,8 @@ TEST(LiquidBodies, ThatAreBallsDiveByTheShareOfTheirDensity) {
   }
 }
 
-// A cube of relative density below (3 - sqrt(3)) / 6 = 0.21 or above 0.79 floats upright (Gilbert 1991); 0.9 is far above.
+// A cube of relative density below (3 - sqrt(3)) / 6 = 0.21 or above 0.79 floats upright (Gilbert 1991); 0.9 is far
+// above.
 TEST(LiquidBodies, ThatAreTiltedTurnUpright) {
   World world(pool(0.9f, 0.3f));
   EXPECT_GT(floating_after(world, 480, 0.9).upright, std::cos(0.12));
@@ -142,7 +143,8 @@ TEST(LiquidBodies, ThatAreHeavierSink) {
 TEST(LiquidBodies, AreBorneByThePressureThatTheirTouchesTell) {
   constexpr float width = 0.9f, depth = 0.4f, side = 0.2f, density[] = {0.3f, 0.6f};
   Scene scene;
-  scene.add(make_liquid(fill_box({0, 0, 0}, {width, depth, 0.5f}, liquid_spacing), {.fluid = {.spacing = liquid_spacing}}));
+  scene.add(
+      make_liquid(fill_box({0, 0, 0}, {width, depth, 0.5f}, liquid_spacing), {.fluid = {.spacing = liquid_spacing}}));
   add_tank(scene, {width, depth, 0.5f});
   Object buoys;
   for (int i = 0; i < 2; ++i) {
@@ -226,7 +228,8 @@ TEST(LiquidOnCloth, IsHeld) {
   sheet.thickness = 0.005f;
   const std::size_t of_cloth = sheet.positions.size();
   scene.add(sheet);
-  scene.add(make_liquid(fill_box({-0.28f, 0.04f, -0.28f}, {0.28f, 0.25f, 0.28f}, 0.04f), {.fluid = {.spacing = 0.04f}}));
+  scene.add(
+      make_liquid(fill_box({-0.28f, 0.04f, -0.28f}, {0.28f, 0.25f, 0.28f}, 0.04f), {.fluid = {.spacing = 0.04f}}));
   const float r = std::sqrt(0.5f);
   scene.add(wall({-0.3f, 0, 0}, {0, 0, -r, r}));
   scene.add(wall({0.3f, 0, 0}, {0, 0, r, r}));

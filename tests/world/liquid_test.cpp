@@ -32,7 +32,8 @@ Still still_of(const World& world) {
   Still of;
   const std::vector<Vec3f> places = world.object(0).positions(), velocities = world.object(0).velocities();
   for (const Vec3f& p : places) of.height += static_cast<double>(p.y) / static_cast<double>(places.size());
-  for (const Vec3f& v : velocities) of.speed += static_cast<double>(length_squared(v)) / static_cast<double>(places.size());
+  for (const Vec3f& v : velocities)
+    of.speed += static_cast<double>(length_squared(v)) / static_cast<double>(places.size());
   of.speed = std::sqrt(of.speed);
   return of;
 }
@@ -69,7 +70,8 @@ TEST(Liquid, ThatRestsKeepsItsVolume) {
 // A liquid that yields is denser by p / (density c^2): g (depth / 2) / c^2 on average.
 TEST(Liquid, YieldsToPressureBySpeedOfSound) {
   const double c = 12;
-  Scene scene = column(1, 0.5f, 0.5f, {.spacing = liquid_spacing, .density = 800, .speed_of_sound = static_cast<float>(c)});
+  Scene scene =
+      column(1, 0.5f, 0.5f, {.spacing = liquid_spacing, .density = 800, .speed_of_sound = static_cast<float>(c)});
   scene.settings.substeps = 60;
   World world(scene);
   const Report report = advance(world, 240);
@@ -160,7 +162,8 @@ TEST(Liquid, OfAnotherSpacingOrMaskIsAnotherLiquid) {
   const auto speed = [](float of_second, std::uint32_t mask) {
     Scene scene;
     scene.gravity = {};
-    scene.add(make_liquid(fill_box({0, 0, 0}, {0.4f, 0.4f, 0.4f}, liquid_spacing), {.fluid = {.spacing = liquid_spacing}}));
+    scene.add(
+        make_liquid(fill_box({0, 0, 0}, {0.4f, 0.4f, 0.4f}, liquid_spacing), {.fluid = {.spacing = liquid_spacing}}));
     Object second = make_liquid(fill_box({0, 0, 0}, {0.4f, 0.4f, 0.4f}, of_second),
                                 {.name = "second", .fluid = {.spacing = of_second}});
     second.mask = mask;
@@ -192,7 +195,8 @@ TEST(Liquid, ThatIsHeavierSinksBelowALighterOne) {
     for (const Vec3f& p : places) sum += static_cast<double>(p.y) / static_cast<double>(places.size());
     return sum;
   };
-  // Apart, their centres are 0.4 m from one another; at first -0.4. Layers of eight particles keep drops of one in the other.
+  // Apart, their centres are 0.4 m from one another; at first -0.4. Layers of eight particles keep drops of one in the
+  // other.
   EXPECT_GT(height(0) - height(1), 0.2);
 }
 
@@ -234,8 +238,9 @@ TEST(Liquid, NamesWhatIsOutOfRange) {
             std::string::npos);
   EXPECT_NE(testing_support::refusal([] { make_liquid({{}}, {.fluid = {.density = -1}}); }).find("density"),
             std::string::npos);
-  EXPECT_NE(testing_support::refusal([] { make_liquid({{}}, {.fluid = {.speed_of_sound = NAN}}); }).find("speed_of_sound"),
-            std::string::npos);
+  EXPECT_NE(
+      testing_support::refusal([] { make_liquid({{}}, {.fluid = {.speed_of_sound = NAN}}); }).find("speed_of_sound"),
+      std::string::npos);
   EXPECT_NE(testing_support::refusal([] { fill_box({0, 0, 0}, {1, -1, 1}, 0.1f); }).find("side"), std::string::npos);
   EXPECT_NE(testing_support::refusal([] {
               fill_box({0, 0, 0}, {1e6f, 1e-6f, 1e-6f}, 1e-4f);

@@ -21,7 +21,8 @@ TriangleMesh jittered(int n) {
   TriangleMesh mesh = grid_mesh(n, n, 1, 1);
   const float step = 0.3f / static_cast<float>(n - 1);
   for (int j = 1; j + 1 < n; ++j)
-    for (int i = 1; i + 1 < n; ++i) mesh.positions[std::size_t(j * n + i)] += Vec3f{step * uniform(), 0, step * uniform()};
+    for (int i = 1; i + 1 < n; ++i)
+      mesh.positions[std::size_t(j * n + i)] += Vec3f{step * uniform(), 0, step * uniform()};
   mesh.triangles.clear();
   for (int j = 0; j + 1 < n; ++j) {
     for (int i = 0; i + 1 < n; ++i) {
@@ -97,7 +98,8 @@ Worst worst_of(Scene scene, Sweep sweep, int substeps, int frames = 70) {
   return worst;
 }
 
-/// The limit of overstretch follows the sweep. Two cycles leave the longest edges at the pins and in folds that run through.
+/// The limit of overstretch follows the sweep. Two cycles leave the longest edges at the pins and in folds that run
+/// through.
 TEST(Multigrid, StretchesNoEdgeBeyondTheLimit) {
   Scene scene = hung_mesh(grid_mesh(40, 40, 1, 1), 40);
   EXPECT_LT(worst_of(scene, Sweep::multigrid, 6).largest, 1.0505);
@@ -147,12 +149,14 @@ TEST(Multigrid, LeavesWhatHangsOnSpringsWhereTheirStiffnessSays) {
     const std::vector<Vec3f> places = world.object(0).positions();
     for (std::size_t i = 1; i < 6; ++i, --load) {
       expected += 0.1 + load * 9.81 * double(compliance);
-      EXPECT_NEAR(-double(places[i].y), expected, 2e-3 * (expected - 0.1 * double(i)) + 2e-6) << compliance << ", " << i;
+      EXPECT_NEAR(-double(places[i].y), expected, 2e-3 * (expected - 0.1 * double(i)) + 2e-6)
+          << compliance << ", " << i;
     }
   }
 }
 
-/// A sheet pushed along a floor at 1 m/s stops after v^2 / (2 mu g): the correction's tangential springs must not hold it.
+/// A sheet pushed along a floor at 1 m/s stops after v^2 / (2 mu g): the correction's tangential springs must not hold
+/// it.
 TEST(Multigrid, LetsWhatSlidesSlide) {
   Scene scene;
   Object sheet = cotton(grid_mesh(12, 12, 0.3f, 0.3f));

@@ -118,9 +118,10 @@ TEST(NamedPairs, AreRefusedWhereContactDoesNotReadThem) {
   brick.name = "brick";
   scene.add(brick);
   scene.pairs = {{"slab", "brick", 0.01f, 0.2f, {}, {}}};
-  EXPECT_EQ(refusal(scene),
-            "pair 0, thickness: has no effect: rigid bodies touch one another and mesh colliders at their surfaces; remove "
-            "it, or make the solids larger");
+  EXPECT_EQ(
+      refusal(scene),
+      "pair 0, thickness: has no effect: rigid bodies touch one another and mesh colliders at their surfaces; remove "
+      "it, or make the solids larger");
   scene.pairs = {{"slab", "brick", {}, 0.2f, {}, {}}};
   EXPECT_EQ(refusal(scene), "");
   MeshCollider crate;

@@ -77,7 +77,8 @@ Scene coincident_boxes(int count) {
   return scene;
 }
 
-/// Without a limit the fastest had 38 m/s; with it 6 to 9.5 by the number of boxes (150 to 250). They still leave with 3 m/s on average: contacts cannot pull back what others have pushed.
+/// Without a limit the fastest had 38 m/s; with it 6 to 9.5 by the number of boxes (150 to 250). They still leave with
+/// 3 m/s on average: contacts cannot pull back what others have pushed.
 TEST(OverlappingBodies, BoxesInOnePlaceSeparateWithoutAnExplosion) {
   World world(coincident_boxes(200));
   const Watched all = watched_run(world, 600);
@@ -142,8 +143,8 @@ float overlap_of(const RigidPose& a, const RigidPose& b, const Vec3f& half) {
   return -separating_axis(one, other).separation;
 }
 
-/// Slabs that lean on one another a little askew touch at an edge, and turn about it. Before, they had this one contact,
-/// and went through one another: 8.6 mm of a thickness of 7.4 mm.
+/// Slabs that lean on one another a little askew touch at an edge, and turn about it. Before, they had this one
+/// contact, and went through one another: 8.6 mm of a thickness of 7.4 mm.
 TEST(OverlappingBodies, DominoesOnACurveDoNotGoIntoOneAnother) {
   const Vec3f half{0.012f, 0.024f, 0.0037f};
   Scene scene;

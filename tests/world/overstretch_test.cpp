@@ -1,5 +1,5 @@
-// The overstretch of every frame and the worst of any: equal to a plain loop in doubles over what the World returns, and
-// to a fresh measurement, on any threads and instruction set, while objects come and go.
+// The overstretch of every frame and the worst of any: equal to a plain loop in doubles over what the World returns,
+// and to a fresh measurement, on any threads and instruction set, while objects come and go.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,7 +59,8 @@ void add_overstretches(const World& world, ObjectId id, const Object& object, st
   const std::vector<Vec3f> x = world.object(id).positions(), v = world.object(id).velocities();
   const std::vector<float> multipliers = world.object(id).multipliers("distance");
   const auto is_fixed = [&](int particle) {
-    return std::any_of(object.pins.begin(), object.pins.end(), [&](const Pin& pin) { return pin.particle == particle; });
+    return std::any_of(object.pins.begin(), object.pins.end(),
+                       [&](const Pin& pin) { return pin.particle == particle; });
   };
   const double h = double(dt) / measured_substeps;
   std::size_t number = 0;

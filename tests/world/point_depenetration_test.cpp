@@ -1,4 +1,5 @@
-// Tests what starts inside of a rigid body, or is teleported there: it comes out slowly, and the Report says where it started.
+// Tests what starts inside of a rigid body, or is teleported there: it comes out slowly, and the Report says where it
+// started.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +45,8 @@ ComingOut come_out(World& world, int frames) {
   for (int frame = 0; frame < frames; ++frame) {
     const Report report = world.step(dt);
     EXPECT_TRUE(report.ok()) << report.explain();
-    for (const std::string& warning : report.warnings) (frame == 0 ? out.first_warnings : out.warnings) += warning + "\n";
+    for (const std::string& warning : report.warnings)
+      (frame == 0 ? out.first_warnings : out.warnings) += warning + "\n";
     out.last = fastest_particle(world);
     out.fastest = std::max(out.fastest, out.last);
   }
@@ -74,9 +76,11 @@ Object patch(int n, float size, float height) {
 void expect_told(const ComingOut& seen, const std::string& who) {
   EXPECT_NE(seen.first_warnings.find("object '" + who + "', particle "), std::string::npos) << seen.first_warnings;
   EXPECT_NE(seen.first_warnings.find(": is inside of body 0 of 'block'"), std::string::npos) << seen.first_warnings;
-  EXPECT_NE(seen.first_warnings.find("it started there or was teleported there"), std::string::npos) << seen.first_warnings;
+  EXPECT_NE(seen.first_warnings.find("it started there or was teleported there"), std::string::npos)
+      << seen.first_warnings;
   for (const char* const wrong : {"too hard", "more substeps", "pinched"})
-    EXPECT_EQ((seen.first_warnings + seen.warnings).find(wrong), std::string::npos) << seen.first_warnings << seen.warnings;
+    EXPECT_EQ((seen.first_warnings + seen.warnings).find(wrong), std::string::npos)
+        << seen.first_warnings << seen.warnings;
 }
 
 TEST(PointDepenetration, ClothInTheMiddleOfABlockComesOutSlowly) {
@@ -147,7 +151,8 @@ TEST(PointDepenetration, OfWhatIsTeleportedIsTheSame) {
   expect_told(seen, "patch");
 }
 
-/// A belt that is a little inside of a drum all around has no way out as a whole that is short: contact is with the nearest side.
+/// A belt that is a little inside of a drum all around has no way out as a whole that is short: contact is with the
+/// nearest side.
 TEST(PointDepenetration, ABeltIsNotMovedAsAWhole) {
   const float radius = 0.1f;
   Scene scene = scene_without_gravity();

@@ -99,8 +99,8 @@ Object separate(const Stiffness& stiffness) {
   return object;
 }
 
-/// How many frames to compare. Near rest the gradient of the co-rotational norm turns so quickly that PBD, whose correction is one over its
-/// square, makes 1.7e-6 m of rounding 2.1e-5 m in a third frame.
+/// How many frames to compare. Near rest the gradient of the co-rotational norm turns so quickly that PBD, whose
+/// correction is one over its square, makes 1.7e-6 m of rounding 2.1e-5 m in a third frame.
 template <class T>
 int frames_for(const Stiffness& stiffness) {
   return std::is_same_v<T, CorotationalStrain> && stiffness.kind == Stiffness::Kind::pbd ? 2 : 3;
@@ -111,14 +111,15 @@ TYPED_TEST(AgainstReference, SeparateConstraintsMoveAlikeByEveryLaw) {
        {Stiffness::rigid(), Stiffness::compliance(1e-3f), Stiffness::compliance(1e-3f, 5), Stiffness::pbd(0.6f)}) {
     for (int iterations : {1, 3}) {
       EXPECT_LT(difference(separate<TypeParam>(stiffness), 4, iterations, frames_for<TypeParam>(stiffness)), 2e-5)
-          << static_cast<int>(stiffness.kind) << " " << stiffness.value << " " << stiffness.damping << ", " << iterations
-          << " iterations";
+          << static_cast<int>(stiffness.kind) << " " << stiffness.value << " " << stiffness.damping << ", "
+          << iterations << " iterations";
     }
   }
 }
 
 TEST(Reference, AgreesOnAChainProjectedUntilItIsMet) {
-  for (const Stiffness& stiffness : {Stiffness::rigid(), Stiffness::compliance(1e-4f), Stiffness::compliance(1e-3f, 2)}) {
+  for (const Stiffness& stiffness :
+       {Stiffness::rigid(), Stiffness::compliance(1e-4f), Stiffness::compliance(1e-3f, 2)}) {
     Object object = chain(6, 0.2f, stiffness);
     object.masses[0] = std::numeric_limits<float>::infinity();
     // Gradients rotate between projections, so even converged constraints keep a trace of the order.

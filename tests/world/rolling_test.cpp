@@ -40,7 +40,8 @@ TEST(Rolling, ABallStopsAfterTheDistanceThatTheTorqueGives) {
   World world(ball_on_slope(0, 0.01f, 0, options));
   for (int frame = 0; frame < 240; ++frame) ASSERT_TRUE(world.step(dt).ok());
   // Deceleration: the torque rho m g over the moment 7/5 m r^2 about the point of contact, times r.
-  const double deceleration = 5. / 7 * g * 0.01 / static_cast<double>(rolling_radius), distance = 1 / (2 * deceleration);
+  const double deceleration = 5. / 7 * g * 0.01 / static_cast<double>(rolling_radius),
+               distance = 1 / (2 * deceleration);
   EXPECT_NEAR(world.object(0).positions()[0].x, distance, 0.01 * distance);
   EXPECT_NEAR(world.state().velocities[0].x, 0, 1e-4);
 }

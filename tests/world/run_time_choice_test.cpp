@@ -81,7 +81,8 @@ TEST(AddedObject, GetsTheSweepThatItHasInAScene) {
     Scene with = scene;
     with.add(Collider{});
     expect_same_choice(with, irregular("new", {0, 3, 0}), "meets a plane");
-    for (const auto as : {MeshCollider::As::triangles, MeshCollider::As::distance_grid, MeshCollider::As::heightfield}) {
+    for (const auto as :
+         {MeshCollider::As::triangles, MeshCollider::As::distance_grid, MeshCollider::As::heightfield}) {
       with = scene;
       with.add(ground(as));
       expect_same_choice(with, irregular("new", {}), "meets a mesh");

@@ -129,7 +129,8 @@ TEST(Cut, CopiesOfAParticleThatIsTiedToASurfaceStayTied) {
   const Edit edit = cut(both, middle_column());
   std::vector<int> tied;
   const std::vector<int>& particles = edit.object.constraints.back().particles;
-  for (std::size_t i = 0; i < particles.size(); i += 4) tied.push_back(edit.from[static_cast<std::size_t>(particles[i])]);
+  for (std::size_t i = 0; i < particles.size(); i += 4)
+    tied.push_back(edit.from[static_cast<std::size_t>(particles[i])]);
   EXPECT_EQ(tied, (std::vector<int>{4, 4, 40, 40, 41}));
 }
 

@@ -134,10 +134,10 @@ TEST(ContactEvents, AreTheSameOnAnyNumberOfThreads) {
     for (int frame = 0; frame < 40; ++frame) {
       world.step(dt);
       all.insert(all.end(), world.contact_events().begin(), world.contact_events().end());
-      EXPECT_TRUE(
-          std::is_sorted(world.contact_events().begin(), world.contact_events().end(), [](const auto& a, const auto& b) {
-            return std::make_pair(a.first, a.second) < std::make_pair(b.first, b.second);
-          }));
+      EXPECT_TRUE(std::is_sorted(world.contact_events().begin(), world.contact_events().end(),
+                                 [](const auto& a, const auto& b) {
+                                   return std::make_pair(a.first, a.second) < std::make_pair(b.first, b.second);
+                                 }));
     }
     return all;
   };

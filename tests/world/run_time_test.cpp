@@ -60,8 +60,8 @@ TEST(RunTime, ObjectsAddedOneByOneGiveTheBitsOfAWorldMadeAtOnce) {
       scene.settings = settings;
       World grown(scene);
       for (int i = 0; i < 4; ++i) {
-        Object object =
-            i % 2 == 0 ? pinned_sheet("a" + std::to_string(i), {0, 0.1f * static_cast<float>(i), 0}) : chain(10 + i, 0.05f);
+        Object object = i % 2 == 0 ? pinned_sheet("a" + std::to_string(i), {0, 0.1f * static_cast<float>(i), 0})
+                                   : chain(10 + i, 0.05f);
         object.collides = meets;
         scene.add(object);
         grown.add(object);

@@ -60,7 +60,8 @@ std::string text_of(const std::vector<Finding>& findings) {
 
 using SceneChange = std::function<void(Scene&)>;
 
-/// Expects that a scene with this change is rejected, that the message contains `words`, and that inspect() says the same.
+/// Expects that a scene with this change is rejected, that the message contains `words`, and that inspect() says the
+/// same.
 void expect_grave(const std::string& words, const SceneChange& change, Scene scene = good_scene()) {
   change(scene);
   const std::vector<Finding> findings = inspect(scene);
@@ -129,7 +130,8 @@ TEST(InspectScene, GraveSettings) {
   }
   expect_grave("threads", [](Scene& s) { s.settings.threads = -1; });
   expect_grave("frames", [](Scene& s) { s.frames = -1; });
-  for (float bad : {0.f, -1.f, nan, infinity, 1e-12f}) expect_grave("frame_time", [&](Scene& s) { s.frame_time = bad; });
+  for (float bad : {0.f, -1.f, nan, infinity, 1e-12f})
+    expect_grave("frame_time", [&](Scene& s) { s.frame_time = bad; });
   expect_grave("isa", [](Scene& s) { s.settings.isa = "pentium"; });
   expect_grave("gravity", [](Scene& s) { s.gravity.y = nan; });
   expect_grave("wind, velocity", [](Scene& s) { s.wind.velocity.x = infinity; });
@@ -283,7 +285,8 @@ TEST(InspectScene, DoubtfulConstraintsAndSurfaces) {
     const int* v = bending.particles.data();
     s.objects[0].positions[static_cast<std::size_t>(v[2])] = s.objects[0].positions[static_cast<std::size_t>(v[0])];
   });
-  expect_doubt("opposite winding", [](Scene& s) { std::swap(s.objects[0].triangles[3][0], s.objects[0].triangles[3][1]); });
+  expect_doubt("opposite winding",
+               [](Scene& s) { std::swap(s.objects[0].triangles[3][0], s.objects[0].triangles[3][1]); });
   expect_doubt("not a manifold", [](Scene& s) { s.objects[0].triangles.push_back({0, 7, 20}); });
   const auto inside_out = [](Scene& s) {
     for (auto& t : s.objects[0].triangles) std::swap(t[0], t[1]);

@@ -170,12 +170,14 @@ TEST(ShapeContacts, AreCarriedByWhatMoves) {
   World world(scene, settings_of(10));
   for (int frame = 0; frame < 30; ++frame) {
     world.step(dt);
-    EXPECT_GT(nearest(box, world.state().time, world.object(0).positions()), shape_thickness - 1e-4) << "frame " << frame;
+    EXPECT_GT(nearest(box, world.state().time, world.object(0).positions()), shape_thickness - 1e-4)
+        << "frame " << frame;
   }
   for (const Vec3f& v : world.object(0).velocities()) EXPECT_NEAR(v.y, 1, 0.05f);
 }
 
-/// A link across an edge of a box that moves along that edge: friction must take it along; without friction it must stay.
+/// A link across an edge of a box that moves along that edge: friction must take it along; without friction it must
+/// stay.
 TEST(ShapeContacts, HaveFriction) {
   for (const float friction : {0.f, 0.5f}) {
     Scene scene;

@@ -39,7 +39,8 @@ TriangleMesh mesh_of(const Strip& strip, double edge) {
       const bool is_inner = i > strip.behind && j > 0 && i + 1 < rows && j + 1 < strip.columns;
       const double x = i - strip.behind + (is_inner ? uniform() : 0), z = j + (is_inner ? uniform() : 0);
       const double y = strip.rounded * (static_cast<double>((i * 7 + j * 5) % 11) / 5 - 1);
-      mesh.positions.push_back({static_cast<float>(x * edge), static_cast<float>(y * edge), static_cast<float>(z * edge)});
+      mesh.positions.push_back(
+          {static_cast<float>(x * edge), static_cast<float>(y * edge), static_cast<float>(z * edge)});
     }
   for (int i = 0; i + 1 < rows; ++i)
     for (int j = 0; j + 1 < strip.columns; ++j) {
@@ -83,7 +84,8 @@ double sag_ratio(const Strip& strip, int substeps, double frame_time = 1.0 / 60)
 
 TEST(SheetBendingInAWorld, SagsAsTheBeamOfItsFabricDoes) {
   for (const char* material : {"cotton", "silk", "denim", "wool", "leather", "rubber sheet"})
-    for (const int edges : {6, 12, 24}) EXPECT_NEAR(sag_ratio({material, edges}, 0), 1, 0.05) << material << ", " << edges;
+    for (const int edges : {6, 12, 24})
+      EXPECT_NEAR(sag_ratio({material, edges}, 0), 1, 0.05) << material << ", " << edges;
 }
 
 TEST(SheetBendingInAWorld, SagsAlikeOnIrregularMeshes) {
@@ -233,7 +235,8 @@ TEST(SheetBendingInAWorld, AFlatSheetFallsAsAStoneDoes) {
   World world(scene);
   for (int frame = 0; frame < 30; ++frame) world.step(1.f / 60);
   const double fallen = gravity_of_tests * 0.5 * 0.5 / 2;
-  for (const Vec3f& p : world.object(world.objects().front()).positions()) EXPECT_NEAR(double(p.y), -fallen, 0.02 * fallen);
+  for (const Vec3f& p : world.object(world.objects().front()).positions())
+    EXPECT_NEAR(double(p.y), -fallen, 0.02 * fallen);
   float least = 1e9f, most = -1e9f;
   for (const Vec3f& p : world.object(world.objects().front()).positions())
     least = std::min(least, p.y), most = std::max(most, p.y);

@@ -93,7 +93,8 @@ TEST(SideBySide, AddUpInTheReport) {
   EXPECT_GT(touching, 0) << "or this shows nothing";
 }
 
-/// A field that all threads may call asks to stop in the middle of a frame. All sets stop at the same time, a quarter's end.
+/// A field that all threads may call asks to stop in the middle of a frame. All sets stop at the same time, a quarter's
+/// end.
 TEST(SideBySide, StopTogetherAtAQuarter) {
   for (const int threads : {1, 4}) {
     std::atomic<bool> stop{false};

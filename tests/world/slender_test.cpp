@@ -36,7 +36,8 @@ Scene slender_scene(Object object, float friction) {
   return scene;
 }
 
-/// Without friction it slides and spins on for ever, flat on the floor. Its inertia turns with it, and so must its contacts.
+/// Without friction it slides and spins on for ever, flat on the floor. Its inertia turns with it, and so must its
+/// contacts.
 TEST(SlenderBody, SpinsOnWithoutFriction) {
   for (const float radius : {0.02f, 0.01f, 0.005f, 0.002f})
     for (const SolidShape& shape : shapes_of(radius)) {
@@ -69,8 +70,8 @@ TEST(SlenderBody, IsNotThrownByFriction) {
           ASSERT_TRUE(world.step(1.f / 60).ok());
           highest = std::max(highest, world.object(0).positions()[0].y);
         }
-        const std::string which =
-            "radius " + std::to_string(radius) + ", shape " + std::to_string(shape.index()) + ", " + std::to_string(speed);
+        const std::string which = "radius " + std::to_string(radius) + ", shape " + std::to_string(shape.index()) +
+                                  ", " + std::to_string(speed);
         EXPECT_LT(highest, 0.1f) << which;
         EXPECT_GT(world.object(0).positions()[0].y, 0.5f * radius - 2e-4f) << which;
       }

@@ -70,7 +70,8 @@ TEST(SolidField, OfGroundEndsAtItsUnderside) {
   const SolidField field(heightfield_of(ramp().mesh));
   const float underside = -2.f / 3 - 4;  // it is as far below the lowest point as the terrain is wide
   EXPECT_NEAR(field.bounds().low.y, underside, 1e-5f);
-  const auto below = field.distance({0.3f, underside - 0.5f, 0.2f}), in = field.distance({0.3f, underside + 0.5f, 0.2f});
+  const auto below = field.distance({0.3f, underside - 0.5f, 0.2f}),
+             in = field.distance({0.3f, underside + 0.5f, 0.2f});
   EXPECT_NEAR(below.distance, 0.5f, 1e-5f);
   EXPECT_NEAR(in.distance, -0.5f, 1e-5f);
   EXPECT_EQ(below.normal, (Vec3f{0, -1, 0}));

@@ -1,4 +1,5 @@
-// Tests bodies that spin fast: Euler's equations keep energy and angular momentum, whatever the angle per substep, and contact brings none.
+// Tests bodies that spin fast: Euler's equations keep energy and angular momentum, whatever the angle per substep, and
+// contact brings none.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,17 +29,20 @@ void expect_steady(const Solid& solid, const Vec3f& spin, int frames) {
   scene.settings.threads = 1;
   scene.add(body);
   World world(scene);
-  const auto now = [&] { return energy_and_momentum(body.frames[0].inertia, world.state().frames.angular_velocities[0]); };
+  const auto now = [&] {
+    return energy_and_momentum(body.frames[0].inertia, world.state().frames.angular_velocities[0]);
+  };
   const auto [energy, momentum] = now();
   for (int frame = 0; frame < frames; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
   EXPECT_NEAR(now().first / energy, 1, 1e-4) << spin.y;
   EXPECT_NEAR(now().second / momentum, 1, 1e-4) << spin.y;
 }
 
-/// A coin that spins by up to 0.98 rad a substep. The implicit midpoint rule in two rounds of fixed-point iteration tripled its
-/// energy in 10 s at 200 rad/s.
+/// A coin that spins by up to 0.98 rad a substep. The implicit midpoint rule in two rounds of fixed-point iteration
+/// tripled its energy in 10 s at 200 rad/s.
 TEST(SpinningBody, OfACoinKeepsItsEnergy) {
-  for (const float spin : {20.f, 120.f, 200.f, 300.f, 470.f}) expect_steady({Cylinder{0.1f, 0.01f}}, {1, spin, 0.5f}, 600);
+  for (const float spin : {20.f, 120.f, 200.f, 300.f, 470.f})
+    expect_steady({Cylinder{0.1f, 0.01f}}, {1, spin, 0.5f}, 600);
 }
 
 /// A plate about its middle axis turns over again and again.
@@ -65,8 +69,8 @@ TEST(SpinningBody, OfANeedleKeepsItsAngularMomentum) {
   EXPECT_LT(length(momentum() - start), 1e-3f * length(start));
 }
 
-/// A ball that slides and spins about the vertical rolls straight on with 5/7 of its speed (Coriolis 1835): friction acts against
-/// the sliding of the lowest point, which the spin does not move.
+/// A ball that slides and spins about the vertical rolls straight on with 5/7 of its speed (Coriolis 1835): friction
+/// acts against the sliding of the lowest point, which the spin does not move.
 TEST(SpinningBody, OfABallDoesNotTurnItsPath) {
   for (const float spin : {0.f, 10.f, 60.f, 300.f}) {
     Scene scene;
@@ -108,7 +112,8 @@ TEST(SpinningBody, OfAWheelKeepsItsPath) {
   }
 }
 
-/// The energy of the bodies of an object over the mass of one [J/kg]; half a kick of gravity is not in the velocities of symplectic Euler.
+/// The energy of the bodies of an object over the mass of one [J/kg]; half a kick of gravity is not in the velocities
+/// of symplectic Euler.
 double energy_of(const Object& object, const World& world, double kick) {
   double sum = 0;
   for (const ObjectBody& body : object.bodies) {
@@ -116,13 +121,15 @@ double energy_of(const Object& object, const World& world, double kick) {
                 v = world.object(0).velocities()[static_cast<std::size_t>(body.particle)];
     const auto frame = static_cast<std::size_t>(body.frame);
     const double mass = double(object.masses[static_cast<std::size_t>(body.particle)]), up = double(v.y) - 0.5 * kick;
-    sum += 0.5 * (double(v.x) * double(v.x) + up * up + double(v.z) * double(v.z)) + 9.81 * double(x.y) +
-           energy_and_momentum(object.frames[frame].inertia, world.state().frames.angular_velocities[frame]).first / mass;
+    sum +=
+        0.5 * (double(v.x) * double(v.x) + up * up + double(v.z) * double(v.z)) + 9.81 * double(x.y) +
+        energy_and_momentum(object.frames[frame].inertia, world.state().frames.angular_velocities[frame]).first / mass;
   }
   return sum;
 }
 
-/// Rods of 4 mm and 1 m that are thrown down with spin: the tip that lands turns them faster about their axis than a substep can show.
+/// Rods of 4 mm and 1 m that are thrown down with spin: the tip that lands turns them faster about their axis than a
+/// substep can show.
 TEST(SpinningBody, OfRodsThatLandBringsNoEnergy) {
   Scene scene;
   scene.settings.threads = 1;
@@ -171,7 +178,8 @@ TEST(SpinningBody, OfABallWithUnevenInertiaKeepsItsEnergy) {
   World world = rolling_ball(moments, {1, 3, -50});
   const auto energy = [&] {
     const Vec3f v = world.object(0).velocities()[0];
-    return 0.5 * double(length_squared(v)) + energy_and_momentum(moments, world.state().frames.angular_velocities[0]).first;
+    return 0.5 * double(length_squared(v)) +
+           energy_and_momentum(moments, world.state().frames.angular_velocities[0]).first;
   };
   const double start = energy();
   for (int frame = 0; frame < 600; ++frame) ASSERT_TRUE(world.step(1.f / 60).ok());
@@ -187,7 +195,8 @@ TEST(SpinningBody, OfABallDoesNotTurnALockedAxis) {
   }
 }
 
-/// A body that spins elsewhere, so that contacts are found again within frames, changes nothing for one that rides on a mesh that moves.
+/// A body that spins elsewhere, so that contacts are found again within frames, changes nothing for one that rides on a
+/// mesh that moves.
 TEST(SpinningBody, DoesNotDisturbARideOnAMesh) {
   Scene scene;
   scene.add(Collider{});

@@ -75,9 +75,10 @@ TEST(Snapshot, OfAnotherWorldIsRefusedInWords) {
   World world(hanging_cloth());
   State other = world.state();
   other.blocks[0].generation = 1;
-  EXPECT_EQ(refusal([&] { world.restore(other); }),
-            "object 'cloth': the state is of a World with other objects, or from before one was added, removed or edited; "
-            "restore a state that was taken since the last such change");
+  EXPECT_EQ(
+      refusal([&] { world.restore(other); }),
+      "object 'cloth': the state is of a World with other objects, or from before one was added, removed or edited; "
+      "restore a state that was taken since the last such change");
   State held = world.state();
   held.held_poses.push_back({false, 7, 0, {}, {}});
   EXPECT_EQ(refusal([&] { world.restore(held); }),

@@ -173,7 +173,8 @@ Vec3<double> angular_momentum(const World& world, ObjectId object) {
 
 double norm(const Vec3<double>& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
-/// A free sheet of which a disc is fast: substeps follow suddenly, and only a share of the corrections becomes velocity.
+/// A free sheet of which a disc is fast: substeps follow suddenly, and only a share of the corrections becomes
+/// velocity.
 TEST(SubstepEnergy, ChangesOfSubstepsConserveMomentum) {
   Scene scene = drop(48, 0, 0, 0.15f);
   scene.colliders.clear();

@@ -1,4 +1,5 @@
-// Tests groups of substeps within a frame: reports, stopping, division, events and control use each group's own substeps.
+// Tests groups of substeps within a frame: reports, stopping, division, events and control use each group's own
+// substeps.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +43,8 @@ TEST(SubstepGroups, AreMeasuredWithTheirOwnSubsteps) {
   for (std::size_t i = 0; i < sum.size(); ++i) {
     SCOPED_TRACE(sum[i].type);
     EXPECT_EQ(sum[i].largest, std::max(a[i].largest, b[i].largest));
-    const double squares = double(a[i].constraints) * a[i].rms * a[i].rms + double(b[i].constraints) * b[i].rms * b[i].rms;
+    const double squares =
+        double(a[i].constraints) * a[i].rms * a[i].rms + double(b[i].constraints) * b[i].rms * b[i].rms;
     EXPECT_NEAR(sum[i].rms, std::sqrt(squares / double(sum[i].constraints)), 1e-9 * sum[i].rms);
   }
 }

@@ -292,8 +292,8 @@ TEST(SubstepLaw, IgnoresConstraintsBetweenPins) {
   const std::vector<Vec3f> start = world.object({0}).positions();
   for (int i = 0; i < 30; ++i) {
     row.push_back(i);
-    spread.push_back(
-        {start[static_cast<std::size_t>(i)].x, start[static_cast<std::size_t>(i)].y, start[static_cast<std::size_t>(i)].z});
+    spread.push_back({start[static_cast<std::size_t>(i)].x, start[static_cast<std::size_t>(i)].y,
+                      start[static_cast<std::size_t>(i)].z});
   }
   spread[15].y += 0.02f;  // two links of the row are now far too long
   world.object({0}).set_targets(row, spread);

@@ -44,7 +44,8 @@ void expect_on_belt(World& world, double tolerance = 0.01) {
   EXPECT_NEAR(parcel_velocity(world).x, belt_mu * belt_gravity * 0.1, 0.02);
   run(world, 54);
   EXPECT_NEAR(parcel_velocity(world).x, belt_speed, 1e-3);
-  EXPECT_NEAR(parcel_place(world).x, belt_speed * 1 - belt_speed * belt_speed / (2 * belt_mu * belt_gravity), tolerance);
+  EXPECT_NEAR(parcel_place(world).x, belt_speed * 1 - belt_speed * belt_speed / (2 * belt_mu * belt_gravity),
+              tolerance);
   EXPECT_NEAR(parcel_place(world).z, 0, 1e-3);
 }
 
@@ -287,14 +288,18 @@ TEST(SurfaceVelocity, IsRefusedWhereItCannotBeSet) {
   const auto said = [](const auto& call) { return testing_support::refusal(call); };
   EXPECT_NE(said([&] { world.object(0).set_surface_velocity(1, {}); }).find("object 'parcel', body 1: does not exist"),
             std::string::npos);
-  EXPECT_NE(said([&] { world.object(0).set_surface_velocity(0, {NAN, 0, 0}); }).find("is not finite"), std::string::npos);
+  EXPECT_NE(said([&] {
+              world.object(0).set_surface_velocity(0, {NAN, 0, 0});
+            }).find("is not finite"),
+            std::string::npos);
   EXPECT_NE(said([&] {
               world.collider(collider).set_surface_velocity({1e7f, 0, 0});
             }).find("above 1e6 m/s"),
             std::string::npos);
   State state = world.state();
   state.surface_velocities.push_back({SurfaceVelocity::Of::body, 0, 0, 3, {}});
-  EXPECT_NE(said([&] { world.restore(state); }).find("surface velocity 0: is of nothing in this World"), std::string::npos);
+  EXPECT_NE(said([&] { world.restore(state); }).find("surface velocity 0: is of nothing in this World"),
+            std::string::npos);
 }
 
 TEST(SurfaceVelocity, MustBeFinite) {

@@ -180,7 +180,8 @@ TEST(WorldSweeps, AToleranceThatCannotBeIsRefusedAndOneThatDoesNothingDoubted) {
   }
   const auto doubts = [&] {
     int count = 0;
-    for (const Finding& finding : inspect(scene)) count += finding.message.find("tolerance") != std::string::npos ? 1 : 0;
+    for (const Finding& finding : inspect(scene))
+      count += finding.message.find("tolerance") != std::string::npos ? 1 : 0;
     return count;
   };
   scene.settings.tolerance = 1e-4f;

@@ -1,4 +1,5 @@
-// A body that many ties hold moves as one rigid whole with what is tied to it, however light it is and however small the substeps are.
+// A body that many ties hold moves as one rigid whole with what is tied to it, however light it is and however small
+// the substeps are.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace {
 
 using testing_support::dt;
 
-/// A slender body of 50 g along x, with 72 particles of 10 g about it that are tied to it. All turn about z by `spin` [rad/s].
+/// A slender body of 50 g along x, with 72 particles of 10 g about it that are tied to it. All turn about z by `spin`
+/// [rad/s].
 Object pincushion(float spin) {
   BodyOptions options;
   options.name = "needle";
@@ -68,7 +70,8 @@ double widest_gap(World& world, int frames) {
   return widest;
 }
 
-/// It turns about a principal axis, so its speed is constant. Its other principal moments differ, and z's is the largest.
+/// It turns about a principal axis, so its speed is constant. Its other principal moments differ, and z's is the
+/// largest.
 TEST(TiedBody, SpinsAsOneWholeAtAnySubsteps) {
   for (const int substeps : {20, 40, 200}) {
     constexpr float spin = 3;
@@ -143,8 +146,8 @@ TEST(TiedBody, StaysBetweenFixedParticles) {
   EXPECT_LT(widest_gap(world, 60), 1e-6);
 }
 
-/// A box of 1 kg and 0.2 m on a side that hangs from fixed particles at the middle of its upper face, turned by an angle about x.
-/// `length` is that of the line along x on which they lie [m].
+/// A box of 1 kg and 0.2 m on a side that hangs from fixed particles at the middle of its upper face, turned by an
+/// angle about x. `length` is that of the line along x on which they lie [m].
 Object hung_at(int ties, float length, float angle) {
   BodyOptions options;
   options.mass = 1;
@@ -162,8 +165,8 @@ Object hung_at(int ties, float length, float angle) {
   return object;
 }
 
-/// Ties on a line are a hinge, at one place a ball joint: what they leave free swings with the period of a compound pendulum, however many
-/// they are.
+/// Ties on a line are a hinge, at one place a ball joint: what they leave free swings with the period of a compound
+/// pendulum, however many they are.
 TEST(TiedBody, SwingsAboutFixedParticlesAsAPendulum) {
   constexpr double arm = 0.1, squared_radius = 0.2 * 0.2 / 6;  // of gyration about x
   const double period = 2 * 3.14159265 * std::sqrt((squared_radius + arm * arm) / (9.81 * arm));

@@ -21,7 +21,8 @@ TriangleMesh tube(float degrees, float aside) {
   const Quatf turn = rotation({0.26f, 0.23f, 1}, degrees);
   TriangleMesh mesh;
   for (const float z : {0.02f, -0.02f}) {
-    for (const auto& [x, y] : {std::array{0.0024f, -0.002f}, {0.0024f, 0.002f}, {-0.0036f, 0.002f}, {-0.0036f, -0.002f}}) {
+    for (const auto& [x, y] :
+         {std::array{0.0024f, -0.002f}, {0.0024f, 0.002f}, {-0.0036f, 0.002f}, {-0.0036f, -0.002f}}) {
       mesh.positions.push_back(rotate(turn, Vec3f{x, y, z}) + Vec3f{aside, 0.4f, 0});
     }
   }

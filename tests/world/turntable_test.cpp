@@ -105,7 +105,8 @@ TEST(Turntable, MayBeAFixedBody) {
   EXPECT_NEAR(distance_from_axis(world, 0), 1, 1e-3);
 }
 
-// A body lies on rollers that turn about their own axes, so their surfaces do not move: it goes on by radius times spin.
+// A body lies on rollers that turn about their own axes, so their surfaces do not move: it goes on by radius times
+// spin.
 TEST(Turntable, ARollerMovesABoxByItsSurface) {
   constexpr float radius = 0.1f, spin = 5;
   Scene scene;

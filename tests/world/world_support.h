@@ -35,7 +35,8 @@ inline std::string refusal_of(const Scene& scene) {
 /// The speed of the fastest particle or body [m/s].
 inline float fastest(const World& world) {
   float speed = 0;
-  for (const Record& v : world.state().velocities) speed = std::max(speed, std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z));
+  for (const Record& v : world.state().velocities)
+    speed = std::max(speed, std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z));
   return speed;
 }
 

@@ -54,7 +54,8 @@ json part_of(const Object& object, ObjectId id) {
 
 json shape_of(const Shape& shape) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return {{"kind", "sphere"}, {"radius", sphere->radius}};
-  if (const auto* box = std::get_if<Box>(&shape)) return {{"kind", "box"}, {"half_extents", list_of(box->half_extents)}};
+  if (const auto* box = std::get_if<Box>(&shape))
+    return {{"kind", "box"}, {"half_extents", list_of(box->half_extents)}};
   if (const auto* capsule = std::get_if<Capsule>(&shape))
     return {{"kind", "capsule"}, {"radius", capsule->radius}, {"half_length", capsule->half_length}};
   return {{"kind", "plane"}};
@@ -78,7 +79,8 @@ json parts_of(const World& world) {
   }
   for (std::size_t i = 0; i < scene.mesh_colliders.size(); ++i) {
     const MeshCollider& collider = scene.mesh_colliders[i];
-    mesh_colliders.push_back(collider_of(collider.name, collider.colour, PLIANT_MESH_COLLIDER, world.mesh_colliders()[i]));
+    mesh_colliders.push_back(
+        collider_of(collider.name, collider.colour, PLIANT_MESH_COLLIDER, world.mesh_colliders()[i]));
   }
   return {{"objects", objects}, {"colliders", colliders}, {"mesh_colliders", mesh_colliders}};
 }
@@ -156,7 +158,8 @@ pliant_status pliant_web_liquid(const pliant_world* world, pliant_id object, pli
   });
 }
 
-pliant_status pliant_web_lines(const pliant_world* world, pliant_id object, int32_t* into, size_t capacity, size_t* count) {
+pliant_status pliant_web_lines(const pliant_world* world, pliant_id object, int32_t* into, size_t capacity,
+                               size_t* count) {
   return guarded([&] {
     const ObjectUse use(world, object);
     std::vector<std::int32_t> pairs;
@@ -168,7 +171,8 @@ pliant_status pliant_web_lines(const pliant_world* world, pliant_id object, int3
   });
 }
 
-pliant_status pliant_web_poses(const pliant_world* world, pliant_id object, float* into, size_t capacity, size_t* count) {
+pliant_status pliant_web_poses(const pliant_world* world, pliant_id object, float* into, size_t capacity,
+                               size_t* count) {
   return guarded([&] {
     const ObjectUse use(world, object);
     const auto motions = output::body_motions(use.object().description(), use.object());

@@ -1,4 +1,5 @@
-// What pictures in a browser need besides pliant_c.h. Not part of the C library: the module of WebAssembly alone has it.
+// What pictures in a browser need besides pliant_c.h. Not part of the C library: the module of WebAssembly alone has
+// it.
 #pragma once
 
 #include "pliant_c.h"

@@ -140,7 +140,8 @@ nb::object int_rows(const int* values, std::size_t rows, std::size_t columns) {
   const nb::object array =
       numpy_part("empty")(columns == 0 ? nb::make_tuple(rows) : nb::make_tuple(rows, columns), numpy_part("int32"));
   const Numbers to(array, 'i', static_cast<int>(columns), "indices");
-  if (rows > 0) std::memcpy(const_cast<int*>(to.ints()), values, rows * std::max<std::size_t>(columns, 1) * sizeof(int));
+  if (rows > 0)
+    std::memcpy(const_cast<int*>(to.ints()), values, rows * std::max<std::size_t>(columns, 1) * sizeof(int));
   return array;
 }
 

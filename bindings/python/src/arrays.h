@@ -23,8 +23,8 @@ static_assert(sizeof(Record) == 4 * sizeof(float));
 /// An array that was given, as C-contiguous numbers, for as long as it lives.
 class Numbers {
  public:
-  /// Takes an array of `columns` numbers a row; 0 columns: one dimension. Others are converted by numpy. Throws an Error
-  /// that begins with `what` if shape or kind is wrong. `type` is 'f' or 'i'.
+  /// Takes an array of `columns` numbers a row; 0 columns: one dimension. Others are converted by numpy. Throws an
+  /// Error that begins with `what` if shape or kind is wrong. `type` is 'f' or 'i'.
   Numbers(nb::handle given, char type, int columns, const char* what);
   ~Numbers();
   Numbers(const Numbers&) = delete;
@@ -43,7 +43,8 @@ class Numbers {
   std::size_t rows_ = 0;
 };
 
-/// The caller's array that a function fills: float32, C-contiguous, writable, of exactly this shape. Throws an Error otherwise.
+/// The caller's array that a function fills: float32, C-contiguous, writable, of exactly this shape. Throws an Error
+/// otherwise.
 class Output {
  public:
   Output(nb::handle given, std::span<const std::size_t> shape);

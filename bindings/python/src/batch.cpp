@@ -77,7 +77,8 @@ nb::list step_batch(const Batch& self, nb::handle dt) {
 
 nb::list run_frames(const Batch& self, nb::handle given) {
   std::optional<int> frames;
-  if (PyBool_Check(given.ptr()) != 0 || !nb::try_cast(given, frames)) throw wrong_type("frames", given, "an int, or None");
+  if (PyBool_Check(given.ptr()) != 0 || !nb::try_cast(given, frames))
+    throw wrong_type("frames", given, "an int, or None");
   const int count = frames.value_or(self.worlds->front()->file().scene.frames);
   if (count < 1) throw Error({}, "frames is " + std::to_string(count), "run 1 or more");
   return run(self, {}, count);
@@ -90,7 +91,8 @@ std::vector<State> states(const Batch& self) {
   return all;
 }
 
-/// Restores of(i) in each world. If one does not fit, all have what they had before, but what was set for the next step.
+/// Restores of(i) in each world. If one does not fit, all have what they had before, but what was set for the next
+/// step.
 template <class Of>
 void restore_each(const Worlds& worlds, const Of& of) {
   std::vector<State> before;

@@ -134,8 +134,8 @@ void require_all(const BatchObject& self, const std::vector<float>& numbers, con
 
 /// True if an object has a motor that accepts a command.
 bool has_motor(const Object& object, const std::string& joint, const MotorCommand& command) {
-  const auto found =
-      std::find_if(object.joints.begin(), object.joints.end(), [&](const ObjectJoint& one) { return one.name == joint; });
+  const auto found = std::find_if(object.joints.begin(), object.joints.end(),
+                                  [&](const ObjectJoint& one) { return one.name == joint; });
   if (found == object.joints.end()) return false;
   const std::vector<ObjectJointMotor>& motors = found->motors;
   const auto motor = command.motor.empty() && motors.size() == 1
@@ -146,7 +146,8 @@ bool has_motor(const Object& object, const std::string& joint, const MotorComman
   return std::fabs(command.target) <= largest_target;
 }
 
-void set_motor(const BatchObject& self, nb::handle joint, nb::handle targets, nb::handle most, const std::string& motor) {
+void set_motor(const BatchObject& self, nb::handle joint, nb::handle targets, nb::handle most,
+               const std::string& motor) {
   const Which which = which_of(joint, "joint");
   if (which.all.empty()) throw Error({}, "joint is an empty list", "name one joint or more");
   std::vector<std::string> names;
@@ -185,9 +186,9 @@ nb::object rows_of_worlds(nb::handle given, std::size_t worlds, std::size_t colu
   const nb::tuple wanted = nb::make_tuple(worlds, columns), one = nb::make_tuple(columns);
   if (array.attr("shape").equal(one)) return nb::module_::import_("numpy").attr("broadcast_to")(array, wanted);
   if (array.attr("shape").equal(wanted)) return array;
-  throw Error(
-      {}, std::string(what) + " have the shape " + shape,
-      "pass " + nb::cast<std::string>(nb::str(wanted)) + ", or " + nb::cast<std::string>(nb::str(one)) + " for all worlds");
+  throw Error({}, std::string(what) + " have the shape " + shape,
+              "pass " + nb::cast<std::string>(nb::str(wanted)) + ", or " + nb::cast<std::string>(nb::str(one)) +
+                  " for all worlds");
 }
 
 /// Throws an Error unless a body is kinematic in all worlds, so that set_pose() moves it in all or none.
@@ -220,7 +221,8 @@ void set_pose(const BatchObject& self, nb::handle body, nb::handle positions, nb
     if (!is_finite(at[i].x) || !is_finite(at[i].y) || !is_finite(at[i].z) || !std::all_of(q, q + 4, is_finite))
       throw Error({.object = self.name, .element = element}, "the pose is not finite", "give finite numbers");
     if (!is_near_origin(at[i]))
-      throw Error({.object = self.name, .element = element}, "the pose is more than 1e9 m from the origin", "give metres");
+      throw Error({.object = self.name, .element = element}, "the pose is more than 1e9 m from the origin",
+                  "give metres");
     const float square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];  // as World::set_pose refuses it
     if (!(square > 1e-30f) || !std::isfinite(square))
       throw Error({.object = self.name, .element = element},
@@ -243,30 +245,33 @@ void bind_batch_joints(nb::class_<BatchObject>& c) {
                 "tuple[pliant._types.FloatArray, pliant._types.FloatArray]"),
         "Poses of a rigid body: positions [m], shape (worlds, 3), and rotations (x, y, z, w), shape (worlds, 4). Of a "
         "list of k bodies: (worlds, k, 3) and (worlds, k, 4).")
-      .def("set_pose", &set_pose, nb::arg("body"), nb::arg("positions"), nb::arg("rotations") = nb::make_tuple(0, 0, 0, 1),
-           nb::sig("def set_pose(self, body: int | str, positions: pliant._types.VectorLike | pliant._types.VectorsLike, "
-                   "rotations: pliant._types.VectorLike | pliant._types.VectorsLike = (0, 0, 0, 1)) -> None"),
+      .def("set_pose", &set_pose, nb::arg("body"), nb::arg("positions"),
+           nb::arg("rotations") = nb::make_tuple(0, 0, 0, 1),
+           nb::sig(
+               "def set_pose(self, body: int | str, positions: pliant._types.VectorLike | pliant._types.VectorsLike, "
+               "rotations: pliant._types.VectorLike | pliant._types.VectorsLike = (0, 0, 0, 1)) -> None"),
            "As Object.set_pose(): positions of shape (worlds, 3) [m] and rotations of shape (worlds, 4), or one for "
            "all worlds.")
-      .def(
-          "set_motor", &set_motor, nb::arg("joint"), nb::arg("targets"), nb::arg("most") = nb::none(),
-          nb::arg("motor") = "",
-          nb::sig(
-              "def set_motor(self, joint: str | collections.abc.Sequence[str], targets: float | pliant._types.VectorLike | "
-              "pliant._types.VectorsLike, most: float | pliant._types.VectorLike | pliant._types.VectorsLike | None = "
-              "None, motor: str = '') -> None"),
-          "As Object.set_motor(), with a target for each world, shape (worlds,), or one for all. Of a list of k "
-          "joints: shape (worlds, k), or one for all. `most` likewise.")
+      .def("set_motor", &set_motor, nb::arg("joint"), nb::arg("targets"), nb::arg("most") = nb::none(),
+           nb::arg("motor") = "",
+           nb::sig(
+               "def set_motor(self, joint: str | collections.abc.Sequence[str], targets: float | "
+               "pliant._types.VectorLike | "
+               "pliant._types.VectorsLike, most: float | pliant._types.VectorLike | pliant._types.VectorsLike | None = "
+               "None, motor: str = '') -> None"),
+           "As Object.set_motor(), with a target for each world, shape (worlds,), or one for all. Of a list of k "
+           "joints: shape (worlds, k), or one for all. `most` likewise.")
       .def("joint_states", &joint_states, nb::arg("joint"),
            nb::sig("def joint_states(self, joint: int | str | collections.abc.Sequence[int | str]) -> "
                    "pliant._types.JointStates"),
            "Object.joint_state() in all worlds: arrays of shape (worlds, 3), or (worlds, k, 3) of a list of k joints.")
       .def("joint_loads", loads(&ObjectView::joint_load), nb::arg("joint"),
-           nb::sig("def joint_loads(self, joint: int | str | collections.abc.Sequence[int | str]) -> pliant._types.Loads"),
+           nb::sig(
+               "def joint_loads(self, joint: int | str | collections.abc.Sequence[int | str]) -> pliant._types.Loads"),
            "Object.joint_load() in all worlds: arrays of shape (worlds, 3), or (worlds, k, 3) of a list of k joints.")
       .def("mean_joint_loads", loads(&ObjectView::mean_joint_load), nb::arg("joint"),
-           nb::sig(
-               "def mean_joint_loads(self, joint: int | str | collections.abc.Sequence[int | str]) -> pliant._types.Loads"),
+           nb::sig("def mean_joint_loads(self, joint: int | str | collections.abc.Sequence[int | str]) -> "
+                   "pliant._types.Loads"),
            "Object.mean_joint_load() likewise. Raises Error unless Batch.record_joint_loads() is on.");
 }
 

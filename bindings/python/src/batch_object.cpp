@@ -31,8 +31,8 @@ BatchObject batch_object(const std::shared_ptr<const Worlds>& worlds, const std:
     const auto particles = static_cast<std::size_t>(object.view(i).particle_count());
     if (i > 0 && particles != object.particles)
       throw Error({.object = name},
-                  "has " + std::to_string(object.particles) + " particles in world 0, but " + std::to_string(particles) +
-                      " in world " + std::to_string(i),
+                  "has " + std::to_string(object.particles) + " particles in world 0, but " +
+                      std::to_string(particles) + " in world " + std::to_string(i),
                   "read the objects of batch.worlds one by one");
     object.particles = particles;
   }
@@ -62,12 +62,15 @@ class VectorsOfWorlds {
   /// Throws an Error unless all are finite, so that a setter changes all worlds or none.
   void require_finite(const std::string& object, const char* what) const {
     const std::span<const Vec3f> all = numbers_.vectors();
-    const auto is_finite = [](const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+    const auto is_finite = [](const Vec3f& v) {
+      return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
     const auto bad = std::find_if_not(all.begin(), all.end(), is_finite);
     if (bad == all.end()) return;
     const auto at = static_cast<std::size_t>(bad - all.begin());
-    throw Error({.object = object, .element = "row " + std::to_string(at % n_) + " of world " + std::to_string(at / n_)},
-                std::string(what) + " are not finite", "give finite numbers");
+    throw Error(
+        {.object = object, .element = "row " + std::to_string(at % n_) + " of world " + std::to_string(at / n_)},
+        std::string(what) + " are not finite", "give finite numbers");
   }
   /// Throws an Error unless all are where a World accepts targets.
   void require_near(const std::string& object, const char* what) const {
@@ -75,8 +78,9 @@ class VectorsOfWorlds {
     const auto far = std::find_if_not(all.begin(), all.end(), is_near_origin);
     if (far == all.end()) return;
     const auto at = static_cast<std::size_t>(far - all.begin());
-    throw Error({.object = object, .element = "row " + std::to_string(at % n_) + " of world " + std::to_string(at / n_)},
-                std::string(what) + " are more than 1e9 m from the origin", "give metres");
+    throw Error(
+        {.object = object, .element = "row " + std::to_string(at % n_) + " of world " + std::to_string(at / n_)},
+        std::string(what) + " are more than 1e9 m from the origin", "give metres");
   }
   /// Also unless there is one for each particle.
   void require_each(const BatchObject& of, const char* what) const {
@@ -84,8 +88,8 @@ class VectorsOfWorlds {
     for (std::size_t i = 0; i < of.size(); ++i)
       if (const auto particles = static_cast<std::size_t>(of.view(i).particle_count()); particles != n_)
         throw Error({.object = of.name},
-                    what + (" are " + std::to_string(n_)) + " for " + std::to_string(particles) + " particles of world " +
-                        std::to_string(i),
+                    what + (" are " + std::to_string(n_)) + " for " + std::to_string(particles) +
+                        " particles of world " + std::to_string(i),
                     "give one per particle");
   }
 
@@ -183,7 +187,8 @@ void bind_batch_object(nb::module_& m) {
       .def(
           "positions",
           [](const BatchObject& self, nb::handle out) {
-            return read_all(self, out, [](const ObjectView& view, std::span<Vec3f> into) { view.read_positions(into); });
+            return read_all(self, out,
+                            [](const ObjectView& view, std::span<Vec3f> into) { view.read_positions(into); });
           },
           nb::arg("out") = nb::none(),
           nb::sig("def positions(self, out: pliant._types.FloatArray | None = None) -> pliant._types.FloatArray"),
@@ -191,7 +196,8 @@ void bind_batch_object(nb::module_& m) {
       .def(
           "velocities",
           [](const BatchObject& self, nb::handle out) {
-            return read_all(self, out, [](const ObjectView& view, std::span<Vec3f> into) { view.read_velocities(into); });
+            return read_all(self, out,
+                            [](const ObjectView& view, std::span<Vec3f> into) { view.read_velocities(into); });
           },
           nb::arg("out") = nb::none(),
           nb::sig("def velocities(self, out: pliant._types.FloatArray | None = None) -> pliant._types.FloatArray"),
@@ -200,14 +206,17 @@ void bind_batch_object(nb::module_& m) {
            nb::sig("def set_velocities(self, velocities: pliant._types.AnyArray) -> None"),
            "As Object.set_velocities() [m/s].")
       .def("add_impulses", &add_impulses, nb::arg("impulses"),
-           nb::sig("def add_impulses(self, impulses: pliant._types.AnyArray) -> None"), "As Object.add_impulses() [N s].")
+           nb::sig("def add_impulses(self, impulses: pliant._types.AnyArray) -> None"),
+           "As Object.add_impulses() [N s].")
       .def("set_forces", writer(&ObjectHandle::set_forces, "forces"), nb::arg("forces"),
            nb::sig("def set_forces(self, forces: pliant._types.AnyArray) -> None"), "As Object.set_forces() [N].")
       .def("set_targets", writer_of_some(&ObjectHandle::set_targets, &has_pins, "particles"), nb::arg("particles"),
            nb::arg("positions"),
-           nb::sig("def set_targets(self, particles: pliant._types.IntsLike, positions: pliant._types.AnyArray) -> None"),
+           nb::sig(
+               "def set_targets(self, particles: pliant._types.IntsLike, positions: pliant._types.AnyArray) -> None"),
            "As Object.set_targets(): the same particles in all worlds, positions of shape (worlds, n, 3) [m].")
-      .def("set_attachment_targets", writer_of_some(&ObjectHandle::set_attachment_targets, &has_attachments, "attachments"),
+      .def("set_attachment_targets",
+           writer_of_some(&ObjectHandle::set_attachment_targets, &has_attachments, "attachments"),
            nb::arg("attachments"), nb::arg("positions"),
            nb::sig("def set_attachment_targets(self, attachments: pliant._types.IntsLike, positions: "
                    "pliant._types.AnyArray) -> None"),

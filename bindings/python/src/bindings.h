@@ -143,8 +143,8 @@ class Stepping {
   ~Stepping() { owned_.is_stepping_ = false; }
   Stepping(const Stepping&) = delete;
   Stepping& operator=(const Stepping&) = delete;
-  /// Steps, without the GIL. Throws an Error if nothing moved because dt is too short. Where a force raises an exception, the
-  /// World goes back to the State before this step, and the exception passes on.
+  /// Steps, without the GIL. Throws an Error if nothing moved because dt is too short. Where a force raises an
+  /// exception, the World goes back to the State before this step, and the exception passes on.
   Report advance(float dt);
 
  private:
@@ -169,8 +169,8 @@ struct NamedReport {
   std::shared_ptr<const Names> names;
 };
 
-/// Advances by one frame without the GIL. Throws what Stepping::advance() does, and nb::python_error if a signal's handler
-/// raised, as that of Ctrl-C does.
+/// Advances by one frame without the GIL. Throws what Stepping::advance() does, and nb::python_error if a signal's
+/// handler raised, as that of Ctrl-C does.
 NamedReport step(OwnedWorld& owned, float dt);
 
 /// A time step that was given [s]. Throws wrong_type(), or an Error unless it is finite and above 0.
@@ -193,8 +193,8 @@ inline PyType_Slot* plain_slots() {
   return slots;
 }
 
-/// tp_traverse of a class whose member `world` is a SharedWorld. The cycles that need an end all contain the World's own
-/// object, which ends them: this needs no tp_clear.
+/// tp_traverse of a class whose member `world` is a SharedWorld. The cycles that need an end all contain the World's
+/// own object, which ends them: this needs no tp_clear.
 template <class Ref>
 int traverse_world(PyObject* self, visitproc visit, void* arg) {
   Py_VISIT(Py_TYPE(self));

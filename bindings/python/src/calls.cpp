@@ -1,8 +1,8 @@
 // What Python says of calls with wrong arguments, and of attributes that cannot be set.
 //
-// nanobind's own TypeError lists C++ signatures. Python knows better which argument is wrong (../pliant/_calls.py). So each
-// function of the module gets another vectorcall, which calls the first one and then explains such an error. A call that is
-// right costs one comparison more.
+// nanobind's own TypeError lists C++ signatures. Python knows better which argument is wrong (../pliant/_calls.py). So
+// each function of the module gets another vectorcall, which calls the first one and then explains such an error. A
+// call that is right costs one comparison more.
 #include <array>
 #include <cstring>
 #include <limits>
@@ -37,7 +37,8 @@ void explain(PyObject* function, PyObject* const* args, std::size_t flagged, PyO
   const nb::object error = unexplained_error();
   if (!error.is_valid()) return;
   try {
-    const std::size_t count = flagged & (~std::size_t{0} >> 8);  // the highest bits are flags, of Python and of nanobind
+    const std::size_t count =
+        flagged & (~std::size_t{0} >> 8);  // the highest bits are flags, of Python and of nanobind
     nb::list given;
     for (std::size_t i = 0; i < count; ++i) given.append(nb::handle(args[i]));
     nb::dict named;
@@ -65,7 +66,8 @@ constexpr std::array<vectorcallfunc, most_kinds> explaining_calls = explaining(s
 
 void explain_calls_of(nb::handle function) {
   PyTypeObject* const type = Py_TYPE(function.ptr());
-  if (std::strcmp(type->tp_name, "nanobind.nb_func") != 0 && std::strcmp(type->tp_name, "nanobind.nb_method") != 0) return;
+  if (std::strcmp(type->tp_name, "nanobind.nb_func") != 0 && std::strcmp(type->tp_name, "nanobind.nb_method") != 0)
+    return;
   auto* const place =
       reinterpret_cast<vectorcallfunc*>(reinterpret_cast<char*>(function.ptr()) + type->tp_vectorcall_offset);
   for (std::size_t kind = 0; kind < most_kinds; ++kind) {
@@ -83,7 +85,8 @@ void explain_calls(nb::module_& m) {
   for (const auto& [name, value] : nb::borrow<nb::dict>(m.attr("__dict__"))) {
     explain_calls_of(value);
     if (!nb::isinstance<nb::type_object>(value)) continue;
-    for (const nb::handle member : nb::list(nb::object(value.attr("__dict__").attr("values")()))) explain_calls_of(member);
+    for (const nb::handle member : nb::list(nb::object(value.attr("__dict__").attr("values")())))
+      explain_calls_of(member);
   }
 }
 

@@ -32,9 +32,11 @@ void bind_moves(nb::class_<Ref>& c) {
             r.handle().set_pose(pose_from(position, rotation));
           },
           nb::arg("position"), nb::arg("rotation") = nb::make_tuple(0, 0, 0, 1),
-          nb::sig("def set_pose(self, position: pliant._types.VectorLike, rotation: pliant._types.VectorLike = (0, 0, 0, "
-                  "1)) -> None"),
-          "Moves it to a pose that it reaches at the end of the next step: position [m] at constant velocity, rotation (x, "
+          nb::sig(
+              "def set_pose(self, position: pliant._types.VectorLike, rotation: pliant._types.VectorLike = (0, 0, 0, "
+              "1)) -> None"),
+          "Moves it to a pose that it reaches at the end of the next step: position [m] at constant velocity, rotation "
+          "(x, "
           "y, z, w) "
           "along the shorter arc. After that it stays.")
       .def(
@@ -43,8 +45,9 @@ void bind_moves(nb::class_<Ref>& c) {
             r.handle().teleport(pose_from(position, rotation));
           },
           nb::arg("position") = nb::make_tuple(0, 0, 0), nb::arg("rotation") = nb::make_tuple(0, 0, 0, 1),
-          nb::sig("def teleport(self, position: pliant._types.VectorLike = (0, 0, 0), rotation: pliant._types.VectorLike = "
-                  "(0, 0, 0, 1)) -> None"),
+          nb::sig(
+              "def teleport(self, position: pliant._types.VectorLike = (0, 0, 0), rotation: pliant._types.VectorLike = "
+              "(0, 0, 0, 1)) -> None"),
           "Moves it at once, rotated about the origin and then moved [m]; what it touches gets no velocity.")
       .def(
           "set_surface_velocity",

@@ -83,8 +83,8 @@ void let_go(EditRef& self, std::vector<Held> Object::*holds, nb::handle particle
   for (const Held& one : all) held.insert(one.particle);
   for (const int particle : which.integers())
     if (!held.contains(particle))
-      throw Error({.object = object.name, .element = "particle " + std::to_string(particle)}, std::string("has no ") + what,
-                  "name particles that have one");
+      throw Error({.object = object.name, .element = "particle " + std::to_string(particle)},
+                  std::string("has no ") + what, "name particles that have one");
   const std::set<int> gone(which.integers().begin(), which.integers().end());
   std::erase_if(all, [&](const Held& one) { return gone.contains(one.particle); });
 }
@@ -146,16 +146,17 @@ void set_masses(EditRef& self, nb::handle masses) {
   const Numbers given(masses, 'f', 0, "masses");
   Object& object = self.object();
   if (given.rows() != object.positions.size())
-    throw Error(
-        {.object = object.name},
-        std::to_string(given.rows()) + " masses are given for " + std::to_string(object.positions.size()) + " particles",
-        "give one for each");
+    throw Error({.object = object.name},
+                std::to_string(given.rows()) + " masses are given for " + std::to_string(object.positions.size()) +
+                    " particles",
+                "give one for each");
   object.masses.assign(given.floats(), given.floats() + given.rows());
 }
 
 void describe(EditRef& self, const nb::kwargs& members) {
   const std::string name = self.object().name;
-  if (members.contains("name")) throw Error({.object = name}, "is given a name", "an object keeps the name that it has");
+  if (members.contains("name"))
+    throw Error({.object = name}, "is given a name", "an object keeps the name that it has");
   nb::dict all;
   all["name"] = name;
   all.update(members);
@@ -253,12 +254,14 @@ void bind_holds(nb::class_<EditRef>& c) {
           nb::arg("particles") = nb::none(),
           nb::sig("def unpin(self, particles: pliant._types.IntsLike | None = None) -> None"),
           "Lets pinned particles go; None: all. Raises Error if one is not pinned.")
-      .def("attach", &attach, nb::arg("particles"), nb::arg("targets"), nb::arg("compliance") = 0, nb::arg("damping") = 0,
-           nb::sig("def attach(self, particles: pliant._types.IntsLike, targets: pliant._types.VectorsLike, compliance: "
-                   "float = 0, damping: float = 0) -> None"),
-           "Attaches particles to targets [m], shape (n, 3), by springs of a compliance [m/N]; 0: rigidly. `damping` [N "
-           "s/m] is of a spring. The new attachments follow those that there are; Object.set_attachment_targets() moves "
-           "the targets.")
+      .def(
+          "attach", &attach, nb::arg("particles"), nb::arg("targets"), nb::arg("compliance") = 0,
+          nb::arg("damping") = 0,
+          nb::sig("def attach(self, particles: pliant._types.IntsLike, targets: pliant._types.VectorsLike, compliance: "
+                  "float = 0, damping: float = 0) -> None"),
+          "Attaches particles to targets [m], shape (n, 3), by springs of a compliance [m/N]; 0: rigidly. `damping` [N "
+          "s/m] is of a spring. The new attachments follow those that there are; Object.set_attachment_targets() moves "
+          "the targets.")
       .def(
           "detach", [](EditRef& e, nb::handle which) { let_go(e, &Object::attachments, which, "attachment"); },
           nb::arg("particles") = nb::none(),
@@ -267,7 +270,8 @@ void bind_holds(nb::class_<EditRef>& c) {
 }
 
 void bind_cuts(nb::class_<EditRef>& c) {
-  c.def("cut", changed_by(&cut, "path"), nb::arg("path"), nb::sig("def cut(self, path: pliant._types.IntsLike) -> None"),
+  c.def("cut", changed_by(&cut, "path"), nb::arg("path"),
+        nb::sig("def cut(self, path: pliant._types.IntsLike) -> None"),
         "Cuts a surface along a path of particles, each joined to the next by an edge. Particles inside the path and "
         "at ends on the border are split; the copies follow all others. Mass and momentum are conserved.")
       .def("remove_triangles", changed_by(&remove_triangles, "triangles"), nb::arg("triangles"),
@@ -300,11 +304,11 @@ void bind_matter(nb::class_<EditRef>& c) {
            "Replaces the description by one as of Scene.add(), with another material, thickness or pins, for example. "
            "It must have as many particles in the same order: each keeps position and velocity. What earlier calls "
            "changed is replaced.")
-      .def(
-          "apply", &apply, nb::sig("def apply(self) -> pliant._types.IntArray"),
-          "Makes the changes in the World, once. Returns for each old particle its first new index, or -1 where it is "
-          "gone. If the description cannot be simulated, or the object was edited or torn since World.edit(), raises Error "
-          "and changes nothing. The end of a `with` block calls it.");
+      .def("apply", &apply, nb::sig("def apply(self) -> pliant._types.IntArray"),
+           "Makes the changes in the World, once. Returns for each old particle its first new index, or -1 where it is "
+           "gone. If the description cannot be simulated, or the object was edited or torn since World.edit(), raises "
+           "Error "
+           "and changes nothing. The end of a `with` block calls it.");
 }
 
 }  // namespace

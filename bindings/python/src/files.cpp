@@ -17,7 +17,8 @@ namespace {
 /// Writes frames of a World, as a context manager.
 struct Writer {
   SharedWorld world;
-  nb::object target;  ///< a dict of files in memory or a file object, which the sink only borrows; null: files go to disk
+  nb::object
+      target;  ///< a dict of files in memory or a file object, which the sink only borrows; null: files go to disk
   std::unique_ptr<FrameWriter> writer;
   bool is_finished = false, has_failed = false;
 
@@ -128,11 +129,13 @@ std::string path_of(nb::handle path) {
 bool is_path(nb::handle path) { return nb::isinstance<nb::str>(path) || nb::hasattr(path, "__fspath__"); }
 
 /// World.writer(): to a path, to a file object, or into memory.
-Writer writer_of(const WorldRef& self, nb::object path, bool liquid_surfaces, const std::optional<std::string>& format) {
+Writer writer_of(const WorldRef& self, nb::object path, bool liquid_surfaces,
+                 const std::optional<std::string>& format) {
   FrameWriterOptions options;
   options.liquid_surfaces = liquid_surfaces;
   if (is_path(path)) {
-    if (format) throw Error({}, "`format` is given beside a path", "leave it out: the suffix of the path is the format");
+    if (format)
+      throw Error({}, "`format` is given beside a path", "leave it out: the suffix of the path is the format");
     return make_writer(self, path_of(path), options);
   }
   if (path.is_none() && !format)
@@ -170,12 +173,14 @@ State state_of(const nb::bytes& bytes) { return load_state_bytes(span_of(bytes),
 
 void bind_saving(nb::class_<WorldRef>& c) {
   c.def("save", &save_world, nb::arg("path"), nb::sig("def save(self, path: str | os.PathLike[str]) -> None"),
-        "Saves the World as one file: description, settings and State. Forces and targets that wait for the next step, and "
+        "Saves the World as one file: description, settings and State. Forces and targets that wait for the next step, "
+        "and "
         "what is recorded, are not saved. Raises Error if writing fails; an existing file then stays unchanged.")
       .def_static(
           "load", [](nb::handle path) { return ref_of(load_world(path_of(path))); }, nb::arg("path"),
           nb::sig("def load(path: str | os.PathLike[str]) -> World"),
-          "Loads a World that save() wrote; its next step gives the same bits as without saving, if nothing was set for "
+          "Loads a World that save() wrote; its next step gives the same bits as without saving, if nothing was set "
+          "for "
           "it.")
       .def(
           "__getstate__",
@@ -183,7 +188,8 @@ void bind_saving(nb::class_<WorldRef>& c) {
             const World& world = self.world->idle();
             return bytes_from(save_bytes(world, self.world->present()));
           },
-          "The bytes of the save format: a World can be pickled, unless it has forces. What save() leaves out is left out.")
+          "The bytes of the save format: a World can be pickled, unless it has forces. What save() leaves out is left "
+          "out.")
       .def(
           "__setstate__",
           [](WorldRef& self, const nb::bytes& bytes) {
@@ -193,13 +199,15 @@ void bind_saving(nb::class_<WorldRef>& c) {
       .def(
           "writer", &writer_of, nb::arg("path") = nb::none(), nb::arg("liquid_surfaces") = false, nb::kw_only(),
           nb::arg("format") = nb::none(),
-          nb::sig("def writer(self, path: str | os.PathLike[str] | typing.IO[bytes] | None = None, liquid_surfaces: bool = "
-                  "False, *, format: str | None = None) -> Writer"),
+          nb::sig(
+              "def writer(self, path: str | os.PathLike[str] | typing.IO[bytes] | None = None, liquid_surfaces: bool = "
+              "False, *, format: str | None = None) -> Writer"),
           "A Writer of frames. The suffix of `path` is the format: .obj, .ply, .glb, .usda, .pc2 or .pvd. The present "
           "state "
           "is the first frame. `liquid_surfaces`: surfaces of liquids instead of points. In memory: without a path, "
           "`format` "
-          "such as 'glb' says what Writer.files will hold; a `path` that is a file object gets the bytes of format 'glb' "
+          "such as 'glb' says what Writer.files will hold; a `path` that is a file object gets the bytes of format "
+          "'glb' "
           "or "
           "'usda' at finish(). Raises Error if the format is unknown or cannot show the World.");
 }

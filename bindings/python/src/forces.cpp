@@ -36,7 +36,8 @@ void copy_in(std::span<const float> from, nb::handle array) {
 nb::object arrays_for(PythonForce& force, const ForceField::Arrays& given) {
   const nb::str name(std::string(given.object).c_str());
   const std::size_t n = given.positions.size();
-  if (force.arrays.contains(name) && nb::len(nb::object(force.arrays[name].attr("masses"))) == n) return force.arrays[name];
+  if (force.arrays.contains(name) && nb::len(nb::object(force.arrays[name].attr("masses"))) == n)
+    return force.arrays[name];
   const std::size_t shape[2] = {n, 3}, one[1] = {n};
   const nb::object made = python_part("pliant._types", "ForceArrays")(name, new_floats(shape), new_floats(shape),
                                                                       new_floats(one), new_floats(shape));
@@ -88,9 +89,11 @@ ForceField field_of(nb::handle function, nb::handle only, PythonForces& made) {
 }
 
 void require_object(const Scene& scene, const std::string& name) {
-  const bool has = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& o) { return o.name == name; });
+  const bool has =
+      std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& o) { return o.name == name; });
   if (!has)
-    throw Error({}, "forces are given for '" + name + "', which is no object of the scene", "use the name of an object");
+    throw Error({}, "forces are given for '" + name + "', which is no object of the scene",
+                "use the name of an object");
 }
 
 }  // namespace

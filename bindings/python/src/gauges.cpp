@@ -21,7 +21,8 @@ GaugesRef gauges_of(const WorldRef& self) {
   World& world = self.world->idle();
   const std::vector<Gauge>& of_scene = self.world->file().gauges;
   if (of_scene.empty())
-    throw Error({.element = "/gauges"}, "the scene has no gauges", "add \"gauges\" to the scene before the World is made");
+    throw Error({.element = "/gauges"}, "the scene has no gauges",
+                "add \"gauges\" to the scene before the World is made");
   GaugesRef made{self.world, Gauges(of_scene, self.world->present(), world)};
   const auto measures_force = [](const Gauge& gauge) { return std::string_view(unit_of(gauge)) == "N"; };
   if (std::any_of(made.gauges.gauges().begin(), made.gauges.gauges().end(), measures_force))
@@ -54,8 +55,9 @@ void bind_gauges(nb::module_& m) {
            "nan where there is none: flow and force in the first call.")
       .def_prop_ro("units", &units, nb::sig("def units(self) -> dict[str, str]"),
                    "The unit of each gauge by name: \"m\", \"m^3/s\" or \"N\".")
-      .def("__repr__",
-           [](const GaugesRef& g) { return "<pliant.Gauges: " + std::to_string(g.gauges.gauges().size()) + " gauges>"; });
+      .def("__repr__", [](const GaugesRef& g) {
+        return "<pliant.Gauges: " + std::to_string(g.gauges.gauges().size()) + " gauges>";
+      });
 }
 
 void bind_gauge_reading(nb::class_<WorldRef>& c) {

@@ -126,7 +126,8 @@ std::string object_repr(const ObjectRef& self) {
 void bind_reading(nb::class_<ObjectRef>& c) {
   c.def("positions", &positions, nb::arg("out") = nb::none(),
         nb::sig("def positions(self, out: pliant._types.FloatArray | None = None) -> pliant._types.FloatArray"),
-        "Positions of the particles in the order of the mesh [m], shape (particles, 3).\n\n`out`: a C-contiguous float32 "
+        "Positions of the particles in the order of the mesh [m], shape (particles, 3).\n\n`out`: a C-contiguous "
+        "float32 "
         "array to fill; "
         "other arrays raise Error.")
       .def("velocities", &velocities, nb::arg("out") = nb::none(),
@@ -137,7 +138,8 @@ void bind_reading(nb::class_<ObjectRef>& c) {
           nb::sig("def records(self) -> pliant._types.FloatArray"),
           "A read-only view, without a copy, of x, y, z [m] and inverse mass [1/kg] of each particle in storage order: "
           "record i is "
-          "particle storage_order()[i]. It keeps its World alive, and shows another state after each step. While it lives, "
+          "particle storage_order()[i]. It keeps its World alive, and shows another state after each step. While it "
+          "lives, "
           "nothing can be "
           "added to, removed from, edited or restored in the World. Indices from `particles` on are targets of "
           "attachments.")
@@ -153,7 +155,8 @@ void bind_reading(nb::class_<ObjectRef>& c) {
       .def("orientations", &orientations, nb::sig("def orientations(self) -> pliant._types.FloatArray"),
            "Orientations of bodies and rods as unit quaternions (x, y, z, w), shape (frames, 4).")
       .def(
-          "angular_velocities", [](const ObjectRef& o) { return vectors(read_all(o, &ObjectView::angular_velocities)); },
+          "angular_velocities",
+          [](const ObjectRef& o) { return vectors(read_all(o, &ObjectView::angular_velocities)); },
           nb::sig("def angular_velocities(self) -> pliant._types.FloatArray"),
           "Their angular velocities in world axes [rad/s], shape (frames, 3).")
       .def("channel", &channel, nb::arg("name"), nb::sig("def channel(self, name: str) -> pliant._types.FloatArray"),
@@ -167,8 +170,10 @@ void bind_reading(nb::class_<ObjectRef>& c) {
           "Volume that its triangles enclose [m^3].")
       .def("multipliers", &multipliers, nb::arg("type"),
            nb::sig("def multipliers(self, type: str) -> pliant._types.FloatArray"),
-           "Multipliers of the last substep of the constraints of a type, as \"distance\"; empty unless they were stored "
-           "(settings.record_multipliers). The force is the multiplier over the square of the substep [s^2]. Raises Error "
+           "Multipliers of the last substep of the constraints of a type, as \"distance\"; empty unless they were "
+           "stored "
+           "(settings.record_multipliers). The force is the multiplier over the square of the substep [s^2]. Raises "
+           "Error "
            "if "
            "it has no constraints of the type: `constraints` lists them.");
 }
@@ -197,13 +202,16 @@ void bind_joints(nb::class_<ObjectRef>& c) {
           "from substep to substep: see mean_joint_load().")
       .def(
           "mean_joint_load",
-          [](const ObjectRef& o, nb::handle joint) { return load_object(o.view().mean_joint_load(joint_of(o, joint))); },
+          [](const ObjectRef& o, nb::handle joint) {
+            return load_object(o.view().mean_joint_load(joint_of(o, joint)));
+          },
           nb::arg("joint"), nb::sig("def mean_joint_load(self, joint: int | str) -> pliant._types.Load"),
           "Its mean over the last frame. Raises Error unless World.record_joint_loads() is on.")
       .def(
           "joint_is_broken",
           [](const ObjectRef& o, nb::handle joint) { return o.view().joint_is_broken(joint_of(o, joint)); },
-          nb::arg("joint"), nb::sig("def joint_is_broken(self, joint: int | str) -> bool"), "True if a joint has broken.");
+          nb::arg("joint"), nb::sig("def joint_is_broken(self, joint: int | str) -> bool"),
+          "True if a joint has broken.");
 }
 
 void bind_control_of_bodies(nb::class_<ObjectRef>& c) {
@@ -228,9 +236,10 @@ void bind_control_of_bodies(nb::class_<ObjectRef>& c) {
           "Gives the surface of a body a velocity along itself, as a conveyor belt has, in the body's frame [m/s].")
       .def("set_motor", &set_motor, nb::arg("joint"), nb::arg("target"), nb::arg("most") = nb::none(),
            nb::arg("motor") = "",
-           nb::sig(
-               "def set_motor(self, joint: int | str, target: float, most: float | None = None, motor: str = '') -> None"),
-           "Gives the motor of a joint a new target: an angle [rad], displacement [m] or speed [rad/s or m/s], as its kind "
+           nb::sig("def set_motor(self, joint: int | str, target: float, most: float | None = None, motor: str = '') "
+                   "-> None"),
+           "Gives the motor of a joint a new target: an angle [rad], displacement [m] or speed [rad/s or m/s], as its "
+           "kind "
            "says. `most`: "
            "greatest torque [N m] or force [N]; None: as before. `motor`: its name if the joint has several.")
       .def(
@@ -239,7 +248,8 @@ void bind_control_of_bodies(nb::class_<ObjectRef>& c) {
             o.handle().set_rest_factor(group, float_from(factor, "factor"));
           },
           nb::arg("group"), nb::arg("factor"), nb::sig("def set_rest_factor(self, group: int, factor: float) -> None"),
-          "Multiplies rest lengths or volumes of a group of constraints by a factor >= 0, as a muscle's activation does.");
+          "Multiplies rest lengths or volumes of a group of constraints by a factor >= 0, as a muscle's activation "
+          "does.");
 }
 
 void bind_control(nb::class_<ObjectRef>& c) {
@@ -250,7 +260,8 @@ void bind_control(nb::class_<ObjectRef>& c) {
          o.handle().set_targets(which.integers(), to.vectors());
        },
        nb::arg("particles"), nb::arg("positions"),
-       nb::sig("def set_targets(self, particles: pliant._types.IntsLike, positions: pliant._types.VectorsLike) -> None"),
+       nb::sig(
+           "def set_targets(self, particles: pliant._types.IntsLike, positions: pliant._types.VectorsLike) -> None"),
        "Moves pinned particles at constant velocity to `positions` [m], which they reach at the end of the next step.")
       .def(
           "set_attachment_targets",
@@ -278,9 +289,12 @@ void bind_control(nb::class_<ObjectRef>& c) {
           "Adds an impulse to each particle [N s], shape (particles, 3): velocity += impulse / mass.")
       .def(
           "set_forces",
-          [](const ObjectRef& o, nb::handle forces) { o.handle().set_forces(Numbers(forces, 'f', 3, "forces").vectors()); },
+          [](const ObjectRef& o, nb::handle forces) {
+            o.handle().set_forces(Numbers(forces, 'f', 3, "forces").vectors());
+          },
           nb::arg("forces"), nb::sig("def set_forces(self, forces: pliant._types.VectorsLike) -> None"),
-          "Applies a constant force to each particle during the next step [N], shape (particles, 3). Replaces those of an "
+          "Applies a constant force to each particle during the next step [N], shape (particles, 3). Replaces those of "
+          "an "
           "earlier call.")
       .def(
           "teleport",
@@ -288,9 +302,11 @@ void bind_control(nb::class_<ObjectRef>& c) {
             o.handle().teleport(pose_from(position, rotation));
           },
           nb::arg("position") = nb::make_tuple(0, 0, 0), nb::arg("rotation") = nb::make_tuple(0, 0, 0, 1),
-          nb::sig("def teleport(self, position: pliant._types.VectorLike = (0, 0, 0), rotation: pliant._types.VectorLike = "
-                  "(0, 0, 0, 1)) -> None"),
-          "Moves the whole object at once: each point is rotated about the origin by `rotation` (x, y, z, w), then moved "
+          nb::sig(
+              "def teleport(self, position: pliant._types.VectorLike = (0, 0, 0), rotation: pliant._types.VectorLike = "
+              "(0, 0, 0, 1)) -> None"),
+          "Moves the whole object at once: each point is rotated about the origin by `rotation` (x, y, z, w), then "
+          "moved "
           "by `position` "
           "[m]. Raises Error if a pin or attachment with keyframes would stay behind.");
 }
@@ -309,10 +325,11 @@ int joint_index(const ObjectView& view, nb::handle joint) {
 }
 
 void bind_object(nb::module_& m) {
-  nb::class_<ObjectRef> c(m, "Object", nb::type_slots(collected_slots<ObjectRef>()),
-                          "An object of a World, to read and control between steps: world[\"name\"]. It keeps its World "
-                          "alive. All functions raise "
-                          "Error after it was removed, and while the World steps in another thread.");
+  nb::class_<ObjectRef> c(
+      m, "Object", nb::type_slots(collected_slots<ObjectRef>()),
+      "An object of a World, to read and control between steps: world[\"name\"]. It keeps its World "
+      "alive. All functions raise "
+      "Error after it was removed, and while the World steps in another thread.");
   c.def_prop_ro("name", &ObjectRef::name, "Its name.")
       .def_prop_ro("particles", &ObjectRef::particles, "Number of its particles.")
       .def_prop_ro(

@@ -26,7 +26,8 @@ nb::dict dict_of(const Overstretch& found, const Names& names) {
   dict["largest"] = found.largest;
   dict["constraints"] = found.constraints;
   const bool is_known = found.object >= 0;
-  dict["object"] = is_known ? nb::object(nb::str(names.of(ObjectId{found.object, found.generation}).c_str())) : nb::none();
+  dict["object"] =
+      is_known ? nb::object(nb::str(names.of(ObjectId{found.object, found.generation}).c_str())) : nb::none();
   dict["particles"] = is_known ? nb::object(nb::make_tuple(found.particles[0], found.particles[1])) : nb::none();
   return dict;
 }
@@ -220,13 +221,15 @@ void bind_happenings(nb::class_<NamedReport>& c) {
       .def_prop_ro("sleeping_grains", whole(&Report::sleeping_grains), "Grains that sleep.")
       .def_prop_ro("torn", &torn_of, nb::sig("def torn(self) -> list[dict[str, typing.Any]]"),
                    "Objects that tore or were cut: object, new_particles, lost_constraints.")
-      .def_prop_ro("broken_joints", &broken_joints_of, nb::sig("def broken_joints(self) -> list[dict[str, typing.Any]]"),
+      .def_prop_ro("broken_joints", &broken_joints_of,
+                   nb::sig("def broken_joints(self) -> list[dict[str, typing.Any]]"),
                    "Joints that broke in this step: object, joint (index), name.")
       .def_prop_ro(
           "nonfinite", [](const NamedReport& r) { return object_of(r.report.nonfinite); },
           nb::sig("def nonfinite(self) -> dict[str, typing.Any] | None"),
           "Where the first value that is not finite arose: object, element, frame, substep; else None.")
-      .def_prop_ro("stopped", whole(&Report::stopped), "True if Ctrl-C or World.stop() ended the step within the frame.")
+      .def_prop_ro("stopped", whole(&Report::stopped),
+                   "True if Ctrl-C or World.stop() ended the step within the frame.")
       .def_prop_ro("warnings", whole(&Report::warnings), "Warnings, one sentence each.")
       .def_prop_ro(
           "estimates", &estimates_of, nb::sig("def estimates(self) -> dict[str, dict[str, typing.Any]]"),
@@ -281,7 +284,8 @@ void bind_report(nb::module_& m) {
       .def_prop_ro("time", whole(&Report::time), "Simulated time [s].")
       .def_prop_ro("milliseconds", whole(&Report::milliseconds), "Time that the step took [ms].")
       .def_prop_ro("substeps", whole(&Report::substeps), "Substeps of this frame; the most of any object.")
-      .def_prop_ro("contacts", whole(&Report::contacts), "Contacts with colliders and rigid bodies in the last substep.")
+      .def_prop_ro("contacts", whole(&Report::contacts),
+                   "Contacts with colliders and rigid bodies in the last substep.")
       .def_prop_ro(
           "pairs", [](const NamedReport& r) { return dict_of(r.report.pairs); },
           nb::sig("def pairs(self) -> dict[str, typing.Any]"),
@@ -302,7 +306,8 @@ void bind_report(nb::module_& m) {
       .def_prop_ro(
           "overstretch", [](const NamedReport& r) { return object_of(r.report.overstretch, *r.names); },
           nb::sig("def overstretch(self) -> dict[str, typing.Any] | None"),
-          "By how much lengths exceed what their force explains: p99, largest [-], object, particles, constraints. None if "
+          "By how much lengths exceed what their force explains: p99, largest [-], object, particles, constraints. "
+          "None if "
           "the "
           "frame was not completed.")
       .def_prop_ro(
@@ -315,8 +320,8 @@ void bind_report(nb::module_& m) {
           nb::sig("def compression(self) -> dict[str, float]"),
           "How much denser than at rest liquids are: mean, largest [-], crowded (particles).")
       .def_prop_ro(
-          "flow", [](const NamedReport& r) { return dict_of(r.report.flow); }, nb::sig("def flow(self) -> dict[str, int]"),
-          "Particles that came and went: emitted, drained, expired, ...")
+          "flow", [](const NamedReport& r) { return dict_of(r.report.flow); },
+          nb::sig("def flow(self) -> dict[str, int]"), "Particles that came and went: emitted, drained, expired, ...")
       .def_prop_ro(
           "lost_momentum", [](const NamedReport& r) { return lost_momentum_of(r.report); },
           nb::sig("def lost_momentum(self) -> dict[str, float]"),

@@ -59,8 +59,8 @@ SceneArrays arrays_of(const nb::dict& meshes, const nb::dict& tetrahedra, const 
   return arrays;
 }
 
-Description describe(const std::string& text, const std::string& name, const std::string& folder, const nb::dict& meshes,
-                     const nb::dict& tetrahedra, const nb::dict& points, bool allow_outside) {
+Description describe(const std::string& text, const std::string& name, const std::string& folder,
+                     const nb::dict& meshes, const nb::dict& tetrahedra, const nb::dict& points, bool allow_outside) {
   SceneReadOptions options;
   options.allow_outside = allow_outside;
   options.arrays = arrays_of(meshes, tetrahedra, points);
@@ -151,7 +151,8 @@ void bind_scene(nb::module_& m) {
           "left_out", [](const Description& d) { return d.file->left_out; }, "What fills left out.")
       .def_prop_ro("objects", &names_of, "Names of the objects.")
       .def(
-          "describe", [](const Description& d) { return pliant::describe(d.scene()); }, "What the scene holds, in lines.")
+          "describe", [](const Description& d) { return pliant::describe(d.scene()); },
+          "What the scene holds, in lines.")
       .def("check", &check, nb::arg("seconds") = 0.0,
            nb::sig("def check(self, seconds: float = 0.0) -> list[pliant._types.Finding]"),
            "Findings of the scene, and of trial runs of about `seconds` [s].");
@@ -166,18 +167,22 @@ void bind_scene(nb::module_& m) {
   m.def("scene_schema", &scene_schema, "The JSON Schema (2020-12) of the scene format as text.");
   m.def(
       "grid_mesh",
-      [](int columns, int rows, float width, float depth) { return mesh_tuple(grid_mesh(columns, rows, width, depth)); },
+      [](int columns, int rows, float width, float depth) {
+        return mesh_tuple(grid_mesh(columns, rows, width, depth));
+      },
       nb::arg("columns"), nb::arg("rows"), nb::arg("width"), nb::arg("depth"),
       nb::sig("def grid_mesh(columns: int, rows: int, width: float, depth: float) -> pliant._types.Mesh"),
       "A flat rectangle of columns x rows vertices, width x depth [m], in the xz-plane about the origin, as (vertices, "
       "triangles).\n\n"
-      "Vertex (row r, column c) has the index r * columns + c. Raises Error unless columns and rows are at least 2 and the "
+      "Vertex (row r, column c) has the index r * columns + c. Raises Error unless columns and rows are at least 2 and "
+      "the "
       "sizes "
       "positive.");
   m.def(
       "sphere_mesh", [](int subdivisions) { return mesh_tuple(sphere_mesh(subdivisions)); }, nb::arg("subdivisions"),
       nb::sig("def sphere_mesh(subdivisions: int) -> pliant._types.Mesh"),
-      "A closed unit sphere about the origin as (vertices, triangles): an icosahedron whose faces are split `subdivisions` "
+      "A closed unit sphere about the origin as (vertices, triangles): an icosahedron whose faces are split "
+      "`subdivisions` "
       "times "
       "(0 to 7).");
   m.def(
@@ -190,10 +195,12 @@ void bind_scene(nb::module_& m) {
       "write_mesh",
       [](const std::string& path, nb::handle mesh) {
         const nb::sequence parts = pair_of(mesh, "mesh");
-        write_mesh(path, {points_of(nb::object(parts[0]), "vertices"), elements_of<3>(nb::object(parts[1]), "triangles")});
+        write_mesh(path,
+                   {points_of(nb::object(parts[0]), "vertices"), elements_of<3>(nb::object(parts[1]), "triangles")});
       },
       nb::arg("path"), nb::arg("mesh"), nb::sig("def write_mesh(path: str, mesh: pliant._types.MeshLike) -> None"),
-      "Writes (vertices, triangles) as .obj or .ply. Raises Error if that fails; an existing file then stays unchanged.");
+      "Writes (vertices, triangles) as .obj or .ply. Raises Error if that fails; an existing file then stays "
+      "unchanged.");
 }
 
 }  // namespace pliant::python

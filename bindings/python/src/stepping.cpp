@@ -143,7 +143,8 @@ void bind_stepping(nb::module_& m, nb::class_<WorldRef>& c) {
             return run(*self.world, valid_frames(*self.world, frames));
           },
           nb::arg("frames") = nb::none(), nb::sig("def run(self, frames: int | None = None) -> Report"),
-          "Runs frames, the scene's own number if None, and returns the last Report. Ends early where Report.ok is false.")
+          "Runs frames, the scene's own number if None, and returns the last Report. Ends early where Report.ok is "
+          "false.")
       .def(
           "frames",
           [](const WorldRef& self, std::optional<int> count) {
@@ -159,7 +160,8 @@ void bind_stepping(nb::module_& m, nb::class_<WorldRef>& c) {
           "one ends before it begins. A Report that has `stopped` ends the effect.")
       .def(
           "forget_forces", [](const WorldRef& self) { self.world->forget_forces(); },
-          "Forgets the functions of `forces`; later steps are without them. The World still cannot be pickled, copied or "
+          "Forgets the functions of `forces`; later steps are without them. The World still cannot be pickled, copied "
+          "or "
           "saved: make another, and give it this one's state().")
       .def(
           "state", [](const WorldRef& self) { return self.world->idle().state(); }, "A copy of the State.")

@@ -155,7 +155,8 @@ void bind_contents(nb::class_<WorldRef>& c) {
 
 void bind_recording(nb::class_<WorldRef>& c) {
   c.def("body_touches", &body_touches, nb::sig("def body_touches(self) -> list[pliant._types.BodyTouch]"),
-        "What each rigid body touched in the last step, and how hard. Raises Error unless record_contact_events() is on.")
+        "What each rigid body touched in the last step, and how hard. Raises Error unless record_contact_events() is "
+        "on.")
       .def(
           "record_joint_loads", [](const WorldRef& self, bool on) { self.world->idle().record_joint_loads(on); },
           nb::arg("on") = true,
@@ -206,11 +207,14 @@ void bind_world(nb::module_& m) {
                                 {0, nullptr}};
   nb::class_<WorldRef> c(
       m, "World", nb::type_slots(slots),
-      "A simulation to step, read and control: a scene that was compiled, and its State.\n\nWorld(scene) takes a Scene, a "
+      "A simulation to step, read and control: a scene that was compiled, and its State.\n\nWorld(scene) takes a "
+      "Scene, a "
       "dict "
-      "of the scene format, or the path of a scene file, and raises Error if it cannot be simulated. `threads`: 0 for all "
+      "of the scene format, or the path of a scene file, and raises Error if it cannot be simulated. `threads`: 0 for "
+      "all "
       "of the "
-      "machine; None: as the scene says. The bits do not depend on it. `forces`: a function of ForceArrays, called once "
+      "machine; None: as the scene says. The bits do not depend on it. `forces`: a function of ForceArrays, called "
+      "once "
       "for "
       "each object and substep, or a dict of functions by name of object. A World without forces can be pickled.");
   c.def(
@@ -223,9 +227,10 @@ void bind_world(nb::module_& m) {
         new (self) WorldRef(std::move(ref));
       },
       nb::arg("scene"), nb::arg("threads") = nb::none(), nb::arg("forces") = nb::none(),
-      nb::sig("def __init__(self, scene: pliant._scene.SceneLike, threads: int | None = None, forces: pliant._types.Forces "
-              "| None "
-              "= None) -> None"),
+      nb::sig(
+          "def __init__(self, scene: pliant._scene.SceneLike, threads: int | None = None, forces: pliant._types.Forces "
+          "| None "
+          "= None) -> None"),
       "Makes a World.");
   bind_stepping(m, c);
   bind_contents(c);

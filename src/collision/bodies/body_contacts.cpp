@@ -20,8 +20,8 @@ namespace {
 constexpr int narrow_pairs_a_task = 64;
 /// What stops a body may in turn stop what follows it, in one frame so many times at most.
 constexpr int most_stops = 4;
-/// A contact stays while its bodies have moved less against each other since it began than this share of the smaller part's size, and
-/// turned by less than 1.6 degrees (cosine of half the angle).
+/// A contact stays while its bodies have moved less against each other since it began than this share of the smaller
+/// part's size, and turned by less than 1.6 degrees (cosine of half the angle).
 constexpr double still_share = 0.04, still_cosine = 0.9999;
 
 bool hardly_moved(const Posed& now, const BodyContact& contact, double size) {
@@ -173,7 +173,8 @@ bool BodyContacts::Task::are_surely_apart(const Pair& pair, const BodyPart& one,
          is_beyond(other, to_local(relative, of_one.centre), of_one.radius, reach);
 }
 
-bool BodyContacts::Task::is_out_of_reach(const Pair& pair, const BodyPart& one, const BodyPart& other, float speed) const {
+bool BodyContacts::Task::is_out_of_reach(const Pair& pair, const BodyPart& one, const BodyPart& other,
+                                         float speed) const {
   constexpr float more_than_rounding = 1.01f;
   const auto is_polyhedron = [](const BodyPart& part) { return part.shape.kind == ConvexShape::Kind::polyhedron; };
   if (!one.is_convex() || !other.is_convex() || (is_polyhedron(one) && is_polyhedron(other))) return false;
@@ -194,22 +195,23 @@ bool BodyContacts::Task::comes_near(const Pair& pair, const BodyState& a, const 
   return static_cast<double>(dot(contact.normal, way)) < -least_approach(static_cast<double>(length(way)));
 }
 
-bool BodyContacts::Task::stay(const Pair& pair, std::span<const BodyContact> old, const BodyState& a, const BodyState& b,
-                              const Posed& relative) const {
+bool BodyContacts::Task::stay(const Pair& pair, std::span<const BodyContact> old, const BodyState& a,
+                              const BodyState& b, const Posed& relative) const {
   const auto [one, other] = std::pair{of.parts_[at(pair.first)].body, of.parts_[at(pair.second)].body};
   if (is_renewed(one) || is_renewed(other)) {
     const double size = size_of(pair);
     if (may_meet_more(pair, a, b, size)) return false;
     const auto hardly_changed = [&](const BodyContact& contact) {
-      return contact.b.piece == of_solids && !comes_near(pair, a, b, contact) && hardly_moved(relative, contact, size) &&
-             hardly_turned(a.pose.rotation, contact);
+      return contact.b.piece == of_solids && !comes_near(pair, a, b, contact) &&
+             hardly_moved(relative, contact, size) && hardly_turned(a.pose.rotation, contact);
     };
     // Contacts of what turns by itself turn with it, so that friction acts along its surface of this frame.
     return !old.empty() && !a.deforms && !a.is_driven_round && !b.is_driven_round &&
            std::all_of(old.begin(), old.end(), hardly_changed);
   }
   const double far_away = static_cast<double>(far) * size_of(pair);
-  if (!of.parts_[at(pair.first)].is_convex()) return true;  // how far bodies move along planes and meshes does not matter
+  if (!of.parts_[at(pair.first)].is_convex())
+    return true;  // how far bodies move along planes and meshes does not matter
   return std::all_of(old.begin(), old.end(), [&](const BodyContact& contact) {
     return !(length(relative.position - convert<double>(contact.position)) > far_away);
   });

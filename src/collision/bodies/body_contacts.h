@@ -1,7 +1,9 @@
-// Contact between rigid bodies, and of bodies with colliders: pairs of parts that may touch within a frame, and their points.
+// Contact between rigid bodies, and of bodies with colliders: pairs of parts that may touch within a frame, and their
+// points.
 //
-// A contact stays as it was born, with its normal and its arms, while its bodies hardly move against each other, and only its gaps
-// are renewed: fresh arms let tall stacks of soft contacts buckle (Catto, box2d 3, recycles manifolds for the same reason).
+// A contact stays as it was born, with its normal and its arms, while its bodies hardly move against each other, and
+// only its gaps are renewed: fresh arms let tall stacks of soft contacts buckle (Catto, box2d 3, recycles manifolds for
+// the same reason).
 #pragma once
 
 #include <cstddef>
@@ -32,19 +34,21 @@ struct BodyOverlap {
 class BodyContacts {
  public:
   BodyContacts() = default;
-  /// Convex parts are in ascending order of their ids; polyhedra and meshes of parts must stay where they are. Half-spaces and meshes
-  /// belong to fixed bodies.
+  /// Convex parts are in ascending order of their ids; polyhedra and meshes of parts must stay where they are.
+  /// Half-spaces and meshes belong to fixed bodies.
   explicit BodyContacts(std::vector<BodyPart> parts);
 
-  /// Finds all contacts of a frame of `dt` seconds, in ascending order of parts. Parts may touch if `meet` is true for their bodies,
-  /// always with the same answer, and they may come within reach in the frame, in which speeds may increase by `faster` [m/s].
-  /// `before` are the contacts of the frame before, in the same order; it may be the same list as `now`.
+  /// Finds all contacts of a frame of `dt` seconds, in ascending order of parts. Parts may touch if `meet` is true for
+  /// their bodies, always with the same answer, and they may come within reach in the frame, in which speeds may
+  /// increase by `faster` [m/s]. `before` are the contacts of the frame before, in the same order; it may be the same
+  /// list as `now`.
   void update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
               FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before, std::vector<BodyContact>& now);
 
-  /// Finds the contacts of some bodies again, for what is left of a frame: of those for which `of` is not zero [body]; of a plane or
-  /// mesh, only with bodies that it may have met already. Of the others, contacts stay, with the gaps of now, unless both have moved
-  /// against each other by more than the share `far` of the smaller part's size since these began.
+  /// Finds the contacts of some bodies again, for what is left of a frame: of those for which `of` is not zero [body];
+  /// of a plane or mesh, only with bodies that it may have met already. Of the others, contacts stay, with the gaps of
+  /// now, unless both have moved against each other by more than the share `far` of the smaller part's size since these
+  /// began.
   void renew(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
              FunctionRef<bool(int, int)> meet, const std::vector<char>& of, float far, std::vector<BodyContact>& now);
 
@@ -57,7 +61,8 @@ class BodyContacts {
     return place < size_.size() ? size_[place] : 1e30f;
   }
 
-  /// The deepest contact of a frame, relative to the size of its bodies: of those that stay, when the frame before began.
+  /// The deepest contact of a frame, relative to the size of its bodies: of those that stay, when the frame before
+  /// began.
   BodyOverlap deepest() const;
   /// The number of pairs that the last update left out (BodyPairs::most_of_crowded).
   std::ptrdiff_t left_out() const { return pairs_.left_out(); }

@@ -104,7 +104,8 @@ struct BodyContacts::Task {
   Meeting meeting_of(int number, std::span<const BodyContact> old, const Posed& relative, float speed) const;
 
   /// Adds a contact that b touches when it has moved by so much in the frame of a [m].
-  static void add(const Meeting& m, const Touch& touching, const Vec3d& moved, int piece, Found& found, int of = of_solids);
+  static void add(const Meeting& m, const Touch& touching, const Vec3d& moved, int piece, Found& found,
+                  int of = of_solids);
 
   /// Two convex parts, or a half-space and one.
   void meet(const Meeting& m, Found& found) const;

@@ -1,5 +1,6 @@
-// The boxes of parts of bodies in trees: one for all that may touch one another, and one for each large family, the parts of an object
-// whose bodies never touch one another, as thousands of hairs. Pairs within a family are never looked at.
+// The boxes of parts of bodies in trees: one for all that may touch one another, and one for each large family, the
+// parts of an object whose bodies never touch one another, as thousands of hairs. Pairs within a family are never
+// looked at.
 #pragma once
 
 #include <algorithm>
@@ -21,11 +22,12 @@ class BodyCrowds {
 
   /// Searches are divided into tasks for threads.
   int tasks() const { return static_cast<int>(tasks_.size()); }
-  /// True if all parts are in one tree: then the pairs of a part are contiguous, and tasks are in the order of no other.
+  /// True if all parts are in one tree: then the pairs of a part are contiguous, and tasks are in the order of no
+  /// other.
   bool is_one() const { return crowds_.size() == 1; }
 
-  /// Calls visit(part, others) for the parts of a task, with the parts whose boxes overlap its own. Each pair of two crowds comes once; of
-  /// one crowd both ways, and with the part itself. The vectors are scratch memory.
+  /// Calls visit(part, others) for the parts of a task, with the parts whose boxes overlap its own. Each pair of two
+  /// crowds comes once; of one crowd both ways, and with the part itself. The vectors are scratch memory.
   template <class Visit>
   void overlaps(int task, std::vector<int>& packs, std::vector<int>& hits, const Visit& visit) const {
     const Task& of = tasks_[static_cast<std::size_t>(task)];

@@ -34,7 +34,8 @@ bool is_pressed(std::span<const BodyContact> contacts) {
   });
 }
 
-/// Where two bodies are in one place, no direction separates them. They count as a little apart, each pair in a direction of its own.
+/// Where two bodies are in one place, no direction separates them. They count as a little apart, each pair in a
+/// direction of its own.
 Posed apart(Posed relative, int a, int b, double size) {
   if (!(length(relative.position) < 1e-4 * size)) return relative;
   std::uint32_t mixed = static_cast<std::uint32_t>(a) * 2654435761u ^ static_cast<std::uint32_t>(b) * 2246822519u;
@@ -98,16 +99,19 @@ BodyContacts::Task::Meeting BodyContacts::Task::meeting_of(int number, std::span
           ? std::fabs(dot(velocity, rotate(convert<float>(compose(a.pose, one.pose)).rotation, Vec3f{0, 1, 0})))
           : speed;
   // An impact may turn the whole approach into spin. Of two opposite points one may rise as the other sinks.
-  const double turning = static_cast<double>(2 * dt * (approach + turning_of(pair.first, a) + turning_of(pair.second, b)));
+  const double turning =
+      static_cast<double>(2 * dt * (approach + turning_of(pair.first, a) + turning_of(pair.second, b)));
   const double way = static_cast<double>(dt * length(velocity)), least = least_approach(way);
-  const SolidPath on{path_of(one.body, other.body, number), slop_share * size + slop_of_fall * fall(), 0.5 * fall(), least};
+  const SolidPath on{path_of(one.body, other.body, number), slop_share * size + slop_of_fall * fall(), 0.5 * fall(),
+                     least};
   const double least_fast = one_is_held(a, b) ? least : fast_share * size;
   const double least_searched = one_is_held(a, b) || is_pressed(old) ? least_fast : passing_share * size;
   const bool is_fast = length(on.path.end()) > least_searched, starts_fast = way > least_fast;
   return {number, one, other, a, b, old, relative, size, reach_of(pair, approach), turning, on, is_fast, starts_fast};
 }
 
-void BodyContacts::Task::add(const Meeting& m, const Touch& touching, const Vec3d& moved, int piece, Found& found, int of) {
+void BodyContacts::Task::add(const Meeting& m, const Touch& touching, const Vec3d& moved, int piece, Found& found,
+                             int of) {
   if (touching.count == 0) return;
   BodyContact contact;
   contact.a = m.one.id;

@@ -29,7 +29,9 @@ void join_corners(const std::vector<Vec3f>& positions, std::vector<Triangle>& tr
   };
   std::vector<int> order(positions.size()), first(positions.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return std::tuple{place(a), a} < std::tuple{place(b), b}; });
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::tuple{place(a), a} < std::tuple{place(b), b};
+  });
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool is_same = i > 0 && place(order[i]) == place(order[i - 1]);
     first[static_cast<std::size_t>(order[i])] = is_same ? first[static_cast<std::size_t>(order[i - 1])] : order[i];
@@ -109,8 +111,9 @@ void BodyMesh::mark_smooth() {
         if (faces_[t].sides[k].is_convex(is_flipped))
           for (const std::size_t end : {k, (k + 1) % 3}) has_edge[static_cast<std::size_t>(triangles_[t][end])] = 1;
     for (std::size_t t = 0; t < faces_.size(); ++t)
-      faces_[t].is_smooth[is_flipped ? 1 : 0] = std::none_of(
-          triangles_[t].begin(), triangles_[t].end(), [&](int v) { return has_edge[static_cast<std::size_t>(v)] != 0; });
+      faces_[t].is_smooth[is_flipped ? 1 : 0] = std::none_of(triangles_[t].begin(), triangles_[t].end(), [&](int v) {
+        return has_edge[static_cast<std::size_t>(v)] != 0;
+      });
   }
 }
 
@@ -157,7 +160,8 @@ int BodyMesh::triangle_in_column(const Vec3d& point) const {
 }
 
 bool BodyMesh::is_normal_at_corner(int triangle, int corner, const Vec3d& direction) const {
-  const auto v = static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(corner)]);
+  const auto v =
+      static_cast<std::size_t>(triangles_[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(corner)]);
   for (int i = first_around_[v]; i < first_around_[v + 1]; ++i) {
     const Vec3d along = positions_[static_cast<std::size_t>(around_[static_cast<std::size_t>(i)])] - positions_[v];
     const double towards = dot(direction, along);

@@ -1,7 +1,9 @@
-// A triangle mesh as rigid bodies touch it: its triangles, and at each side and corner what continues the surface there.
+// A triangle mesh as rigid bodies touch it: its triangles, and at each side and corner what continues the surface
+// there.
 //
-// Bodies that slide over a mesh must not catch on inner edges. A direction of contact at an edge or a corner is therefore
-// valid only in the normal cone there: the directions that point away from every triangle that has the edge or corner.
+// Bodies that slide over a mesh must not catch on inner edges. A direction of contact at an edge or a corner is
+// therefore valid only in the normal cone there: the directions that point away from every triangle that has the edge
+// or corner.
 #pragma once
 
 #include <array>
@@ -18,11 +20,12 @@ namespace pliant {
 struct MeshSide {
   bool is_inner = false;  ///< exactly one other triangle continues the surface
   Vec3d outward{};        ///< unit vector in the triangle's plane, away from it
-  Vec3d into{};           ///< of inner sides: unit vector in the other triangle's plane, from the side into that triangle
-  Vec3d across{};         ///< of inner sides: unit normal of the plane that halves the angle between both triangles
-  double fold = 0;        ///< of inner sides: into . normal; negative where the surface is convex as seen along the normal
+  Vec3d into{};     ///< of inner sides: unit vector in the other triangle's plane, from the side into that triangle
+  Vec3d across{};   ///< of inner sides: unit normal of the plane that halves the angle between both triangles
+  double fold = 0;  ///< of inner sides: into . normal; negative where the surface is convex as seen along the normal
 
-  /// True if the surface bends away here from what is on the side of the normal, or of its opposite if flipped, or ends.
+  /// True if the surface bends away here from what is on the side of the normal, or of its opposite if flipped, or
+  /// ends.
   bool is_convex(bool is_flipped) const { return !is_inner || (is_flipped ? fold > flat : fold < -flat); }
   static constexpr double flat = 2e-3;  ///< sine of the angle below which a fold is none
   /// A point this far beyond an inner side is over both triangles, so that it does not fall between them [m].
@@ -33,12 +36,12 @@ struct MeshFace {
   std::array<Vec3d, 3> corners{};  ///< [m]
   Vec3d normal{};                  ///< unit normal by winding; zero if the triangle has no area
   std::array<MeshSide, 3> sides{};
-  /// True if no edge at a side or a corner is convex, as seen along the normal and against it: only the triangle's own normal
-  /// is a direction of contact then.
+  /// True if no edge at a side or a corner is convex, as seen along the normal and against it: only the triangle's own
+  /// normal is a direction of contact then.
   std::array<bool, 2> is_smooth{};
 
-  /// How far a point is beyond a side, as seen along the normal, or against it if flipped [m]. Below a valley the normals of
-  /// both triangles diverge, so there the plane between them decides and no point lies beyond both.
+  /// How far a point is beyond a side, as seen along the normal, or against it if flipped [m]. Below a valley the
+  /// normals of both triangles diverge, so there the plane between them decides and no point lies beyond both.
   double beyond(std::size_t side, const Vec3d& point, bool is_flipped) const {
     const MeshSide& at = sides[side];
     const bool is_valley = at.is_inner && (is_flipped ? at.fold < 0 : at.fold > 0);
@@ -54,8 +57,8 @@ class BodyMesh {
     terrain   ///< solid below; triangles face upward and do not overlap as seen from above
   };
 
-  /// Positions [m] must be finite and below 1e15, indices in range (require_indices). Vertices at the same place are one, so
-  /// the surface goes on at seams of normals or texture. Thickness is added on both sides [m].
+  /// Positions [m] must be finite and below 1e15, indices in range (require_indices). Vertices at the same place are
+  /// one, so the surface goes on at seams of normals or texture. Thickness is added on both sides [m].
   BodyMesh(const std::vector<Vec3f>& positions, std::vector<Triangle> triangles, Kind kind = Kind::surface,
            float thickness = 0);
 

@@ -86,7 +86,8 @@ float turning_of_other(const BodyPart& part, const BodyState& body) {
 bool reaches(const BoxBounds& box, const Posef& half_space, float margin) {
   const Vec3f up = rotate(half_space.rotation, Vec3f{0, 1, 0}), centre = (box.low + box.high) * 0.5f,
               half = (box.high - box.low) * 0.5f;
-  return dot(up, centre - half_space.position) - dot(abs(up), half) <= margin + 1e-5f * (largest(centre) + largest(half));
+  return dot(up, centre - half_space.position) - dot(abs(up), half) <=
+         margin + 1e-5f * (largest(centre) + largest(half));
 }
 
 template <class Visit>
@@ -134,8 +135,8 @@ void BodyPairs::find_box(const Frame& frame, float faster, int i) {
   const BodyState& body = frame.bodies[at(part.body)];
   const BoxBounds box = still_[at(number)] = box_of(part, body.pose);
   turning_[at(number)] = turning_speed(body, box) + (body.is_fixed ? 0 : faster);
-  boxes_[at(i)] =
-      swept(box, body.velocity * frame.dt).grown(0.5f * margin_share * size_[at(number)] + frame.dt * turning_[at(number)]);
+  boxes_[at(i)] = swept(box, body.velocity * frame.dt)
+                      .grown(0.5f * margin_share * size_[at(number)] + frame.dt * turning_[at(number)]);
 }
 
 /// Finds the boxes of all convex parts, or, unless `of` is null, of the bodies for which it is not zero.
@@ -177,7 +178,8 @@ void BodyPairs::find_near(const Frame& frame, int task, std::vector<Pair>& found
 
 void BodyPairs::find_near(Executor& executor, const Frame& frame) {
   larger_.clear();
-  for (std::size_t i = 0; i < boxes_.size(); ++i) larger_.push_back(boxes_[i].grown(spare_share * size_[at(convex_[i])]));
+  for (std::size_t i = 0; i < boxes_.size(); ++i)
+    larger_.push_back(boxes_[i].grown(spare_share * size_[at(convex_[i])]));
   crowds_.build(larger_);
   const int tasks = crowds_.tasks();
   of_task_.resize(std::max(of_task_.size(), at(tasks)));
@@ -203,7 +205,8 @@ void BodyPairs::find_near(Executor& executor, const Frame& frame) {
   });
 }
 
-/// Pairs of half-spaces and meshes with convex parts: with all of them, or, unless it is null, with `some` (indices in convex_).
+/// Pairs of half-spaces and meshes with convex parts: with all of them, or, unless it is null, with `some` (indices in
+/// convex_).
 void BodyPairs::find_pairs_of_others(const Frame& frame, const std::vector<int>* some) {
   of_others_.clear();
   for (const int other : others_) {
@@ -234,7 +237,8 @@ void BodyPairs::find_pairs_of_others(const Frame& frame, const std::vector<int>*
   std::sort(of_others_.begin(), of_others_.end(), [&](const Pair& a, const Pair& b) { return in_order(a, b); });
 }
 
-/// Finds the pairs of near_ whose boxes overlap: all, or, unless `of` is null, those of the bodies for which it is not zero.
+/// Finds the pairs of near_ whose boxes overlap: all, or, unless `of` is null, those of the bodies for which it is not
+/// zero.
 void BodyPairs::find_overlapping(Executor& executor, const Frame& frame, const std::vector<char>* of) {
   const int count = static_cast<int>(near_.size()), tasks = ranges_of(count, pairs_a_task);
   of_task_.resize(std::max(of_task_.size(), at(tasks)));
@@ -261,8 +265,8 @@ void BodyPairs::take_found(int tasks) {
     found_.insert(found_.end(), of_task_[at(task)].begin(), of_task_[at(task)].end());
 }
 
-/// Finds the pairs of renewed_ by the tree of larger boxes, and with all boxes that are no longer in theirs, as those of earlier renewals in
-/// the frame. Returns false if near_ costs less.
+/// Finds the pairs of renewed_ by the tree of larger boxes, and with all boxes that are no longer in theirs, as those
+/// of earlier renewals in the frame. Returns false if near_ costs less.
 bool BodyPairs::find_by_tree(Executor& executor, const Frame& frame) {
   std::vector<int> escaped;
   for (int i = 0; i < static_cast<int>(boxes_.size()); ++i)
@@ -290,8 +294,8 @@ bool BodyPairs::find_by_tree(Executor& executor, const Frame& frame) {
   return true;
 }
 
-/// Puts the pairs of renewed parts in the place of those that they had. All others stay, whatever the state of the tree, so that a State
-/// that is restored goes on with the same bits.
+/// Puts the pairs of renewed parts in the place of those that they had. All others stay, whatever the state of the
+/// tree, so that a State that is restored goes on with the same bits.
 void BodyPairs::replace(const Frame& frame, const std::vector<char>& of) {
   const auto is_before = [&](const Pair& a, const Pair& b) { return in_order(a, b); };
   found_.insert(found_.end(), of_others_.begin(), of_others_.end());

@@ -1,7 +1,7 @@
 // Pairs of parts of bodies that may touch within a frame, by their boxes.
 //
-// A tree of boxes a little larger than needed yields pairs that serve for many frames, as long as no box leaves its larger one. Which
-// of them overlap in a frame does not depend on when the tree was built.
+// A tree of boxes a little larger than needed yields pairs that serve for many frames, as long as no box leaves its
+// larger one. Which of them overlap in a frame does not depend on when the tree was built.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,8 @@ class BodyPairs {
 
   /// The pairs whose boxes overlap, in the order of their contacts (BodyPart::id).
   const std::vector<Pair>& pairs() const { return pairs_; }
-  /// True if the bodies of two convex parts are apart by more than `reach` [m], as their boxes show. False says nothing.
+  /// True if the bodies of two convex parts are apart by more than `reach` [m], as their boxes show. False says
+  /// nothing.
   bool are_apart(int a, int b, float reach) const;
   /// Half of the smallest extent of a part [m].
   float size(int part) const { return size_[static_cast<std::size_t>(part)]; }
@@ -41,7 +42,8 @@ class BodyPairs {
 
   /// Parts nearer than this share of the smaller one's size have a contact.
   static constexpr float margin_share = 0.04f;
-  /// Where parts overlap more than this many others on average, as thousands of bodies in one place do, each meets at most so many.
+  /// Where parts overlap more than this many others on average, as thousands of bodies in one place do, each meets at
+  /// most so many.
   static constexpr std::size_t most_of_crowded = 48;
   /// The number of pairs that the last update left out for that.
   std::ptrdiff_t left_out() const { return left_out_; }

@@ -82,8 +82,8 @@ void renew_gaps(const Posed& a, const Posed& b, BodyContact& c) {
   const Vec3d in_a = rotate(conjugate(a.rotation), normal), in_b = rotate(conjugate(b.rotation), normal);
   const double between = dot(normal, b.position - a.position);
   for (std::size_t i = 0; i < at(c.count); ++i)
-    c.gap[i] = static_cast<float>(between +
-                                  (dot(in_b, convert<double>(c.anchor_b[i])) - dot(in_a, convert<double>(c.anchor_a[i]))));
+    c.gap[i] = static_cast<float>(
+        between + (dot(in_b, convert<double>(c.anchor_b[i])) - dot(in_a, convert<double>(c.anchor_a[i]))));
 }
 
 void take_impulses(const BodyContact& old, BodyContact& c) {

@@ -19,8 +19,8 @@ inline constexpr int of_solids = 0, of_ball_b = 1, of_ball_a = 2;
 
 inline auto solids_of(const BodyContact& c) { return std::tuple{c.a.owner, c.a.solid, c.b.owner, c.b.solid}; }
 
-/// Finds the contacts of two parts in the frame before. Pairs are mostly asked for in ascending order, so the search begins where
-/// the last one ended.
+/// Finds the contacts of two parts in the frame before. Pairs are mostly asked for in ascending order, so the search
+/// begins where the last one ended.
 class ContactsBefore {
  public:
   explicit ContactsBefore(const std::vector<BodyContact>& before) : all_(before) {}
@@ -53,7 +53,8 @@ inline std::span<const BodyContact> of_solids_in(std::span<const BodyContact> co
   return contacts.first(static_cast<std::size_t>(end - contacts.begin()));
 }
 
-/// The contact of the frame before with the same piece, or else the one whose normal agrees best; null if none is similar.
+/// The contact of the frame before with the same piece, or else the one whose normal agrees best; null if none is
+/// similar.
 inline const BodyContact* like(const BodyContact& c, std::span<const BodyContact> before) {
   const BodyContact* best = nullptr;
   float closest = 0.9f;

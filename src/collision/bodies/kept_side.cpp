@@ -158,7 +158,8 @@ MeshSideKept side_kept(const BodyMesh& mesh, const BodyPart& b, const Posed& b_i
     if (triangle < 0 || triangle >= mesh.triangle_count()) continue;
     if (old.height(old.centre) > 0 || old.height(centre) > 0) continue;
     const MeshFace& face = mesh.face(triangle);
-    if (is_over(face, centre, old.size)) return {triangle, dot(face.normal, old.normal) < 0 ? -face.normal : face.normal};
+    if (is_over(face, centre, old.size))
+      return {triangle, dot(face.normal, old.normal) < 0 ? -face.normal : face.normal};
     const MeshSideKept next = beside(mesh, centre, old.normal, old.size - old.height(centre));
     if (next.triangle >= 0) return next;
   }

@@ -1,7 +1,7 @@
 // Keeps two bodies on the sides of one another on which they were.
 //
-// A stick whose end is thrown at a thin wall may be found more than half through it, since contacts are linear between two searches. The
-// least way out is then on the far side.
+// A stick whose end is thrown at a thin wall may be found more than half through it, since contacts are linear between
+// two searches. The least way out is then on the far side.
 #pragma once
 
 #include <span>
@@ -12,12 +12,12 @@
 
 namespace pliant {
 
-/// True if two convex parts that overlap now face the other way than in their contact before. Normals point from a to b; that of
-/// `found` in the frame of body a, which has that pose.
+/// True if two convex parts that overlap now face the other way than in their contact before. Normals point from a to
+/// b; that of `found` in the frame of body a, which has that pose.
 bool has_changed_sides(const Touch& found, const Posed& a, std::span<const BodyContact> before);
 
-/// Contact points of two convex parts along `normal`, a unit vector in the frame of body a: the one that is wider across it counts as a
-/// half-space. They are within `margin` of it [m].
+/// Contact points of two convex parts along `normal`, a unit vector in the frame of body a: the one that is wider
+/// across it counts as a half-space. They are within `margin` of it [m].
 Touch touch_along(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Vec3d& normal, double margin,
                   double turning);
 

@@ -17,8 +17,8 @@ struct ContactPoints {
 /// Height over distance from the nearest point, below which a point touches, too.
 inline constexpr float touching_slope = 0.05f;
 
-/// True for points that touch where the nearest one does: seen from that, surfaces open by less than a twentieth. Friction acts there, and
-/// not between the ends of a stick of which one is in the air.
+/// True for points that touch where the nearest one does: seen from that, surfaces open by less than a twentieth.
+/// Friction acts there, and not between the ends of a stick of which one is in the air.
 std::array<bool, 4> touching_points(const ContactPoints& points);
 
 /// Contact of bodies a and b. Over fifteen members: what is kept, then what is prepared once a frame (solver/bodies).

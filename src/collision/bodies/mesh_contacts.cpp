@@ -36,7 +36,8 @@ std::vector<Group> groups_of(const std::vector<TrianglePoint>& points) {
   std::vector<Group> groups;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const TrianglePoint& at = points[i];
-    if (groups.empty() || groups.back().triangle != at.triangle) groups.push_back({at.triangle, i, i, at.point.separation});
+    if (groups.empty() || groups.back().triangle != at.triangle)
+      groups.push_back({at.triangle, i, i, at.point.separation});
     groups.back().end = i + 1;
     groups.back().deepest = std::min(groups.back().deepest, at.point.separation);
   }
@@ -92,7 +93,8 @@ Touch around(Touch touch) {
   return touch;
 }
 
-/// Four points of a cluster with the mean of their normals, so that a solid on a curved mesh is not held by one triangle's.
+/// Four points of a cluster with the mean of their normals, so that a solid on a curved mesh is not held by one
+/// triangle's.
 Touch touch_of(const Cluster& cluster) {
   Vec3d sum{};
   for (const TrianglePoint& at : cluster.points) sum += at.normal;
@@ -120,12 +122,13 @@ int triangle_above(const BodyMesh& mesh, const SolidInMesh& solid) {
 
 /// True if a point is not over its triangle. Terrain is one smooth piece, of which only ends and ridges have sides.
 bool has_side(const BodyMesh& mesh, const std::vector<TrianglePoint>& points) {
-  return std::any_of(points.begin(), points.end(),
-                     [&](const TrianglePoint& at) { return dot(at.normal, mesh.face(at.triangle).normal) < own_cosine; });
+  return std::any_of(points.begin(), points.end(), [&](const TrianglePoint& at) {
+    return dot(at.normal, mesh.face(at.triangle).normal) < own_cosine;
+  });
 }
 
-std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& solid, double reach, const SolidPath* path,
-                                     PathContact& first) {
+std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& solid, double reach,
+                                     const SolidPath* path, PathContact& first) {
   std::vector<TrianglePoint> points;
   std::vector<int> near;
   int plane = triangle_above(mesh, solid);
@@ -138,7 +141,8 @@ std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& so
     if (points.empty()) plane = least_overlapped(solid, mesh, near);
   }
   if (plane >= 0)
-    touch_plane_of(solid, mesh, plane, facing_normal(mesh.face(plane), solid.centre(), mesh.is_terrain()), reach, points);
+    touch_plane_of(solid, mesh, plane, facing_normal(mesh.face(plane), solid.centre(), mesh.is_terrain()), reach,
+                   points);
   return points;
 }
 
@@ -156,8 +160,8 @@ PathContact touch_mesh(const ConvexShape& shape, const Posed& pose_in_mesh, cons
   return first;
 }
 
-MeshTouch touch_side(const ConvexShape& shape, const Posed& pose_in_mesh, const BodyMesh& mesh, const MeshSideKept& kept,
-                     double reach, double turning) {
+MeshTouch touch_side(const ConvexShape& shape, const Posed& pose_in_mesh, const BodyMesh& mesh,
+                     const MeshSideKept& kept, double reach, double turning) {
   std::vector<TrianglePoint> points;
   const SolidInMesh solid(shape, pose_in_mesh, turning);
   touch_plane_of(solid, mesh, kept.triangle, kept.normal, reach, points);

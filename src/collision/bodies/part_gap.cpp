@@ -43,8 +43,8 @@ bool is_beyond(const BodyPart& a, const Vec3d& centre, double radius, double rea
     case ConvexShape::Kind::segment:
     case ConvexShape::Kind::cylinder:
     case ConvexShape::Kind::cone:
-      return std::max(across - static_cast<double>(a.shape.core_radius), along - static_cast<double>(a.shape.half_length)) >
-             enough;
+      return std::max(across - static_cast<double>(a.shape.core_radius),
+                      along - static_cast<double>(a.shape.half_length)) > enough;
     case ConvexShape::Kind::polyhedron:
       break;
   }

@@ -1,5 +1,5 @@
-// Lower bounds of the distance of two parts, by a ball around one of them: most parts whose boxes overlap are apart, and
-// a few products tell.
+// Lower bounds of the distance of two parts, by a ball around one of them: most parts whose boxes overlap are apart,
+// and a few products tell.
 #pragma once
 
 #include "collision/bodies/body_part.h"

@@ -94,15 +94,16 @@ Footprint footprint_of(const Pair& pair, const Feature& flat, const Vec3d& neare
   return out;
 }
 
-/// True if the flat part is so narrow that it may rock from one side to the other, and the round solid does not roll along it.
+/// True if the flat part is so narrow that it may rock from one side to the other, and the round solid does not roll
+/// along it.
 bool reaches_sides(const Pair& pair, const Feature& flat, const Footprint& footprint, double turning) {
   const double across = half_extent(flat, footprint.across), along = half_extent(flat, footprint.along);
   const double half = is_touched_at_side(pair) ? across : std::min(across, along);
   return half <= footprint.half_across && turning * pair.radius() <= rolling_share * half;
 }
 
-/// The distance of a point in the frame of a round solid from its surface, for a cylinder from its side. Inside, the nearest place of
-/// a cylinder's surface may be at an end, which says nothing about what lies on the side.
+/// The distance of a point in the frame of a round solid from its surface, for a cylinder from its side. Inside, the
+/// nearest place of a cylinder's surface may be at an end, which says nothing about what lies on the side.
 double distance_from(const ConvexShape& round, const Vec3d& point) {
   const bool is_cylinder = round.kind == ConvexShape::Kind::cylinder;
   const double beyond = is_cylinder ? 0 : std::max(std::fabs(point.y) - static_cast<double>(round.half_length), 0.);
@@ -166,7 +167,8 @@ Touch with_corners(const ConvexShape& a, const ConvexShape& b, const Posed& pose
   const TouchPoint& nearest = nearest_of(found);
   const Footprint footprint = footprint_of(pair, flat, swapped ? nearest.on_a : nearest.on_b, reach);
   if (!reaches_sides(pair, flat, footprint, rocking.turning)) return found;
-  std::vector<TouchPoint> points = points_over(footprint.polygon(pair.outward), flat, found.normal, swapped, any_height);
+  std::vector<TouchPoint> points =
+      points_over(footprint.polygon(pair.outward), flat, found.normal, swapped, any_height);
   const double height = place(pair, points) - nearest.separation;
   if (points.size() < 3 || height > slack) return found;  // the nearest point is not on the flat part
   lower(pair, height, points);

@@ -41,7 +41,8 @@ struct Facing {
 
   const MeshFace& face() const { return mesh.face(triangle); }
 
-  /// Points on sides that are not convex are inside the area of contact, because the solid touches the triangle beyond too.
+  /// Points on sides that are not convex are inside the area of contact, because the solid touches the triangle beyond
+  /// too.
   bool is_convex(int side) const { return face().sides[static_cast<std::size_t>(side)].is_convex(is_flipped); }
 
   Feature flat_part() const {
@@ -89,8 +90,8 @@ Corners corners_of(const Feature& part) {
   return out;
 }
 
-/// Keeps what is not beyond a side (Sutherland and Hodgman 1974). The second of a segment's two equal edges gives no point of
-/// its own.
+/// Keeps what is not beyond a side (Sutherland and Hodgman 1974). The second of a segment's two equal edges gives no
+/// point of its own.
 template <class Beyond>
 Corners clipped(const Corners& corners, const Beyond& beyond, int side, bool is_segment) {
   Corners out;
@@ -120,7 +121,8 @@ Corners over_triangle(const MeshFace& face, const Feature& part, bool is_flipped
 /// True if a place is above a triangle along the triangle's own normal.
 bool is_above(const Facing& at, const Vec3d& place) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (at.face().beyond(k, place, at.is_flipped) > (at.face().sides[k].is_inner ? MeshSide::tolerance : 0)) return false;
+    if (at.face().beyond(k, place, at.is_flipped) > (at.face().sides[k].is_inner ? MeshSide::tolerance : 0))
+      return false;
   return true;
 }
 
@@ -140,7 +142,8 @@ void add_points_above(const Facing& at, const TriangleNearest& nearest, std::vec
     if (!is_own && !(sides[0] >= 0 && at.is_convex(sides[0])) && !(sides[1] >= 0 && at.is_convex(sides[1]))) continue;
     const double separation = dot(at.normal, corner.place - face.corners[0]);
     if (separation > at.reach || separation < least) continue;
-    const std::uint32_t what = static_cast<std::uint32_t>(corner.before) << 8 | static_cast<std::uint32_t>(corner.after);
+    const std::uint32_t what =
+        static_cast<std::uint32_t>(corner.before) << 8 | static_cast<std::uint32_t>(corner.after);
     at.add(points, {corner.place - at.normal * separation, corner.place, separation,
                     is_own ? what : feature_of(at.triangle, what)});
   }

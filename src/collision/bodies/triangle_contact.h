@@ -1,8 +1,8 @@
 // Where a convex solid touches one triangle of a mesh.
 //
-// The direction of contact is that of least overlap, or of the distance. If it lies outside the mesh's normal cone at the
-// triangle's edge or corner, some other triangle is nearer, and this one takes its own normal: so inner edges of a flat mesh
-// give no other normals than its faces.
+// The direction of contact is that of least overlap, or of the distance. If it lies outside the mesh's normal cone at
+// the triangle's edge or corner, some other triangle is nearer, and this one takes its own normal: so inner edges of a
+// flat mesh give no other normals than its faces.
 #pragma once
 
 #include <vector>
@@ -39,7 +39,8 @@ void pass_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle,
 void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal, double reach,
                     std::vector<TrianglePoint>& points);
 
-/// The triangle out of which the way along its normal is shortest, of those that a solid overlaps; -1: it overlaps none.
+/// The triangle out of which the way along its normal is shortest, of those that a solid overlaps; -1: it overlaps
+/// none.
 int least_overlapped(const SolidInMesh& solid, const BodyMesh& mesh, const std::vector<int>& triangles);
 
 }  // namespace pliant

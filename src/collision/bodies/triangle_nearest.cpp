@@ -12,10 +12,11 @@ namespace pliant {
 
 namespace {
 
-/// An axis must be better by this share of the solid's size to replace one of a preferred kind: the triangle's normal, then
-/// those of the solid's faces, then those across edges.
+/// An axis must be better by this share of the solid's size to replace one of a preferred kind: the triangle's normal,
+/// then those of the solid's faces, then those across edges.
 constexpr double preference = 1e-3;
-/// Overlap along the triangle's normal up to this share of the solid's size needs no search if the deepest point is over it.
+/// Overlap along the triangle's normal up to this share of the solid's size needs no search if the deepest point is
+/// over it.
 constexpr double shallow = 0.05;
 /// What overlaps a triangle by less than this share of its depth below the plane is beside it.
 constexpr double beside_share = 0.05;
@@ -159,8 +160,8 @@ TriangleNearest nearest_on(const MeshFace& face, const SolidInMesh& solid, doubl
     const bool is_at_edge = is_above && out.separation < 0 && !is_over_triangle(face, out.on_solid, -out.separation);
     const bool is_shallow = out.separation > -shallow * solid.size();
     if (is_smooth && !is_shallow && !is_one_sided) {
-      // What is deep below the plane may be beside the triangle, and outside of what is smooth as seen from within. It may
-      // touch it there: a box on top of a wall, whose centre has passed the plane of the wall's side.
+      // What is deep below the plane may be beside the triangle, and outside of what is smooth as seen from within. It
+      // may touch it there: a box on top of a wall, whose centre has passed the plane of the wall's side.
       TriangleNearest exact = nearest_by_supports(face, solid, reach);
       exact.is_near = exact.separation <= reach;
       if (exact.separation > beside_share * out.separation) return exact;
@@ -168,7 +169,8 @@ TriangleNearest nearest_on(const MeshFace& face, const SolidInMesh& solid, doubl
     const bool is_face_contact = !is_at_edge && (is_smooth || (is_shallow && is_above));
     if (!is_face_contact && solid.is_polyhedron()) out = best_axis(face, solid, out, reach);
     if (out.separation > reach) return {};
-    if (!is_face_contact && (out.separation > 0 || !solid.is_polyhedron())) out = nearest_by_supports(face, solid, reach);
+    if (!is_face_contact && (out.separation > 0 || !solid.is_polyhedron()))
+      out = nearest_by_supports(face, solid, reach);
   }
   out.is_near = out.separation <= reach;
   return out;

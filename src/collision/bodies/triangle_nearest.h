@@ -14,8 +14,8 @@ struct TriangleNearest {
   Vec3d on_triangle{}, on_solid{};  ///< on_solid - on_triangle is about separation x normal [m]
 };
 
-/// The nearest places, if the core is within `reach` of the triangle [m]. Polyhedra that overlap it are moved apart along a
-/// normal of either or across an edge of each, others by convex_distance.
+/// The nearest places, if the core is within `reach` of the triangle [m]. Polyhedra that overlap it are moved apart
+/// along a normal of either or across an edge of each, others by convex_distance.
 TriangleNearest nearest_on(const MeshFace& face, const SolidInMesh& solid, double reach, bool is_one_sided);
 
 /// The same by supports alone, however far apart they are, and with no direction preferred; for a solid that is

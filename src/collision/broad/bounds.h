@@ -1,4 +1,5 @@
-// The axis-aligned box, and the interface of bounding volumes (reference/volumes.h: spheres, oriented boxes and k-DOPs).
+// The axis-aligned box, and the interface of bounding volumes (reference/volumes.h: spheres, oriented boxes and
+// k-DOPs).
 //
 // A BVH needs five operations of a volume: enclose points, merge volumes, grow by a margin, test overlap, bound a
 // distance. Each result is conservative: its numbers are rounded outward, or computed in double and widened. If two

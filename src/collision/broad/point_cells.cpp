@@ -45,7 +45,9 @@ void PointCells::query(const BoxBounds& box, std::vector<std::int32_t>& found) c
   for (int z = cell_along(box.low.z, 2); z <= cell_along(box.high.z, 2); ++z)
     for (int y = cell_along(box.low.y, 1); y <= cell_along(box.high.y, 1); ++y) {
       const int row = (z * cells_[1] + y) * cells_[0];
-      const auto begin_of = [&](int cell) { return points_.begin() + first_of_cell_[static_cast<std::size_t>(cell) + 1]; };
+      const auto begin_of = [&](int cell) {
+        return points_.begin() + first_of_cell_[static_cast<std::size_t>(cell) + 1];
+      };
       const auto end_of = [&](int cell) {
         const std::size_t next = static_cast<std::size_t>(cell) + 2;
         return next < first_of_cell_.size() ? points_.begin() + first_of_cell_[next] : points_.end();

@@ -35,7 +35,8 @@ class Tree {
   void refit(const std::vector<B>& leaves) {
     for (int i = 0; i < leaf_count(); ++i) set_node(0, i, leaves[static_cast<std::size_t>(leaf_at(i))]);
     for (int level = 1; level < level_count_; ++level)
-      for (int i = 0; i < sizes_[level]; ++i) set_node(level, i, pack_of_children(level, i).merged(child_count(level, i)));
+      for (int i = 0; i < sizes_[level]; ++i)
+        set_node(level, i, pack_of_children(level, i).merged(child_count(level, i)));
   }
 
   int leaf_count() const { return static_cast<int>(order_.size()); }
@@ -170,8 +171,8 @@ class Tree {
           pack_of_children(a.level, a.index).overlaps(other.node_at(b.level, b.index), child_count(a.level, a.index));
       each_bit(wanted, [&](int i) { descend_both(other, {a.level - 1, a.index * fanout + i}, b, visit); });
     } else {
-      const unsigned wanted =
-          other.pack_of_children(b.level, b.index).overlaps(node_at(a.level, a.index), other.child_count(b.level, b.index));
+      const unsigned wanted = other.pack_of_children(b.level, b.index)
+                                  .overlaps(node_at(a.level, a.index), other.child_count(b.level, b.index));
       each_bit(wanted, [&](int i) { descend_both(other, a, {b.level - 1, b.index * fanout + i}, visit); });
     }
   }

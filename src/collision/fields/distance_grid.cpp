@@ -15,8 +15,8 @@ constexpr double most_nodes = 1 << 27;
 void require_sizes(float spacing, float padding) {
   if (!(spacing > 0) || !(spacing < 1e15f) || !(padding >= 0) || !(padding < 1e15f))
     throw Error({},
-                "a grid with " + std::to_string(spacing) + " m between nodes and a padding of " + std::to_string(padding) +
-                    " m is impossible",
+                "a grid with " + std::to_string(spacing) + " m between nodes and a padding of " +
+                    std::to_string(padding) + " m is impossible",
                 "choose a spacing above 0 and a padding of at least 0");
 }
 
@@ -26,12 +26,13 @@ void require_closed(const std::vector<Triangle>& triangles, int vertices) {
   if (triangles.empty()) throw Error({}, "a mesh without triangles has no inside", "give a closed triangle mesh");
   for (const Edge& edge : find_edges(triangles, vertices))
     if (edge.triangle_count != 2)
-      throw Error(Location{.element = "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b)},
-                  "it has " + std::to_string(edge.triangle_count) +
-                      (edge.triangle_count == 1 ? " triangle" : " triangles") + ", so the mesh is not closed",
-                  "close the mesh, because only a closed one has an inside; open ones can be mesh colliders of triangles, "
-                  "or as the "
-                  "solid 'hull' the convex hull of a body");
+      throw Error(
+          Location{.element = "edge " + std::to_string(edge.a) + "-" + std::to_string(edge.b)},
+          "it has " + std::to_string(edge.triangle_count) + (edge.triangle_count == 1 ? " triangle" : " triangles") +
+              ", so the mesh is not closed",
+          "close the mesh, because only a closed one has an inside; open ones can be mesh colliders of triangles, "
+          "or as the "
+          "solid 'hull' the convex hull of a body");
 }
 
 namespace {
@@ -92,10 +93,12 @@ DistanceGrid::DistanceGrid(const MeshQuery& mesh, float spacing, float padding, 
 DistanceGrid::DistanceGrid(std::shared_ptr<const DistanceField> field) : field_(std::move(field)) {
   const DistanceField& f = *field_;
   const bool sizes = f.nodes[0] >= 2 && f.nodes[1] >= 2 && f.nodes[2] >= 2 && f.spacing > 0 && f.spacing < 1e15f;
-  if (!sizes || double(f.nodes[0]) * f.nodes[1] * f.nodes[2] > most_nodes || f.distances.size() != at(f, 0, 0, f.nodes[2]))
+  if (!sizes || double(f.nodes[0]) * f.nodes[1] * f.nodes[2] > most_nodes ||
+      f.distances.size() != at(f, 0, 0, f.nodes[2]))
     throw Error({}, "the distance field is incomplete", "use the result of measure_distances");
   for (const float distance : f.distances)
-    if (!(abs(distance) < 1e15f)) throw Error({}, "the distance field has values that are not finite", "measure it again");
+    if (!(abs(distance) < 1e15f))
+      throw Error({}, "the distance field has values that are not finite", "measure it again");
   bounds_ = bounds_of(f);
 }
 
@@ -133,8 +136,9 @@ SurfaceDistance<float> DistanceGrid::sample(const Vec3f& p) const {
       slope_x[k][j] = d[k][j][1] - d[k][j][0];
     }
   const float near = mix(along_x[0][0], along_x[0][1], y.share), far = mix(along_x[1][0], along_x[1][1], y.share);
-  const Vec3f slope{mix(mix(slope_x[0][0], slope_x[0][1], y.share), mix(slope_x[1][0], slope_x[1][1], y.share), z.share),
-                    mix(along_x[0][1] - along_x[0][0], along_x[1][1] - along_x[1][0], z.share), far - near};
+  const Vec3f slope{
+      mix(mix(slope_x[0][0], slope_x[0][1], y.share), mix(slope_x[1][0], slope_x[1][1], y.share), z.share),
+      mix(along_x[0][1] - along_x[0][0], along_x[1][1] - along_x[1][0], z.share), far - near};
   const float distance = mix(near, far, z.share), beyond = length(away);
   const Vec3f normal = unit_or(slope * (1 / f.spacing), Vec3f{0, 1, 0});
   if (!(beyond > 0)) return {distance, normal};

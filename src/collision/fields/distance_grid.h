@@ -17,8 +17,8 @@ namespace pliant {
 
 class DistanceGrid {
  public:
-  /// Samples a closed mesh at nodes `spacing` [m] apart over its box grown by `padding` [m]. Throws an Error if an edge has
-  /// not two triangles, a size is not positive and finite, or more than 2^27 nodes would result.
+  /// Samples a closed mesh at nodes `spacing` [m] apart over its box grown by `padding` [m]. Throws an Error if an edge
+  /// has not two triangles, a size is not positive and finite, or more than 2^27 nodes would result.
   DistanceGrid(const MeshQuery& mesh, float spacing, float padding, Executor& executor);
 
   /// Uses a given field. Throws an Error unless it has two nodes or more per axis and one finite number for each node.

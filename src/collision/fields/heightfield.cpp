@@ -41,7 +41,8 @@ Heightfield::Heightfield(int columns, int rows, float cell_width, float cell_dep
 
 bool Heightfield::column(const Vec3f& p, Vec3f& corner, Vec3f& normal) const {
   const float across = (p.x - origin_.x) / width_, along = (p.z - origin_.z) / depth_;
-  if (!(across >= 0 && along >= 0 && across <= static_cast<float>(columns_ - 1) && along <= static_cast<float>(rows_ - 1)))
+  if (!(across >= 0 && along >= 0 && across <= static_cast<float>(columns_ - 1) &&
+        along <= static_cast<float>(rows_ - 1)))
     return false;
   const int c = std::min(static_cast<int>(across), columns_ - 2), r = std::min(static_cast<int>(along), rows_ - 2);
   const bool second = across - static_cast<float>(c) > along - static_cast<float>(r);
@@ -55,9 +56,10 @@ bool Heightfield::column(const Vec3f& p, Vec3f& corner, Vec3f& normal) const {
 namespace {
 
 [[noreturn]] void fail_not_even(std::size_t vertex) {
-  throw Error(Location{.element = "vertex " + std::to_string(vertex)},
-              "its x and z are not on the regular grid of the first vertices",
-              "give an evenly spaced, unrotated grid with rows along z and columns along x, or use the mesh as triangles");
+  throw Error(
+      Location{.element = "vertex " + std::to_string(vertex)},
+      "its x and z are not on the regular grid of the first vertices",
+      "give an evenly spaced, unrotated grid with rows along z and columns along x, or use the mesh as triangles");
 }
 
 }  // namespace

@@ -21,15 +21,18 @@ struct GroundPoint {
 
 class Heightfield {
  public:
-  /// Vertex (row r, column c) lies at origin + (c cell_width, heights[r columns + c], r cell_depth), in metres. Throws an
-  /// Error unless columns, rows >= 2, columns x rows heights are given and finite, and cell sizes are positive and finite.
-  Heightfield(int columns, int rows, float cell_width, float cell_depth, const Vec3f& origin, std::vector<float> heights);
+  /// Vertex (row r, column c) lies at origin + (c cell_width, heights[r columns + c], r cell_depth), in metres. Throws
+  /// an Error unless columns, rows >= 2, columns x rows heights are given and finite, and cell sizes are positive and
+  /// finite.
+  Heightfield(int columns, int rows, float cell_width, float cell_depth, const Vec3f& origin,
+              std::vector<float> heights);
 
   /// Calls visit(triangle) for each triangle whose box overlaps `box`, ascending.
   template <class Visit>
   void query(const BoxBounds& box, const Visit& visit) const;
 
-  /// Writes a triangle's corners, counter-clockwise from above. Each cell's diagonal runs from (r, c) to (r + 1, c + 1).
+  /// Writes a triangle's corners, counter-clockwise from above. Each cell's diagonal runs from (r, c) to (r + 1, c +
+  /// 1).
   void corners(int triangle, Vec3f (&to)[3]) const;
 
   /// Returns the closest point nearer than `limit` [m]; of equally near ones that of the first triangle.

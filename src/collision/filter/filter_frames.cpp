@@ -49,7 +49,8 @@ void FilterFrames::find_roots() {
     const auto root = static_cast<std::size_t>(root_[body]);
     if (is_held[root] != 0) root_[body] = -1;
     if (root != body || is_held[root] != 0 || are_stopped_ || !(sums[root].weight > 0)) continue;
-    const Vec3f mean = rounded_as_positions(convert<float>(sums[root].moved * (1 / sums[root].weight)), sums[root].extent);
+    const Vec3f mean =
+        rounded_as_positions(convert<float>(sums[root].moved * (1 / sums[root].weight)), sums[root].extent);
     if (length(mean) < room[root]) displacement_[root] = mean;
   }
 }

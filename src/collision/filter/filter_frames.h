@@ -23,9 +23,9 @@ struct FreeBody {
 /// [body] Empty: something fixed acts on all.
 using FreeBodies = std::vector<FreeBody>;
 
-/// A displacement rounded to multiples of what the largest coordinates of an extent [m] are rounded to, so that positions
-/// keep their differences where it is added to them: else particles that go with a frame at a small gap pass one
-/// another.
+/// A displacement rounded to multiples of what the largest coordinates of an extent [m] are rounded to, so that
+/// positions keep their differences where it is added to them: else particles that go with a frame at a small gap pass
+/// one another.
 Vec3f rounded_as_positions(const Vec3f& displacement, float extent);
 
 class FilterFrames {

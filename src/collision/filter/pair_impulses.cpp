@@ -37,8 +37,8 @@ bool is_same(const SeparatingSlab& a, const SeparatingSlab& b) {
 /// The displacements that become velocities, of the vertices of all pairs.
 class Wanted {
  public:
-  Wanted(const std::vector<VertexDisplacement>& before, const std::vector<SeparatingSlab>& slabs, const VertexOrder& order,
-         const Record* displacements)
+  Wanted(const std::vector<VertexDisplacement>& before, const std::vector<SeparatingSlab>& slabs,
+         const VertexOrder& order, const Record* displacements)
       : order_(order) {
     vertices_.reserve(4 * slabs.size());
     for (const SeparatingSlab& slab : slabs)

@@ -36,7 +36,9 @@ struct Heights {
   double gap() const { return lowest_first - highest_second; }
   /// True if a plane that moves along the normal at constant speed keeps the sides so far apart all the time: heights
   /// above it change linearly, so both ends suffice.
-  bool stay_apart(double distance) const { return gap() >= distance && lowest_first_end - highest_second_end >= distance; }
+  bool stay_apart(double distance) const {
+    return gap() >= distance && lowest_first_end - highest_second_end >= distance;
+  }
 };
 
 Heights heights_of(const PairStencil& pair, const Vec3d& normal, const Record* positions, const Record* displacements,
@@ -73,7 +75,8 @@ double rounding_of(const Record& x, const Record& d) {
 
 /// The direction between the normals of a pair's closest points at the substep's start and at its end; zero if they are
 /// opposite.
-Vec3d normal_between(const PairStencil& pair, const Vec3d& at_start, const Record* positions, const Record* displacements) {
+Vec3d normal_between(const PairStencil& pair, const Vec3d& at_start, const Record* positions,
+                     const Record* displacements) {
   Record ends[4];
   for (int i = 0; i < 4; ++i) {
     const Record &x = positions[pair.vertex[i]], &d = displacements[pair.vertex[i]];
@@ -84,13 +87,15 @@ Vec3d normal_between(const PairStencil& pair, const Vec3d& at_start, const Recor
   return size > 1e-6 ? sum * (1 / size) : Vec3d{};
 }
 
-/// The normal of a triangle that nothing moves, or of two edges of which one is such, at the substep's start, towards the first side.
-/// Zero if there is none.
+/// The normal of a triangle that nothing moves, or of two edges of which one is such, at the substep's start, towards
+/// the first side. Zero if there is none.
 Vec3d normal_of_fixed_face(const PairStencil& pair, const Vec3d& at_start, const Record* positions) {
   const bool has_edges = pair.first_side == 2;
   const auto is_fixed = [&](int i) { return !(positions[pair.vertex[i]].w > 0); };
   if (!(is_fixed(pair.first_side) && is_fixed(3)) && !(has_edges && is_fixed(0) && is_fixed(1))) return {};
-  const auto side = [&](int from, int to) { return start_of(positions[pair.vertex[to]], positions[pair.vertex[from]]); };
+  const auto side = [&](int from, int to) {
+    return start_of(positions[pair.vertex[to]], positions[pair.vertex[from]]);
+  };
   const Vec3d normal = has_edges ? cross(side(0, 1), side(2, 3)) : cross(side(1, 2), side(1, 3));
   const double size = length(normal);
   return size > 0 ? normal * (dot(normal, at_start) < 0 ? -1 / size : 1 / size) : Vec3d{};
@@ -111,7 +116,8 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
   // What slides past an edge has a normal that turns: a plane along neither keeps it apart, but one between them.
   const Vec3d between = normal_between(pair, at.normal, positions, displacements);
   if (heights_of(pair, between, positions, displacements, {}).stay_apart(least_gap)) return Separation::free;
-  // What slides over a mesh is above the plane of a triangle ahead, although the nearest point of that is on its border.
+  // What slides over a mesh is above the plane of a triangle ahead, although the nearest point of that is on its
+  // border.
   const Vec3d of_face = normal_of_fixed_face(pair, at.normal, positions);
   if (heights_of(pair, of_face, positions, displacements, {}).stay_apart(least_gap)) return Separation::free;
   // The plane divides the gap in proportion to the motions of both sides, but stays half a margin away from each.
@@ -142,7 +148,8 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
   return unresolvable ? Separation::unresolvable : Separation::planned;
 }
 
-bool ends_beyond(const SeparatingSlab& slab, int which, const Record* positions, const Record* displacements, float share) {
+bool ends_beyond(const SeparatingSlab& slab, int which, const Record* positions, const Record* displacements,
+                 float share) {
   const std::int32_t vertex = slab.pair.vertex[which];
   const Record& x = positions[vertex];
   if (!(x.w > 0)) return false;

@@ -3,15 +3,16 @@
 //
 // A linear path with both ends in a half-space stays in it, so nothing crosses on the way, and no root is computed.
 // Truncating a step towards its start violates no other pair's plane, if that stands still. So each vertex takes the
-// smallest step that any pair permits, in any order. A pair that a moving plane keeps apart is free as well; it is tested
-// again after each truncation. ../../docs/guide/contact.md has the whole argument.
+// smallest step that any pair permits, in any order. A pair that a moving plane keeps apart is free as well; it is
+// tested again after each truncation. ../../docs/guide/contact.md has the whole argument.
 #pragma once
 
 #include "collision/proxies/pair_stencil.h"
 
 namespace pliant {
 
-/// The separating margin of a pair: normal . (x - origin) stays >= above for the first primitive, <= below for the other.
+/// The separating margin of a pair: normal . (x - origin) stays >= above for the first primitive, <= below for the
+/// other.
 struct SeparatingSlab {
   PairStencil pair;
   Vec3d normal{};
@@ -44,6 +45,7 @@ Separation plan_separation(const PairStencil& pair, const PairDistance& at, cons
 
 /// True if particle `which` of the pair ends on the wrong side of its limit, after rounding, when its displacement is
 /// scaled by `share`.
-bool ends_beyond(const SeparatingSlab& slab, int which, const Record* positions, const Record* displacements, float share);
+bool ends_beyond(const SeparatingSlab& slab, int which, const Record* positions, const Record* displacements,
+                 float share);
 
 }  // namespace pliant

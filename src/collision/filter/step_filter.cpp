@@ -29,7 +29,8 @@ struct StepFilter::Round {
 
   void plan_list(const NearList& list, Scratch& scratch) const;
   void plan_group(const StaticGroup& group, Scratch& scratch) const;
-  void plan_block(const ClusterSides& sides, const PairStencils& stencils, int pairs, float margin, Scratch& scratch) const;
+  void plan_block(const ClusterSides& sides, const PairStencils& stencils, int pairs, float margin,
+                  Scratch& scratch) const;
   void plan_pair(const ClusterSides& sides, const PairLanes& lanes, int lane, float margin, Scratch& scratch) const;
 };
 
@@ -70,7 +71,8 @@ void StepFilter::Round::plan_pair(const ClusterSides& sides, const PairLanes& la
   const PairStencil pair = lanes.pair(lane, sides.of_vertices);
   if (is_exempt(pair)) return;
   const PairDistance at = pair_distance(pair, particles.positions);
-  // Rejects the pair by its own distance and motion, so that the result does not depend on how tight the stored bound was.
+  // Rejects the pair by its own distance and motion, so that the result does not depend on how tight the stored bound
+  // was.
   if (static_cast<float>(at.distance) * sum_slack - lanes.paths.falls[lane] > margin) return;
   if (!frames.share_one(pair)) {
     scratch.between.push_back(pair);
@@ -231,7 +233,8 @@ void StepFilter::hold_rounded(const PairParticles& particles, Allow allow) {
       for (const SeparatingSlab& slab : scratch.slabs)
         for (int i = 0; i < 4; ++i) {
           const std::int32_t v = slab.pair.vertex[i];
-          if (shares[v] == 0 || !ends_beyond(slab, i, particles.positions, particles.displacements, shares[v])) continue;
+          if (shares[v] == 0 || !ends_beyond(slab, i, particles.positions, particles.displacements, shares[v]))
+            continue;
           allow(v, 0);
           again = shares[v] == 0 || again;
         }

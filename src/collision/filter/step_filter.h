@@ -27,8 +27,8 @@ class StepFilter {
   void fit_to_model();
   /// Resets the counts; call it at a frame's start.
   void forget_counts();
-  /// Truncates displacements so that no pair crosses, unless `is_exempt` holds for it. Measures the motion again after each
-  /// round. Returns true if all positions are bounded (NearLists::measure); else displacements may be unchanged.
+  /// Truncates displacements so that no pair crosses, unless `is_exempt` holds for it. Measures the motion again after
+  /// each round. Returns true if all positions are bounded (NearLists::measure); else displacements may be unchanged.
   /// Of free bodies it keeps the momentum: without_velocity().
   bool apply(Executor& executor, NearLists& lists, const PairParticles& particles,
              FunctionRef<const FreeBodies&()> find_free, FunctionRef<bool(const PairStencil&)> is_exempt);

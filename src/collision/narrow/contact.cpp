@@ -27,7 +27,8 @@ bool may_meet(const LocalShape&, const SurfaceDistance<float>& end, float thickn
 }
 bool may_meet(const SolidField&, const SurfaceDistance<float>&, float, float) { return true; }
 
-bool stays_beyond(const LocalShape&, float margin, const SurfaceDistance<float>& end, const Vec3f& to, const Vec3f& path) {
+bool stays_beyond(const LocalShape&, float margin, const SurfaceDistance<float>& end, const Vec3f& to,
+                  const Vec3f& path) {
   return stays_beyond(margin, end, to, path);
 }
 bool stays_beyond(const SolidField&, float, const SurfaceDistance<float>&, const Vec3f&, const Vec3f&) { return false; }
@@ -48,8 +49,9 @@ FirstHit<float> first_hit(const SolidField& field, const Vec3f& a, const Vec3f& 
 }
 
 /// Returns the contact plane of a particle that moves from a to b, in the collider's frame, if there is one. On a long
-/// path (continuous) it is the plane at the entry point, or at the start if the start is inside or within the thickness,
-/// because a particle stays on its side. On a short path (static) it is the plane at the closest surface point.
+/// path (continuous) it is the plane at the entry point, or at the start if the start is inside or within the
+/// thickness, because a particle stays on its side. On a short path (static) it is the plane at the closest surface
+/// point.
 template <class Solid>
 std::optional<SurfacePlane<float>> surface_plane(const Solid& solid, const Vec3f& a, const Vec3f& b, float thickness,
                                                  float h) {
@@ -75,8 +77,9 @@ BoundingBox<float> bounding_box(const SolidField& field, const Pose<float>& pose
   const BoxBounds box = field.bounds();
   Vec3f low{3e38f, 3e38f, 3e38f}, high{-3e38f, -3e38f, -3e38f};
   for (int i = 0; i < 8; ++i) {
-    const Vec3f corner = to_world(pose, Vec3f{(i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
-                                              (i & 4) != 0 ? box.high.z : box.low.z});
+    const Vec3f corner =
+        to_world(pose, Vec3f{(i & 1) != 0 ? box.high.x : box.low.x, (i & 2) != 0 ? box.high.y : box.low.y,
+                             (i & 4) != 0 ? box.high.z : box.low.z});
     low = min(low, corner);
     high = max(high, corner);
   }
@@ -86,8 +89,8 @@ BoundingBox<float> bounding_box(const SolidField& field, const Pose<float>& pose
 
 /// Sets a collider's poses at the start and the end of a substep, and whether the collider moves.
 template <class From, class MotionPose>
-void move(const From& from, const PoseDrive* drive, const MotionPose& motion_pose, double time_before, double time_after,
-          MovingCollider& to) {
+void move(const From& from, const PoseDrive* drive, const MotionPose& motion_pose, double time_before,
+          double time_after, MovingCollider& to) {
   const auto pose = [&](double time) { return convert<float>(drive != nullptr ? drive->at(time) : motion_pose(time)); };
   to.before = pose(time_before);
   to.moves = drive != nullptr ? drive->moves() : from.motion.moves();
@@ -120,7 +123,8 @@ float thickness_of(const CompiledObject& object, const MovingCollider& collider)
 }
 
 void add_slide(const MovingCollider& collider, Contact& contact) {
-  if (collider.slides()) contact.surface_motion += collider.slide - contact.normal * dot(contact.normal, collider.slide);
+  if (collider.slides())
+    contact.surface_motion += collider.slide - contact.normal * dot(contact.normal, collider.slide);
 }
 
 void move_colliders(const Model& model, const Control& control, double time_before, double time_after,
@@ -133,7 +137,8 @@ void move_colliders(const Model& model, const Control& control, double time_befo
     to->shape = local_shape(from.shape);
     const auto by_motion = [&](double time) { return collider_pose(from, time); };
     move(from, control.collider(c), by_motion, time_before, time_after, *to);
-    set_slide(rotate(to->after.rotation, surface_velocity_of_collider(model, control, c)), time_after - time_before, *to);
+    set_slide(rotate(to->after.rotation, surface_velocity_of_collider(model, control, c)), time_after - time_before,
+              *to);
     to->swept =
         merge(bounding_box(to->shape, to->before, to->thickness), bounding_box(to->shape, to->after, to->thickness));
   }
@@ -206,7 +211,8 @@ void find_contact(const ColliderQuery& m, int i, std::vector<Contact>& contacts)
   add_slide(collider, contact);
 }
 
-/// Appends the contacts of particles with a primitive collider, sixteen at a time. `near` has room for a whole last batch.
+/// Appends the contacts of particles with a primitive collider, sixteen at a time. `near` has room for a whole last
+/// batch.
 void find_contacts_in_lanes(const ColliderQuery& m, std::vector<std::int32_t>& near, int count,
                             std::vector<Contact>& contacts) {
   const MovingCollider& collider = m.collider;
@@ -230,10 +236,12 @@ void find_contacts_in_lanes(const ColliderQuery& m, std::vector<std::int32_t>& n
   }
 }
 
-/// Removes centres of rigid bodies from the first `count` of a list, because only a body's solids touch. Returns how many remain.
+/// Removes centres of rigid bodies from the first `count` of a list, because only a body's solids touch. Returns how
+/// many remain.
 int without_centres(const CompiledObject& object, int count, std::vector<std::int32_t>& near) {
   if (object.bodies.empty()) return count;
-  const auto end = std::remove_if(near.begin(), near.begin() + count, [&](int i) { return object.bodies.has_centre(i); });
+  const auto end =
+      std::remove_if(near.begin(), near.begin() + count, [&](int i) { return object.bodies.has_centre(i); });
   return static_cast<int>(end - near.begin());
 }
 
@@ -248,8 +256,9 @@ struct SolidMotion {
   }
 };
 
-/// The distance from a solid's box within which a particle that is displaced by `moved` can have a contact [m]; infinite for solids
-/// that turn fast. No particle farther away ends within the thickness and its own path, measured in the solid's frame.
+/// The distance from a solid's box within which a particle that is displaced by `moved` can have a contact [m];
+/// infinite for solids that turn fast. No particle farther away ends within the thickness and its own path, measured in
+/// the solid's frame.
 float reach_of(const MovingCollider& collider, const SolidMotion& motion, float thickness, float moved) {
   if (!(motion.chord < 0.5f)) return 3e38f;
   Vec3f corner = collider.shape.kind == ShapeKind::plane ? Vec3f{} : half_sides<float>(collider.shape);
@@ -299,16 +308,17 @@ int find_near_moving(const ContactSearch& search, int number, float thickness, s
   return inside;
 }
 
-/// True if a path of this length to a place in a grid's frame stays farther than the thickness from the grid's solid, by a distance
-/// known elsewhere. A trilinear distance grows by at most one along each axis. `rounding` is that of positions in the world [m].
+/// True if a path of this length to a place in a grid's frame stays farther than the thickness from the grid's solid,
+/// by a distance known elsewhere. A trilinear distance grows by at most one along each axis. `rounding` is that of
+/// positions in the world [m].
 bool stays_clear(const NearPoints::Known& known, const Vec3f& to, float path, float thickness, float rounding) {
   constexpr float steepest = 1.7321f;
   const float rounded = rounding + 1e-5f * ((largest(to) + largest(known.place)) + (abs(known.distance) + path));
   return known.distance - steepest * length(to - known.place) > thickness + steepest * path + rounded;
 }
 
-/// Finds contacts of the particles near a collider that moves and is given by a grid. Distances are sampled only where those known
-/// from earlier substeps leave a contact possible.
+/// Finds contacts of the particles near a collider that moves and is given by a grid. Distances are sampled only where
+/// those known from earlier substeps leave a contact possible.
 void find_contacts_in_grid(const ColliderQuery& m, std::vector<Contact>& contacts) {
   const NearMoving moving(m.search, m.number, m.thickness);
   const MovingCollider& collider = m.collider;
@@ -331,12 +341,13 @@ void find_contacts_in_grid(const ColliderQuery& m, std::vector<Contact>& contact
   }
 }
 
-/// Finds the particles to test against a collider. Without lists these are all particles of the tile if the collider moves, because
-/// the kernel measures displacements of particles only.
+/// Finds the particles to test against a collider. Without lists these are all particles of the tile if the collider
+/// moves, because the kernel measures displacements of particles only.
 int find_near(const ContactSearch& search, int number, float thickness, std::vector<std::int32_t>& near) {
   const AdvanceArguments& a = search.particles;
   const MovingCollider& collider = search.colliders[static_cast<std::size_t>(number)];
-  if (search.near_points != nullptr && collider.field == nullptr) return find_near_moving(search, number, thickness, near);
+  if (search.near_points != nullptr && collider.field == nullptr)
+    return find_near_moving(search, number, thickness, near);
   near.resize(a.last - a.first + batch_width);
   if (collider.moves || collider.field != nullptr) {
     for (int i = a.first; i < a.last; ++i) near[i - a.first] = i;
@@ -369,7 +380,8 @@ void find_contacts_with(const ContactSearch& search, int c, std::vector<std::int
   const MovingCollider& collider = search.colliders[c];
   const PairMaterial material = material_of(search.object, collider);
   const float thickness = material.thickness;
-  if (!overlap(search.bounds, collider.swept, max(search.object.thickness, thickness)) || !meet(search.object, collider))
+  if (!overlap(search.bounds, collider.swept, max(search.object.thickness, thickness)) ||
+      !meet(search.object, collider))
     return;
   const ColliderQuery query(search, c, material);
   if (search.near_points != nullptr && collider.field != nullptr && !collider.field->is_ground())
@@ -394,7 +406,8 @@ void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near,
 
 namespace {
 
-/// How far above a solid the particles of a liquid are held that would enter it, over the thickness: rounding must not put them inside.
+/// How far above a solid the particles of a liquid are held that would enter it, over the thickness: rounding must not
+/// put them inside.
 constexpr float share_of_held_height = 0.1f;
 
 bool is_near(const MovingCollider& collider, const Record& x, const Record& d, float margin) {
@@ -404,8 +417,8 @@ bool is_near(const MovingCollider& collider, const Record& x, const Record& d, f
          high.x >= collider.swept.low.x && high.y >= collider.swept.low.y && high.z >= collider.swept.low.z;
 }
 
-/// Appends contacts of the particles of a liquid whose displacements enter a collider. The density may have moved them far from where
-/// their contacts were predicted, so these count for nothing here.
+/// Appends contacts of the particles of a liquid whose displacements enter a collider. The density may have moved them
+/// far from where their contacts were predicted, so these count for nothing here.
 void find_breaches_of_liquid(const ContactSearch& search, int c, std::vector<Contact>& contacts) {
   const MovingCollider& collider = search.colliders[static_cast<std::size_t>(c)];
   PairMaterial material = material_of(search.object, collider);
@@ -435,7 +448,9 @@ void find_breaches(const ContactSearch& search, const std::vector<Contact>& know
   near.resize(a.last - a.first + batch_width);
   auto next = known.begin();
   const auto is_known = [&](int c, int particle) {
-    const auto is_before = [&](const Contact& k) { return k.collider < c || (k.collider == c && k.point[0] < particle); };
+    const auto is_before = [&](const Contact& k) {
+      return k.collider < c || (k.collider == c && k.point[0] < particle);
+    };
     while (next != known.end() && is_before(*next)) ++next;
     return next != known.end() && next->collider == c && next->point[0] == particle;
   };
@@ -446,8 +461,8 @@ void find_breaches(const ContactSearch& search, const std::vector<Contact>& know
       if (search.object.fluid) find_breaches_of_liquid(search, c, contacts);
       continue;
     }
-    const int found =
-        search.find_near({a.positions, a.displacements, a.first, a.last, collider.shape, collider.after, 0}, near.data());
+    const int found = search.find_near(
+        {a.positions, a.displacements, a.first, a.last, collider.shape, collider.after, 0}, near.data());
     const int count = without_centres(search.object, found, near);
     PairMaterial material = material_of(search.object, collider);
     material.thickness = 0;

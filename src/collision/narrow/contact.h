@@ -63,7 +63,8 @@ struct ContactSearch {
   const PointBounds& bounds;          ///< encloses the particles before and after the predicted displacement
   const std::vector<MovingCollider>& colliders;
   int (*find_near)(const NearQuery& query, std::int32_t* near);  ///< the kernel StepKernels::find_near
-  MakePointContacts make_contacts = nullptr;  ///< ContactKernels::make_point_contacts, or null for one particle at a time
+  MakePointContacts make_contacts =
+      nullptr;  ///< ContactKernels::make_point_contacts, or null for one particle at a time
   const std::vector<int>* near_colliders = nullptr;  ///< the colliders that may be near the tile, ascending; null: all
   NearPoints* near_points = nullptr;  ///< of the tile; null: all its particles are tested. Numbers as in the State
   int first_of_object = 0;            ///< the number of the object's first particle in `near_points`
@@ -74,8 +75,8 @@ struct ContactSearch {
 void find_contacts(const ContactSearch& search, std::vector<std::int32_t>& near, std::vector<Contact>& contacts);
 
 /// Appends contacts of thickness 0 for particles whose displacements end below a plane collider, ordered by collider,
-/// then by particle. Skips pairs of particle and collider that have a contact in `known`. Particles of liquids also get contacts, of a tenth
-/// of their thickness, with all other colliders that their displacements enter.
+/// then by particle. Skips pairs of particle and collider that have a contact in `known`. Particles of liquids also get
+/// contacts, of a tenth of their thickness, with all other colliders that their displacements enter.
 void find_breaches(const ContactSearch& search, const std::vector<Contact>& known, std::vector<std::int32_t>& near,
                    std::vector<Contact>& contacts);
 

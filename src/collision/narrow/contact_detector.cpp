@@ -8,7 +8,8 @@ namespace {
 
 /// A contact keeps at most this share of the distance that its two primitives have at rest.
 constexpr double share_of_rest = 0.9;
-/// With a mesh collider it keeps all of it: triangles over which an object begins would else be lower than those beside them.
+/// With a mesh collider it keeps all of it: triangles over which an object begins would else be lower than those beside
+/// them.
 constexpr double share_of_rest_on_mesh = 1;
 constexpr float no_limit_at_rest = 1e30f;  ///< [m]
 /// When a block of static pairs is measured, all blocks of its group are that become due within this many substeps.
@@ -88,9 +89,11 @@ void detect_pair(const Detection& d, const ClusterSides& sides, const PairLanes&
   PairMaterial kept = d.near.pair_of(sides).material;
   kept.thickness = min(kept.thickness, kept_at_rest(d.near, pair, at_rest));
   const float distance = lanes.at.distance[lane] * (1 - 1e-5f);
-  if (distance - lanes.paths.falls[lane] > kept.thickness || lanes.paths.apart[lane] > kept.thickness || d.is_exempt(pair))
+  if (distance - lanes.paths.falls[lane] > kept.thickness || lanes.paths.apart[lane] > kept.thickness ||
+      d.is_exempt(pair))
     return;
-  // A covered pair that does not touch yet would push the surfaces sideways; one with a mesh does so if it touches, too.
+  // A covered pair that does not touch yet would push the surfaces sideways; one with a mesh does so if it touches,
+  // too.
   if (distance > kept.thickness && d.covered.covers(pair, lanes.at, lane, d.particles.positions)) return;
   const int mesh = mesh_side(*d.near.model.shared, pair);
   if (mesh >= 0 && d.covered.is_closer_on_mesh(pair, mesh, lanes.at, lane, d.particles.positions, d.is_exempt)) return;
@@ -106,8 +109,8 @@ bool any_in_reach(const PairBatch& at, const ClusterPair& clusters) {
 }
 
 /// Adds the contacts of the first `pairs` of sixteen pairs, and to `lane_of` the lane of each if it is given.
-void detect_block(const Detection& d, const ClusterSides& sides, const PairStencils& stencils, int pairs, float* at_rest,
-                  std::vector<Contact>& contacts, std::vector<int>* lane_of = nullptr) {
+void detect_block(const Detection& d, const ClusterSides& sides, const PairStencils& stencils, int pairs,
+                  float* at_rest, std::vector<Contact>& contacts, std::vector<int>* lane_of = nullptr) {
   const ClusterPair& clusters = d.near.pair_of(sides);
   PairLanes lanes;
   lanes.stencils = stencils;
@@ -169,7 +172,8 @@ void detect_group(const Detection& d, StaticGroup& group, std::vector<Contact>& 
   group.least.value = out_of_reach;
   for (std::size_t b = 0; b < group.blocks.size(); ++b) {
     if (group.value[b] <= due) {
-      const float least = d.near.kernels.least_distance(group.blocks[b], group.of_vertices ? 1 : 2, d.particles.positions);
+      const float least =
+          d.near.kernels.least_distance(group.blocks[b], group.of_vertices ? 1 : 2, d.particles.positions);
       group.value[b] = least * sum_slack;
       if (least - next <= within) detect_block(d, group, group.blocks[b], group.pairs_in(b), nullptr, contacts);
     }
@@ -203,7 +207,8 @@ std::size_t ContactDetector::detect(Executor& executor, Neighbourhood& near, con
   for (const Scratch& scratch : scratch_)
     contacts.insert(contacts.end(), scratch.of_groups.begin(), scratch.of_groups.end());
   const std::size_t of_static_pairs = contacts.size();
-  for (const Scratch& scratch : scratch_) contacts.insert(contacts.end(), scratch.of_lists.begin(), scratch.of_lists.end());
+  for (const Scratch& scratch : scratch_)
+    contacts.insert(contacts.end(), scratch.of_lists.begin(), scratch.of_lists.end());
   return flush_.remove(particles.positions, of_static_pairs, contacts);
 }
 

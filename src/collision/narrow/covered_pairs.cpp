@@ -26,7 +26,8 @@ int end_of(int a, int b, float weight_of_a, float weight_of_b) {
   return abs(weight_of_a) < least_corner_weight ? b : -1;
 }
 
-/// True if the angle between two edges of a triangle, or between the two edges of a pair, is at least about two degrees.
+/// True if the angle between two edges of a triangle, or between the two edges of a pair, is at least about two
+/// degrees.
 bool is_well_conditioned(const PairStencil& pair, const Record* positions) {
   const auto& v = pair.vertex;
   const bool edges = pair.first_side == 2;
@@ -84,8 +85,8 @@ bool CoveredPairs::is_closer_beside(const PairStencil& pair, const Closest& at, 
 
 bool CoveredPairs::is_closer_on_mesh(const PairStencil& pair, int side, const Closest& at, const Record* positions,
                                      const FunctionRef<bool(const PairStencil&)>& is_exempt) const {
-  const Feature feature =
-      side == 0 ? feature_of(pair, at, 0, pair.first_side, positions) : feature_of(pair, at, pair.first_side, 4, positions);
+  const Feature feature = side == 0 ? feature_of(pair, at, 0, pair.first_side, positions)
+                                    : feature_of(pair, at, pair.first_side, 4, positions);
   if (feature.held == 0 || feature.held == 3) return false;
   const auto other = side == 0 ? std::pair{pair.first_side, 4} : std::pair{0, pair.first_side};
   const auto counts = [&](const Triangle& t) {
@@ -99,7 +100,8 @@ bool CoveredPairs::is_closer_on_mesh(const PairStencil& pair, int side, const Cl
 bool CoveredPairs::covers(const PairStencil& pair, const Closest& at, const Record* positions) const {
   if (pair.first_side == 1) return is_closer_beside(pair, at, positions);
   const auto& v = pair.vertex;
-  const int first = end_of(v[0], v[1], at.weight[0], at.weight[1]), second = end_of(v[2], v[3], at.weight[2], at.weight[3]);
+  const int first = end_of(v[0], v[1], at.weight[0], at.weight[1]),
+            second = end_of(v[2], v[3], at.weight[2], at.weight[3]);
   return (first >= 0 && has_triangle_without(v[2], v[3], first)) ||
          (second >= 0 && has_triangle_without(v[0], v[1], second));
 }

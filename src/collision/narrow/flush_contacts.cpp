@@ -29,11 +29,13 @@ bool holds_on(bool first_side, const Contact& contact, std::size_t i) {
 Vec3f point_on_mesh(const Contact& contact, bool mesh_is_first, const Vec3f& from, const Record* positions) {
   Vec3f point{};
   for (std::size_t i = 0; i < 4; ++i)
-    if (holds_on(mesh_is_first, contact, i)) point += (xyz(positions[contact.point[i]]) - from) * abs(contact.weight[i]);
+    if (holds_on(mesh_is_first, contact, i))
+      point += (xyz(positions[contact.point[i]]) - from) * abs(contact.weight[i]);
   return point;
 }
 
-/// True if a contact with a face keeps its particle as far from a point as `contact` keeps it; `point` relative to the particle [m].
+/// True if a contact with a face keeps its particle as far from a point as `contact` keeps it; `point` relative to the
+/// particle [m].
 bool keeps_above(const Contact& face, const Vec3f& point, const Contact& contact) {
   const float slack = flush_share * contact.thickness;
   const float height = dot(face.normal, point) + distance_of(face);
@@ -45,7 +47,9 @@ bool keeps_above(const Contact& face, const Vec3f& point, const Contact& contact
 
 FlushContacts::OnMesh FlushContacts::on_mesh(const Contact& contact) const {
   OnMesh side;
-  const auto body_of = [&](std::int32_t vertex) { return model_.shared->vertex_body[static_cast<std::size_t>(vertex)]; };
+  const auto body_of = [&](std::int32_t vertex) {
+    return model_.shared->vertex_body[static_cast<std::size_t>(vertex)];
+  };
   const bool is_second = is_collider(contact.point[3]);
   if (body_of(contact.point[0]) == body_of(contact.point[3])) return side;
   if (!is_second && !is_collider(contact.point[0])) return side;
@@ -54,7 +58,8 @@ FlushContacts::OnMesh FlushContacts::on_mesh(const Contact& contact) const {
   return side;
 }
 
-/// The contact with a face that keeps a particle above the closest point of an oblique one, and is alike `other`; null: none.
+/// The contact with a face that keeps a particle above the closest point of an oblique one, and is alike `other`; null:
+/// none.
 const Contact* FlushContacts::face_under(std::int32_t particle, const Contact& contact, bool mesh_is_first,
                                          const Contact* other, const Record* positions,
                                          const std::vector<Contact>& contacts) const {

@@ -1,7 +1,7 @@
 // Contacts with edges and vertices of mesh colliders that do not rise above the triangles which their particles are on.
 //
-// Where two meshes are flush, or a mesh has a seam of split vertices, no triangle around a border has those beyond it. The
-// direction of a contact with the border, of what is still beside it, would be a ramp.
+// Where two meshes are flush, or a mesh has a seam of split vertices, no triangle around a border has those beyond it.
+// The direction of a contact with the border, of what is still beside it, would be a ramp.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@ class FlushContacts {
  public:
   explicit FlushContacts(const PairModel& model) : model_(model) {}
 
-  /// Removes contacts whose direction is oblique to those that the same particles have with faces of mesh colliders, and
-  /// whose closest point on the mesh is not above these faces. The contacts with the faces keep the particles above it.
-  /// Of the first `leading` ones as many are left as it returns.
+  /// Removes contacts whose direction is oblique to those that the same particles have with faces of mesh colliders,
+  /// and whose closest point on the mesh is not above these faces. The contacts with the faces keep the particles above
+  /// it. Of the first `leading` ones as many are left as it returns.
   std::size_t remove(const Record* positions, std::size_t leading, std::vector<Contact>& contacts);
 
  private:

@@ -30,8 +30,8 @@ void NearPoints::begin_substep(const Record* positions, int first, int last, flo
 }
 
 void NearPoints::keep_only(const std::vector<int>& colliders) {
-  std::erase_if(lists_,
-                [&](const List& list) { return !std::binary_search(colliders.begin(), colliders.end(), list.collider); });
+  std::erase_if(
+      lists_, [&](const List& list) { return !std::binary_search(colliders.begin(), colliders.end(), list.collider); });
 }
 
 void NearPoints::sort() {

@@ -1,7 +1,8 @@
 // The particles of a tile that are near solids which move, in lists that are kept while neither has moved much.
 //
-// A list has all particles that were in a box when it was made. It still has all those in a smaller box, if no particle has moved by
-// more than the gap between both boxes since. Callers test the smaller box, so lists do not change what they find.
+// A list has all particles that were in a box when it was made. It still has all those in a smaller box, if no particle
+// has moved by more than the gap between both boxes since. Callers test the smaller box, so lists do not change what
+// they find.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,8 @@ class NearPoints {
     std::vector<Known> known;          ///< of points
   };
 
-  /// Starts a substep of the particles [first, last) of an array, which have moved by up to `moved` since the last one [m]: lists are
-  /// forgotten if that is not finite. The array stays where it is until the next call.
+  /// Starts a substep of the particles [first, last) of an array, which have moved by up to `moved` since the last one
+  /// [m]: lists are forgotten if that is not finite. The array stays where it is until the next call.
   void begin_substep(const Record* positions, int first, int last, float moved);
   /// Forgets lists of other colliders than these, which ascend.
   void keep_only(const std::vector<int>& colliders);

@@ -30,7 +30,8 @@ inline bool is_impact(const Contact& contact) {
   return contact.push > 0 && contact.gap > 0 && contact.gap + contact.push > 0.5f * contact.thickness;
 }
 
-/// Removes an impact's remaining approach speed and returns it [m/s]. `missing`: gravity not yet in the velocities [m/s].
+/// Removes an impact's remaining approach speed and returns it [m/s]. `missing`: gravity not yet in the velocities
+/// [m/s].
 float end_impact(const Contact& contact, Record* velocities, const Vec3f& missing);
 
 /// Sets the relative normal velocity of an active contact according to restitution (separation_after).

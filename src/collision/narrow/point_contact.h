@@ -1,5 +1,5 @@
-// Contacts of particles with one primitive collider: what the scalar search and its SIMD kernel (solver/contact_lanes.cpp)
-// share.
+// Contacts of particles with one primitive collider: what the scalar search and its SIMD kernel
+// (solver/contact_lanes.cpp) share.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ inline constexpr float share_of_short_path = 0.25f;
 /// The distance from the surface at which a path hits it, over the thickness.
 inline constexpr float share_of_first_hit = 0.5f;
 
-/// True if a path longer than 1e-18 m stays farther than `margin` from a convex shape, with room for all roundings, so that
-/// first_hit finds nothing: the distance nowhere falls below that of the tangent plane at the path's end.
+/// True if a path longer than 1e-18 m stays farther than `margin` from a convex shape, with room for all roundings, so
+/// that first_hit finds nothing: the distance nowhere falls below that of the tangent plane at the path's end.
 template <class R>
 PLIANT_HD auto stays_beyond(const R& margin, const SurfaceDistance<R>& end, const Vec3<R>& to, const Vec3<R>& path) {
   const R rounded = R(1e-5f) * (largest(to) + largest(path) + margin);
@@ -59,7 +59,8 @@ struct PointContact {
 /// The contact of a particle at `position` with a plane of a collider, whose pose changes in the substep if it `moves`.
 template <class R>
 PLIANT_HD PointContact<R> contact_at_plane(const SurfacePlane<R>& plane, const Pose<R>& before, const Pose<R>& after,
-                                           bool moves, const Vec3<R>& position, const Vec3<R>& velocity, float inverse_h) {
+                                           bool moves, const Vec3<R>& position, const Vec3<R>& velocity,
+                                           float inverse_h) {
   PointContact<R> out;
   out.normal = rotate(after.rotation, plane.normal);
   // The plane in world coordinates: the same point, and the same height of the plane above it.

@@ -11,7 +11,8 @@ namespace pliant {
 
 namespace {
 
-/// Activation distance over the thickness. It exceeds 1, since other contacts may push a point nearer within the substep.
+/// Activation distance over the thickness. It exceeds 1, since other contacts may push a point nearer within the
+/// substep.
 constexpr float reach_over_thickness = 1.25f;
 /// Packets of the BVH per task.
 constexpr int packets_a_task = 32;
@@ -75,8 +76,8 @@ bool find_point_contact(int i, int j, const PairMaterial& material, const PairPa
   return true;
 }
 
-bool find_line_contact(int i, const std::array<int, 2>& line, const PairMaterial& material, const PairParticles& particles,
-                       Contact& contact) {
+bool find_line_contact(int i, const std::array<int, 2>& line, const PairMaterial& material,
+                       const PairParticles& particles, Contact& contact) {
   const Record &p = particles.positions[i], &a = particles.positions[line[0]], &b = particles.positions[line[1]];
   if (!(p.w + a.w + b.w > 0)) return false;
   const Vec3f along = xyz(b) - xyz(a), from = xyz(p) - xyz(a);

@@ -1,5 +1,5 @@
-// Contacts of free particles with one another and with lines (ropes): spheres and capsules with the radius of their thickness, found by
-// swept boxes.
+// Contacts of free particles with one another and with lines (ropes): spheres and capsules with the radius of their
+// thickness, found by swept boxes.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@
 
 namespace pliant {
 
-/// The contact of points `i` and `j` of the State; false if their relative path stays clear. The normal is taken where the
-/// distance first reaches the thickness, so that a fast point that passes by is not stopped.
+/// The contact of points `i` and `j` of the State; false if their relative path stays clear. The normal is taken where
+/// the distance first reaches the thickness, so that a fast point that passes by is not stopped.
 bool find_point_contact(int i, int j, const PairMaterial& material, const PairParticles& particles, Contact& contact);
 
-/// The contact of point `i` with the line between points `a` and `b`, at the place that is nearest at the substep's start; false if
-/// their relative path stays clear.
-bool find_line_contact(int i, const std::array<int, 2>& line, const PairMaterial& material, const PairParticles& particles,
-                       Contact& contact);
+/// The contact of point `i` with the line between points `a` and `b`, at the place that is nearest at the substep's
+/// start; false if their relative path stays clear.
+bool find_line_contact(int i, const std::array<int, 2>& line, const PairMaterial& material,
+                       const PairParticles& particles, Contact& contact);
 
 class PointContacts {
  public:

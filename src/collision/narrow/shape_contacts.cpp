@@ -18,7 +18,8 @@ Quad least(const Quad& a, const Quad& b) { return a < b ? a : b; }
 Quad most(const Quad& a, const Quad& b) { return a > b ? a : b; }
 Quad quad(const Vec3f& v) { return Quad{v.x, v.y, v.z, 0}; }
 
-/// A particle's position and predicted displacement, from velocities: constraints may have changed displacements already.
+/// A particle's position and predicted displacement, from velocities: constraints may have changed displacements
+/// already.
 struct Prediction {
   Quad position, displacement;
   Prediction(const AdvanceArguments& a, const Quad& gravity, int i) : position(load_quad(&a.positions[i])) {
@@ -241,9 +242,10 @@ void ShapeContacts::detect_tile(const ShapeContactSearch& search, int task, cons
     const float shortest = shortest_dipping(collider.shape, thickness);
     for (std::size_t k = 0; k < tile.clusters.size(); ++k)
       if (frames.may_meet(scratch.boxes[k], thickness + scratch.paths[k]))
-        find_cluster_contacts({object, particles, search.model.first[static_cast<std::size_t>(of.object)], tile.clusters[k],
-                               scratch.ways, collider, static_cast<int>(c), material, thickness, shortest},
-                              frames, scratch);
+        find_cluster_contacts(
+            {object, particles, search.model.first[static_cast<std::size_t>(of.object)], tile.clusters[k], scratch.ways,
+             collider, static_cast<int>(c), material, thickness, shortest},
+            frames, scratch);
   }
 }
 
@@ -252,7 +254,9 @@ void ShapeContacts::detect(Executor& executor, const ShapeContactSearch& search,
   const auto has_elements = [](const ShapeElements& elements) { return !elements.tiles.empty(); };
   if (std::none_of(elements_.begin(), elements_.end(), has_elements)) return;
   const std::size_t tasks = search.tasks == nullptr ? scratch_.size() : search.tasks->size();
-  const auto task_of = [&](std::size_t i) { return search.tasks == nullptr ? static_cast<int>(i) : (*search.tasks)[i]; };
+  const auto task_of = [&](std::size_t i) {
+    return search.tasks == nullptr ? static_cast<int>(i) : (*search.tasks)[i];
+  };
   executor.parallel_for("detect contacts", static_cast<int>(tasks), [&](int i) {
     const auto of = static_cast<std::size_t>(i);
     detect_tile(search, task_of(of), search.near_colliders == nullptr ? nullptr : (*search.near_colliders)[of]);

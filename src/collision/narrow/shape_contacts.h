@@ -1,5 +1,5 @@
-// Contacts of edges and triangles with spheres, capsules and boxes, so that edges do not cut corners and small spheres do
-// not pass through triangles. Vertex contacts come from contact.h; planes need only those.
+// Contacts of edges and triangles with spheres, capsules and boxes, so that edges do not cut corners and small spheres
+// do not pass through triangles. Vertex contacts come from contact.h; planes need only those.
 //
 //   edge       contact at its closest point, with weights 1 - t, t
 //   triangle   contact at the centre of a sphere, the ends of a capsule's axis, or the corners of a box
@@ -24,8 +24,9 @@ struct ShapeContactSearch {
   const Model& model;
   const std::vector<MovingCollider>& colliders;
   FunctionRef<AdvanceArguments(int task)> particles;  ///< the particles of a task's tile
-  FunctionRef<const PointBounds&(int task)> bounds;  ///< encloses the tile's particles at the substep's start and predicted
-  const std::vector<int>* tasks = nullptr;           ///< tasks whose tiles take part, ascending; null: all
+  FunctionRef<const PointBounds&(int task)>
+      bounds;                               ///< encloses the tile's particles at the substep's start and predicted
+  const std::vector<int>* tasks = nullptr;  ///< tasks whose tiles take part, ascending; null: all
   const std::vector<const std::vector<int>*>* near_colliders =
       nullptr;  ///< of each of `tasks` the colliders that may be near, ascending; null: all
 };
@@ -46,8 +47,8 @@ class ShapeContacts {
   /// The same for given shapes instead of the model's colliders.
   void prepare(const Model& model, int object, std::span<const LocalShape> shapes);
 
-  /// Finds the contacts of the substep, ordered by tile, then by collider. Searches of different tiles may run at the same
-  /// time.
+  /// Finds the contacts of the substep, ordered by tile, then by collider. Searches of different tiles may run at the
+  /// same time.
   void detect(Executor& executor, const ShapeContactSearch& search, std::vector<Contact>& found);
 
  private:

@@ -100,7 +100,8 @@ float nearest_end(const Segment3& segment) { return min(segment.at_a.distance, s
 
 /// Returns false if the tangent planes at both ends prove that the interior of an edge is not closer than the ends.
 bool may_dip(const Segment3& segment, float thickness) {
-  return segment.dips() && nearest_end(segment) - segment.lower_bound() > least_dip(0.5f * length(segment.edge), thickness);
+  return segment.dips() &&
+         nearest_end(segment) - segment.lower_bound() > least_dip(0.5f * length(segment.edge), thickness);
 }
 
 /// The time, as a share of the substep, at which an edge is tested; < 0 if the edge needs no contact.
@@ -156,12 +157,14 @@ struct Face {
 
   float nearest_vertex(float s) const {
     float nearest = signed_distance(m.collider.shape, ways[0].at(s)).distance;
-    for (std::size_t i = 1; i < 3; ++i) nearest = min(nearest, signed_distance(m.collider.shape, ways[i].at(s)).distance);
+    for (std::size_t i = 1; i < 3; ++i)
+      nearest = min(nearest, signed_distance(m.collider.shape, ways[i].at(s)).distance);
     return nearest;
   }
 };
 
-void find_face_contact(const Face& face, const std::array<int, 3>& triangle, float path, std::vector<Contact>& contacts) {
+void find_face_contact(const Face& face, const std::array<int, 3>& triangle, float path,
+                       std::vector<Contact>& contacts) {
   const Meeting& m = face.m;
   if (face.at(0).distance > m.thickness + path) return;
   const float s = time_of_contact([&](float share) { return face.at(share).distance; }, path, m.thickness);

@@ -9,7 +9,8 @@
 
 namespace pliant {
 
-/// The path of a vertex in a collider's frame, from the substep's start to the prediction, as two groups of four floats.
+/// The path of a vertex in a collider's frame, from the substep's start to the prediction, as two groups of four
+/// floats.
 struct VertexWay {
   Vec3f from;
   float unused = 0;

@@ -8,7 +8,8 @@ namespace pliant {
 
 namespace {
 
-/// Objects that stretch by up to 5 % need no contacts of edges and triangles if vertex contacts suffice at this stretch.
+/// Objects that stretch by up to 5 % need no contacts of edges and triangles if vertex contacts suffice at this
+/// stretch.
 constexpr float stretched = 1.05f;
 constexpr std::size_t vertices_in_a_cluster = 32;
 
@@ -89,7 +90,8 @@ void sort_out(std::vector<int>& list) {
 ElementCluster make_cluster(const ElementLists& lists) {
   ElementCluster out;
   for (const auto& edge : lists.edges) out.vertices.insert(out.vertices.end(), edge.begin(), edge.end());
-  for (const auto& triangle : lists.triangles) out.vertices.insert(out.vertices.end(), triangle.begin(), triangle.end());
+  for (const auto& triangle : lists.triangles)
+    out.vertices.insert(out.vertices.end(), triangle.begin(), triangle.end());
   sort_out(out.vertices);
   const auto place = [&](int vertex) {
     return static_cast<int>(std::lower_bound(out.vertices.begin(), out.vertices.end(), vertex) - out.vertices.begin());
@@ -100,7 +102,8 @@ ElementCluster make_cluster(const ElementLists& lists) {
 }
 
 /// Makes the clusters of a tile; `cluster_of` is scratch memory with an entry for each particle of the object.
-TileElements make_tile(const CompiledObject& object, int number, const ElementLists& lists, std::vector<int>& cluster_of) {
+TileElements make_tile(const CompiledObject& object, int number, const ElementLists& lists,
+                       std::vector<int>& cluster_of) {
   std::vector<int> lowest;
   for (const auto& edge : lists.edges) lowest.push_back(edge[0]);
   for (const auto& t : lists.triangles) lowest.push_back(*std::min_element(t.begin(), t.end()));

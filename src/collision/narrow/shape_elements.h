@@ -14,7 +14,8 @@ namespace pliant {
 /// `radius` is that of a circle around the element [m].
 inline float least_dip(float radius, float thickness) { return max(0.5f * thickness, 0.03125f * radius); }
 
-/// About thirty neighbouring vertices, the elements whose lowest vertex is one of them, and those elements' other vertices.
+/// About thirty neighbouring vertices, the elements whose lowest vertex is one of them, and those elements' other
+/// vertices.
 struct ElementCluster {
   std::vector<int> vertices;              ///< indices of vertices in the object, ascending
   std::vector<std::array<int, 2>> edges;  ///< edges as indices into `vertices`

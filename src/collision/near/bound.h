@@ -13,11 +13,11 @@
 //   clusters       are paired again   when one has travelled as far as its box was grown (ClusterMotions)
 //
 // The odometer counts the residual motion, after the rigid motion of the clusters is removed. Points p and q that move
-// rigidly, to p + m + w x p and q + m + w x q, come no nearer: |p - q + w x (p - q)| >= |p - q|. So cloth in rigid motion
-// costs nothing. For straight paths this is exact, without a second-order error.
+// rigidly, to p + m + w x p and q + m + w x q, come no nearer: |p - q + w x (p - q)| >= |p - q|. So cloth in rigid
+// motion costs nothing. For straight paths this is exact, without a second-order error.
 //
-// Bounds only save work. Every decision about a pair uses its own distance and path in this substep. So a restored State
-// gives the same bits whatever the bounds were.
+// Bounds only save work. Every decision about a pair uses its own distance and path in this substep. So a restored
+// State gives the same bits whatever the bounds were.
 #pragma once
 
 #include "math/vector.h"

@@ -6,7 +6,8 @@ namespace pliant {
 
 namespace {
 
-/// Returns the least or largest of sixteen numbers. It halves the list repeatedly, which compilers do in SIMD registers.
+/// Returns the least or largest of sixteen numbers. It halves the list repeatedly, which compilers do in SIMD
+/// registers.
 template <class Extreme>
 float extreme_of_sixteen(const float* values, const Extreme& extreme) {
   float eight[8], four[4];
@@ -60,8 +61,8 @@ void BoxSearch::fit_cluster(int kind, int cluster, const Vec3f& drift, const Pai
   const ClusterElements& of = layout_.elements[kind];
   Boxes& boxes = boxes_[kind];
   const int first = of.start[cluster], last = of.end(cluster);
-  kernels_.fit_boxes({{of.corner[0].data(), of.corner[1].data(), of.corner[2].data()}, of.corners}, first, last, particles,
-                     drift, boxes.rows());
+  kernels_.fit_boxes({{of.corner[0].data(), of.corner[1].data(), of.corner[2].data()}, of.corners}, first, last,
+                     particles, drift, boxes.rows());
   for (int i = first; i < last; i += 16) boxes.batch[i / 16] = boxes.around_sixteen(i);
   for (int k = 0; k < 6; ++k)  // padding boxes must overlap no other box
     std::fill(boxes.side[k].begin() + first + of.count[cluster], boxes.side[k].begin() + last, k < 3 ? 3e38f : -3e38f);
@@ -83,10 +84,10 @@ void BoxSearch::find(const ClusterSides& sides, const BoxBounds& far, float reac
       if (overlap(own, column_boxes.batch[b])) scratch.batches.push_back(b);
     if (scratch.batches.empty()) continue;
     scratch.hits.resize(std::max(scratch.hits.size(), 256 * scratch.batches.size()));
-    const int count =
-        kernels_.find_overlaps({row_boxes.rows(), 16 * sixteen, reach, far_box, column_boxes.rows(), scratch.batches.data(),
-                                static_cast<int>(scratch.batches.size()), rows.left_out.data(), rows.left_out_start.data()},
-                               scratch.hits.data());
+    const int count = kernels_.find_overlaps(
+        {row_boxes.rows(), 16 * sixteen, reach, far_box, column_boxes.rows(), scratch.batches.data(),
+         static_cast<int>(scratch.batches.size()), rows.left_out.data(), rows.left_out_start.data()},
+        scratch.hits.data());
     add_pairs({rows, columns, sides.of_vertices, once}, scratch.hits.data(), count, scratch);
   }
   pad(scratch);

@@ -30,12 +30,13 @@ class BoxSearch {
   struct Scratch {
     std::vector<std::int32_t> batches;
     std::vector<BoxHit> hits;
-    AlignedVector<PairStencils> blocks;  ///< the pairs found, sixteen a block; unused lanes of the last one repeat a pair
-    int found = 0;                       ///< number of pairs found
+    AlignedVector<PairStencils>
+        blocks;     ///< the pairs found, sixteen a block; unused lanes of the last one repeat a pair
+    int found = 0;  ///< number of pairs found
     std::vector<Kept> kept;
   };
-  /// Writes to scratch.blocks the pairs whose boxes come within `reach` [m], except static pairs and pairs with a common
-  /// vertex. `far` encloses the second cluster.
+  /// Writes to scratch.blocks the pairs whose boxes come within `reach` [m], except static pairs and pairs with a
+  /// common vertex. `far` encloses the second cluster.
   void find(const ClusterSides& sides, const BoxBounds& far, float reach, Scratch& scratch);
 
  private:

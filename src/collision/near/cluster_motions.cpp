@@ -32,7 +32,8 @@ bool ClusterMotions::measure(Executor& executor, const ClusterLayout& layout, co
       kernels_.measure_cluster(layout.vertices.data() + layout.vertex_start[c], count, particles, motions_[c]);
   });
   find_means(order);
-  return std::all_of(order.begin(), order.end(), [&](int c) { return motions_[static_cast<std::size_t>(c)].is_bounded; });
+  return std::all_of(order.begin(), order.end(),
+                     [&](int c) { return motions_[static_cast<std::size_t>(c)].is_bounded; });
 }
 
 void ClusterMotions::find_means(const std::vector<int>& order) {

@@ -18,16 +18,16 @@ class ClusterMotions {
   /// Discards the motion of a cluster that was removed or is new.
   void reset(int cluster);
 
-  /// Measures the motion of all clusters in this substep. Returns true if all end positions are finite and below 1e14 m.
-  /// `order` lists all clusters in use.
+  /// Measures the motion of all clusters in this substep. Returns true if all end positions are finite and below 1e14
+  /// m. `order` lists all clusters in use.
   bool measure(Executor& executor, const ClusterLayout& layout, const std::vector<int>& order,
                const PairParticles& particles);
   /// Adds the measured motion to the distance travelled; call it after the substep. `order` lists all clusters in use.
   void advance(const std::vector<int>& order);
 
   const ClusterMotion& operator[](int cluster) const { return motions_[static_cast<std::size_t>(cluster)]; }
-  /// The mean displacement of all dynamic vertices of the cluster's set [m]. Swept boxes are computed in a frame that moves
-  /// with it. It is that of the set, so that others, which the set cannot meet, change none of its bits.
+  /// The mean displacement of all dynamic vertices of the cluster's set [m]. Swept boxes are computed in a frame that
+  /// moves with it. It is that of the set, so that others, which the set cannot meet, change none of its bits.
   const Vec3f& mean(int cluster) const { return means_[static_cast<std::size_t>(model_.set_of_cluster(cluster))]; }
   /// The box that a cluster sweeps in this substep, in the frame that moves with mean(cluster).
   BoxBounds path_box(int cluster) const;
@@ -55,7 +55,8 @@ class ClusterMotions {
   const PairModel& model_;
   const PairKernels& kernels_;
   std::vector<ClusterMotion> motions_;
-  std::vector<float> travel_;  ///< distance that each cluster has travelled relative to mean(), since begin_travel() [m]
+  std::vector<float>
+      travel_;  ///< distance that each cluster has travelled relative to mean(), since begin_travel() [m]
   std::vector<float> extent_;
   std::vector<Sum> sums_;     ///< scratch memory of find_means
   std::vector<Vec3f> means_;  ///< for each set

@@ -17,7 +17,8 @@ constexpr float travel_over_radius = 2;
 /// Two positions in an order of clusters.
 using Places = std::array<int, 2>;
 
-/// Sorts pairs of places below `places`, and drops duplicates. Two stable counting sorts are faster than a comparison sort.
+/// Sorts pairs of places below `places`, and drops duplicates. Two stable counting sorts are faster than a comparison
+/// sort.
 void sort_unique(std::vector<Places>& pairs, std::size_t places) {
   std::vector<Places> sorted(pairs.size());
   std::vector<int> next;
@@ -25,7 +26,8 @@ void sort_unique(std::vector<Places>& pairs, std::size_t places) {
     next.assign(places + 1, 0);
     for (const Places& pair : pairs) ++next[static_cast<std::size_t>(pair[side]) + 1];
     std::partial_sum(next.begin(), next.end(), next.begin());
-    for (const Places& pair : pairs) sorted[static_cast<std::size_t>(next[static_cast<std::size_t>(pair[side])]++)] = pair;
+    for (const Places& pair : pairs)
+      sorted[static_cast<std::size_t>(next[static_cast<std::size_t>(pair[side])]++)] = pair;
     pairs.swap(sorted);
   }
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -84,7 +86,8 @@ std::vector<int> ClusterPairs::find(const ClusterMotions& motions, const std::ve
   };
   for (int i = 0; i < static_cast<int>(order.size()); ++i) add(i, i);
   tree_.self_pairs(add);
-  for (const StaticGroup& group : groups) add(static_cast<int>(rank_[group.first]), static_cast<int>(rank_[group.second]));
+  for (const StaticGroup& group : groups)
+    add(static_cast<int>(rank_[group.first]), static_cast<int>(rank_[group.second]));
   sort_unique(found, order.size());
   pairs_.clear();
   for (const auto& [a, b] : found) pairs_.push_back(make({order[a], order[b]}));

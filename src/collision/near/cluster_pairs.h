@@ -37,8 +37,8 @@ class ClusterPairs {
  public:
   explicit ClusterPairs(const PairModel& model) : model_(model) {}
 
-  /// Finds all pairs of clusters that can come within the radius before one travels travel(), and the pairs of all groups.
-  /// Returns the index of each group's pair.
+  /// Finds all pairs of clusters that can come within the radius before one travels travel(), and the pairs of all
+  /// groups. Returns the index of each group's pair.
   std::vector<int> find(const ClusterMotions& motions, const std::vector<StaticGroup>& groups);
   /// Finds the pairs of new clusters with each other and with old ones, and those of groups that have no pair. Returns
   /// the indices of the pairs found. Old clusters may have travelled up to travel() already.
@@ -66,7 +66,8 @@ class ClusterPairs {
   using Clusters = std::pair<int, int>;
   /// A sort key of a pair: the ranks of its two clusters.
   std::uint64_t key_of(const Clusters& pair) const {
-    return std::uint64_t{rank_[static_cast<std::size_t>(pair.first)]} << 32 | rank_[static_cast<std::size_t>(pair.second)];
+    return std::uint64_t{rank_[static_cast<std::size_t>(pair.first)]} << 32 |
+           rank_[static_cast<std::size_t>(pair.second)];
   }
   void add_if_they_meet(int a, int b, std::vector<Clusters>& to) const;
   void sort(std::vector<Clusters>& pairs) const;

@@ -17,7 +17,8 @@ void NearLists::change(const PairChanges& changes) {
   remove(changes.removed, changes.clusters);
   resize();
   add(changes.added);
-  must_pair_ = must_pair_ || changes.radius || most_new_clusters * new_clusters_.size() > near_.model.cluster_order.size();
+  must_pair_ =
+      must_pair_ || changes.radius || most_new_clusters * new_clusters_.size() > near_.model.cluster_order.size();
   cut_into_tasks();
 }
 

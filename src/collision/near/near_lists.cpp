@@ -12,7 +12,8 @@ namespace pliant {
 namespace {
 
 constexpr int lists_in_a_task = 64;
-/// The skin of a list, over the search radius minus the thickness. A larger skin makes longer lists, but fewer searches.
+/// The skin of a list, over the search radius minus the thickness. A larger skin makes longer lists, but fewer
+/// searches.
 constexpr float skin_share = 1.5f;
 /// In skins: clearances are queried up to this far beyond the activation distance; smaller ones than this do not pay.
 constexpr float most_skins = 1.25f, fewest_skins = 0.2f;
@@ -26,8 +27,8 @@ float distance_between(const BoxBounds& a, const BoxBounds& b) {
 /// The intervals of distance by which the pairs of a list are sorted.
 constexpr int intervals = 32;
 
-/// Sets the number of pairs of an empty list. Sizes are exact where they grow: the growth capacity of vectors would nearly
-/// double the memory of contact.
+/// Sets the number of pairs of an empty list. Sizes are exact where they grow: the growth capacity of vectors would
+/// nearly double the memory of contact.
 void make_blocks(NearList& list, std::size_t pairs) {
   const std::size_t blocks = (pairs + 15) / 16;
   list.pairs = static_cast<int>(pairs);
@@ -187,9 +188,10 @@ bool NearLists::is_clear(NearList& list) const {
   const ClusterPair& pair = near_.pair_of(list);
   const float clearance = clearance_.of(list);
   const bool is_asked = clearance >= 0;
-  const float apart = is_asked ? clearance
-                               : distance_between(near_.motions.path_box(list.first), near_.motions.path_box(list.second)) *
-                                     (1 - 1e-5f),
+  const float apart = is_asked
+                          ? clearance
+                          : distance_between(near_.motions.path_box(list.first), near_.motions.path_box(list.second)) *
+                                (1 - 1e-5f),
               least = is_asked ? max(fewest_skins * skin(), 1.1f * pair.odometer.next) : skin() * bound_slack,
               room = apart - activation_distance(near_, list);
   if (!(room > least)) return false;
@@ -218,9 +220,11 @@ void NearLists::refresh(NearList& list, BoxSearch::Scratch& scratch, const PairP
   keep_near(list, activation + max(margin, 1.1f * odometer.next), scratch, particles);
 }
 
-/// Measures the pairs found and makes the list's blocks of those nearer than `within`, nearest first: sorted by counting
-/// into intervals of distance. Which ones are kept is unpredictable, so each is written, and the next one overwrites it.
-void NearLists::keep_near(NearList& list, float within, BoxSearch::Scratch& scratch, const PairParticles& particles) const {
+/// Measures the pairs found and makes the list's blocks of those nearer than `within`, nearest first: sorted by
+/// counting into intervals of distance. Which ones are kept is unpredictable, so each is written, and the next one
+/// overwrites it.
+void NearLists::keep_near(NearList& list, float within, BoxSearch::Scratch& scratch,
+                          const PairParticles& particles) const {
   const auto found = static_cast<std::size_t>(scratch.found);
   if (scratch.kept.size() <= found) scratch.kept.resize(2 * found + 1);
   const float scale = intervals / within;

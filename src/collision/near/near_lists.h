@@ -1,7 +1,7 @@
 // Keeps near lists (neighbour lists of primitives) up to date.
 //
-// A list is rebuilt on use, when the odometer of its two clusters has exhausted its skin. If the clearance or the cluster
-// boxes prove that nothing is near, the list stays empty and no primitive is tested.
+// A list is rebuilt on use, when the odometer of its two clusters has exhausted its skin. If the clearance or the
+// cluster boxes prove that nothing is near, the list stays empty and no primitive is tested.
 #pragma once
 
 #include <cstdint>

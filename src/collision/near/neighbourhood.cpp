@@ -15,7 +15,8 @@ float activation_distance(const Neighbourhood& near, const ClusterSides& sides) 
              2 * max(filter_margin(near, sides), least_margin_roundings * one_rounding * extent));
 }
 
-void find_paths(const Neighbourhood& near, const ClusterSides& sides, const PairParticles& particles, PairLanes& lanes) {
+void find_paths(const Neighbourhood& near, const ClusterSides& sides, const PairParticles& particles,
+                PairLanes& lanes) {
   unsigned swapped = 0;
   if (sides.first != sides.second)
     for (int lane = 0; lane < 16; ++lane)

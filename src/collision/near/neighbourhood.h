@@ -23,8 +23,8 @@ struct NearBlock {
   std::array<std::int32_t, 16> rank;  ///< position in the order of contacts, ascending by row and column of the search
 };
 
-/// The near pairs of two clusters. The list contains all near pairs until motion exceeds the bound `complete`. Blocks hold
-/// pairs of similar distance, so that far blocks are skipped whole.
+/// The near pairs of two clusters. The list contains all near pairs until motion exceeds the bound `complete`. Blocks
+/// hold pairs of similar distance, so that far blocks are skipped whole.
 struct NearList : ClusterSides {
   Bound complete{-1, 0};
   Bound least{0, 0};  ///< smallest distance bound of all blocks
@@ -51,10 +51,12 @@ struct Neighbourhood {
   ClusterPairs pairs;
   StaticPairs static_pairs;
   std::vector<NearList> lists;
-  std::vector<std::int32_t> order;  ///< indices of lists in use: vertex-triangle lists, then edge-edge lists, by clusters
+  std::vector<std::int32_t>
+      order;  ///< indices of lists in use: vertex-triangle lists, then edge-edge lists, by clusters
   std::vector<NearTask> tasks;
 
-  Neighbourhood(const PairModel& of, const PairKernels& with) : model(of), kernels(with), motions(of, with), pairs(of) {}
+  Neighbourhood(const PairModel& of, const PairKernels& with)
+      : model(of), kernels(with), motions(of, with), pairs(of) {}
 
   const ClusterPair& pair_of(const ClusterSides& sides) const { return pairs[sides.pair]; }
   const Odometer& odometer(const ClusterSides& sides) const { return pair_of(sides).odometer; }
@@ -75,12 +77,12 @@ struct PairLanes {
 /// Lower limit of the filter's margin, in roundings of the positions.
 inline constexpr float least_margin_roundings = 32;
 
-/// True if the cluster is so far from the origin that position rounding reaches its edge length. Contact and filter skip
-/// it, because every pair of its edges would be within the filter's margin.
+/// True if the cluster is so far from the origin that position rounding reaches its edge length. Contact and filter
+/// skip it, because every pair of its edges would be within the filter's margin.
 inline bool is_too_far(const Neighbourhood& near, int cluster) {
   const std::vector<float>& coarsest = near.model.coarsest;
-  return !coarsest.empty() &&
-         least_margin_roundings * one_rounding * near.motions[cluster].extent > coarsest[static_cast<std::size_t>(cluster)];
+  return !coarsest.empty() && least_margin_roundings * one_rounding * near.motions[cluster].extent >
+                                  coarsest[static_cast<std::size_t>(cluster)];
 }
 inline bool is_too_far(const Neighbourhood& near, const ClusterSides& sides) {
   return is_too_far(near, sides.first) || is_too_far(near, sides.second);
@@ -90,7 +92,8 @@ inline bool is_too_far(const Neighbourhood& near, const ClusterSides& sides) {
 inline float filter_margin(const Neighbourhood& near, const ClusterSides& sides) {
   constexpr float share_of_thickness = 0.05f;
   const float extent = max(near.motions[sides.first].extent, near.motions[sides.second].extent);
-  return max(share_of_thickness * near.pair_of(sides).material.thickness, least_margin_roundings * one_rounding * extent);
+  return max(share_of_thickness * near.pair_of(sides).material.thickness,
+             least_margin_roundings * one_rounding * extent);
 }
 
 /// The distance below which a pair is processed for contacts or the filter [m]. It allows for rounding until a cluster

@@ -46,7 +46,8 @@ struct Dealt {
   auto end(int row) { return second.begin() + start[static_cast<std::size_t>(row) + 1]; }
 };
 
-/// Sorts pairs whose first indices are in `rows`, and drops duplicates. Lists of a row are short, so this beats one sort.
+/// Sorts pairs whose first indices are in `rows`, and drops duplicates. Lists of a row are short, so this beats one
+/// sort.
 void sort_unique(std::vector<Numbers>& list, const Block& rows) {
   Dealt dealt(list, rows);
   list.clear();
@@ -113,7 +114,8 @@ MeshPairs find_mesh_pairs(const PairModel& model, int body) {
   return out;
 }
 
-/// For each primitive of a body its row or column in the SIMD layout, -1 if it has none; indexed from the block's first.
+/// For each primitive of a body its row or column in the SIMD layout, -1 if it has none; indexed from the block's
+/// first.
 std::vector<std::int32_t> places_of(const ClusterElements& of, const Block& clusters, const Block& items) {
   std::vector<std::int32_t> at(static_cast<std::size_t>(items.size), -1);
   for (int c = clusters.first; c < clusters.end(); ++c)
@@ -151,7 +153,8 @@ void leave_out(ClusterLayout& layout, const PairModel& model, int body, bool of_
   for (int row = block.first; row < block.end(); ++row) rows.left_out_start[row] += first;
 }
 
-/// Appends a group of static pairs in blocks of sixteen, nearest at rest first, so that often measured pairs share blocks.
+/// Appends a group of static pairs in blocks of sixteen, nearest at rest first, so that often measured pairs share
+/// blocks.
 void add_group(StaticGroup group, const std::vector<PairStencil>& pairs, const PairModel& model,
                std::vector<StaticGroup>& to) {
   std::vector<std::pair<double, std::size_t>> order;
@@ -169,7 +172,8 @@ void add_group(StaticGroup group, const std::vector<PairStencil>& pairs, const P
 }
 
 /// Sorts static pairs into one group for each two clusters.
-void add_groups(const PairModel& model, bool of_vertices, const std::vector<Numbers>& pairs, std::vector<StaticGroup>& to) {
+void add_groups(const PairModel& model, bool of_vertices, const std::vector<Numbers>& pairs,
+                std::vector<StaticGroup>& to) {
   struct Placed {
     int first, second;
     PairStencil four;
@@ -185,7 +189,8 @@ void add_groups(const PairModel& model, bool of_vertices, const std::vector<Numb
   const auto is_before = [](const Placed& x, const Placed& y) {
     return std::tie(x.first, x.second) < std::tie(y.first, y.second);
   };
-  if (!std::is_sorted(placed.begin(), placed.end(), is_before)) std::stable_sort(placed.begin(), placed.end(), is_before);
+  if (!std::is_sorted(placed.begin(), placed.end(), is_before))
+    std::stable_sort(placed.begin(), placed.end(), is_before);
   std::vector<PairStencil> together;
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const Placed& p = placed[i];

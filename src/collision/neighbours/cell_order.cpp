@@ -79,7 +79,8 @@ void CellOrder::find_cells(Executor& executor, std::span<const Record> points) {
   least_ = boxes_.front().least;
   most_ = boxes_.front().most;
   for (const auto& [least, most] : boxes_) {
-    least_ = {std::min(least_.column, least.column), std::min(least_.layer, least.layer), std::min(least_.row, least.row)};
+    least_ = {std::min(least_.column, least.column), std::min(least_.layer, least.layer),
+              std::min(least_.row, least.row)};
     most_ = {std::max(most_.column, most.column), std::max(most_.layer, most.layer), std::max(most_.row, most.row)};
   }
   column_bits_ = bits_for(most_.column - least_.column);
@@ -196,7 +197,8 @@ std::int32_t CellOrder::first_at(const Row& row, std::int32_t column) const {
   if (behind <= 0) return row.first;
   if (behind > row.extent) return row.last;
   if (row.starts >= 0) return starts_[at(row.starts + behind)];
-  const std::uint64_t wanted = (keys_[at(row.first)] >> column_bits_) << column_bits_ | static_cast<std::uint64_t>(column);
+  const std::uint64_t wanted =
+      (keys_[at(row.first)] >> column_bits_) << column_bits_ | static_cast<std::uint64_t>(column);
   const auto first = keys_.begin() + row.first, last = keys_.begin() + row.last;
   return static_cast<std::int32_t>(std::lower_bound(first, last, wanted) - keys_.begin());
 }

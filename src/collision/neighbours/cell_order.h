@@ -1,8 +1,8 @@
 // Points in the order of the cells of a grid, so that points that are close in space are close in memory.
 //
-// Cells are rows along x, one behind another along z, in layers along y. Every other row and every other layer runs backwards, so
-// consecutive cells touch, and sixteen consecutive points of a liquid lie together. Only cells that have points are stored: memory
-// and time do not depend on how far apart points are.
+// Cells are rows along x, one behind another along z, in layers along y. Every other row and every other layer runs
+// backwards, so consecutive cells touch, and sixteen consecutive points of a liquid lie together. Only cells that have
+// points are stored: memory and time do not depend on how far apart points are.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ namespace pliant {
 
 class CellOrder {
  public:
-  /// Sorts points by cells of the given size [m], on all threads. Points of a cell keep their order. Coordinates that are not finite count
-  /// as far away.
+  /// Sorts points by cells of the given size [m], on all threads. Points of a cell keep their order. Coordinates that
+  /// are not finite count as far away.
   void sort(Executor& executor, std::span<const Record> points, float cell);
 
   /// For each slot, in the order of cells, the index of its point.

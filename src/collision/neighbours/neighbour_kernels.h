@@ -1,5 +1,5 @@
-// The inner loop of the search for neighbours, one table for each instruction set level as in solver/kernels.h. Lists are whole
-// numbers in ascending order, so all tables give the same.
+// The inner loop of the search for neighbours, one table for each instruction set level as in solver/kernels.h. Lists
+// are whole numbers in ascending order, so all tables give the same.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,8 @@ struct NeighbourScratch {
 struct NeighbourKernels {
   /// Appends to `found` and `count` from lane `lane` on.
   void (*find)(const NeighbourQuery& query, int lane, NeighbourScratch& scratch);
-  /// Writes the k-th neighbours of all lanes side by side, for k below `rows`, and up to three rows more. Short lists end in `nobody`.
+  /// Writes the k-th neighbours of all lanes side by side, for k below `rows`, and up to three rows more. Short lists
+  /// end in `nobody`.
   void (*write_rows)(NeighbourScratch& scratch, std::int32_t nobody, int rows, std::int32_t* to);
 };
 

@@ -1,7 +1,8 @@
-// The search for neighbours in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
+// The search for neighbours in sixteen SIMD lanes, compiled per instruction set level under the rules of
+// solver/lanes.cpp.
 //
-// Slots that lie together share their candidates: the points near the box around them, packed one behind another. Each slot is then
-// compared with a register of candidates at a time, and those that are near are packed onto its list.
+// Slots that lie together share their candidates: the points near the box around them, packed one behind another. Each
+// slot is then compared with a register of candidates at a time, and those that are near are packed onto its list.
 #include "collision/neighbours/neighbour_kernels.h"
 #include "math/pack_lanes.h"
 #include "math/vector.h"
@@ -14,7 +15,8 @@ namespace {
 /// Appends the candidates that are near to the lists of the query's slots.
 PLIANT_HD void compare(const NeighbourQuery& q, int candidates, int lane, NeighbourScratch& s) {
   const Part nowhere = all_lanes(__builtin_nanf(""));
-  std::memcpy(s.x + candidates, &nowhere, sizeof nowhere);  // the last register is filled with places that are near to none
+  std::memcpy(s.x + candidates, &nowhere,
+              sizeof nowhere);  // the last register is filled with places that are near to none
   const Part reach2 = all_lanes(q.reach * q.reach);
   for (std::int32_t slot = q.first; slot < q.last; ++slot, ++lane) {
     const Part x = all_lanes(q.x[slot]), y = all_lanes(q.y[slot]), z = all_lanes(q.z[slot]);
@@ -69,7 +71,8 @@ void write_rows(NeighbourScratch& s, std::int32_t nobody, int rows, std::int32_t
   for (int lane = 0; lane < wide_width; ++lane)
     for (int k = s.count[lane]; k < rows; k += part_width) std::memcpy(s.found[lane] + k, &nobodies, sizeof nobodies);
   for (int k = 0; k < rows; k += 4) {
-    const WideRecords four = from_registers(load_indexed(reinterpret_cast<const Record*>(&s.found[0][0]) + k / 4, first));
+    const WideRecords four =
+        from_registers(load_indexed(reinterpret_cast<const Record*>(&s.found[0][0]) + k / 4, first));
     std::int32_t* const row = to + k * wide_width;
     std::memcpy(row, &four.position.x, sizeof(Wide));
     std::memcpy(row + wide_width, &four.position.y, sizeof(Wide));

@@ -77,8 +77,8 @@ void NeighbourLists::find_in_task(const NeighbourKernels& kernels, int number, N
   }
 }
 
-void NeighbourLists::find(Executor& executor, const NeighbourKernels& kernels, std::span<const Record> points, float reach,
-                          bool keeps_factors) {
+void NeighbourLists::find(Executor& executor, const NeighbourKernels& kernels, std::span<const Record> points,
+                          float reach, bool keeps_factors) {
   reach_ = reach;
   keeps_factors_ = keeps_factors;
   {

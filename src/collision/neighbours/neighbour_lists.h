@@ -1,5 +1,6 @@
-// Lists of the neighbours of points within a distance: for sixteen consecutive slots the k-th neighbours of all of them side by side,
-// so that sixteen points are summed over in SIMD lanes. Each lane adds its neighbours in ascending order, as plain code would.
+// Lists of the neighbours of points within a distance: for sixteen consecutive slots the k-th neighbours of all of them
+// side by side, so that sixteen points are summed over in SIMD lanes. Each lane adds its neighbours in ascending order,
+// as plain code would.
 #pragma once
 
 #include <cstdint>

@@ -45,16 +45,19 @@ std::vector<int> ContactRules::find_classes(const std::vector<int>& among, std::
   const std::vector<int> alone = excepted();
   using Key = std::tuple<std::uint32_t, std::uint32_t, int, int, float, float, int>;
   std::map<Key, int> numbers;
-  const std::pair<const Key, int>* last = nullptr;  // cached, because most bodies have the same rules as the previous one
+  const std::pair<const Key, int>* last =
+      nullptr;  // cached, because most bodies have the same rules as the previous one
   std::vector<int> class_of;
   class_of.reserve(among.size());
   for (const int number : among) {
     const ContactBody& body = bodies_[static_cast<std::size_t>(number)];
-    const int flags =
-        (body.collides ? 1 : 0) + (body.is_collider ? 2 : 0) + (body.is_immovable ? 4 : 0) + (body.is_of_grains ? 8 : 0);
+    const int flags = (body.collides ? 1 : 0) + (body.is_collider ? 2 : 0) + (body.is_immovable ? 4 : 0) +
+                      (body.is_of_grains ? 8 : 0);
     const bool is_alone = std::binary_search(alone.begin(), alone.end(), number);
-    const Key key{body.groups, body.mask, flags, is_alone ? number : -1, body.spacing, body.speed_of_sound, set_of(number)};
-    if (last == nullptr || last->first != key) last = &*numbers.try_emplace(key, static_cast<int>(classes.size())).first;
+    const Key key{body.groups,  body.mask,           flags,         is_alone ? number : -1,
+                  body.spacing, body.speed_of_sound, set_of(number)};
+    if (last == nullptr || last->first != key)
+      last = &*numbers.try_emplace(key, static_cast<int>(classes.size())).first;
     if (static_cast<std::size_t>(last->second) == classes.size()) classes.push_back({.set = set_of(number)});
     class_of.push_back(last->second);
     find_thickest(number, classes[static_cast<std::size_t>(last->second)]);

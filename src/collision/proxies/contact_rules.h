@@ -1,4 +1,5 @@
-// Which bodies meet, and with which material. Groups and a short list of exceptions decide it, not a table of all pairs.
+// Which bodies meet, and with which material. Groups and a short list of exceptions decide it, not a table of all
+// pairs.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +27,8 @@ struct ContactBody {
   /// True if what the particles of both do to one another is not contact of this kind.
   bool mixes_with(const ContactBody& other) const {
     if (is_of_grains && other.is_of_grains) return true;
-    return spacing > 0 && spacing == other.spacing && speed_of_sound == other.speed_of_sound && groups == other.groups &&
-           mask == other.mask;
+    return spacing > 0 && spacing == other.spacing && speed_of_sound == other.speed_of_sound &&
+           groups == other.groups && mask == other.mask;
   }
 };
 
@@ -49,8 +50,8 @@ class ContactRules {
 
   /// The largest thickness of any two of these bodies that meet [m].
   float largest_thickness(const std::vector<int>& among) const;
-  /// For each of these bodies the index in `among` of the first body of its set. Bodies that meet are in one set, directly or
-  /// through others.
+  /// For each of these bodies the index in `among` of the first body of its set. Bodies that meet are in one set,
+  /// directly or through others.
   std::vector<int> sets(const std::vector<int>& among) const;
   /// For each of these bodies: 1 if it meets another of them or itself.
   std::vector<char> meeting(const std::vector<int>& among) const;

@@ -62,7 +62,8 @@ void update_rules(const Model& model, const std::vector<int>& changed, ContactRu
 void apply(const PairProperties& said, PairMaterial& material) {
   material.thickness = said.thickness.value_or(material.thickness);
   material.static_friction = said.static_friction.value_or(material.static_friction);
-  material.kinetic_friction = std::min(said.kinetic_friction.value_or(material.kinetic_friction), material.static_friction);
+  material.kinetic_friction =
+      std::min(said.kinetic_friction.value_or(material.kinetic_friction), material.static_friction);
   material.restitution = said.restitution.value_or(material.restitution);
 }
 

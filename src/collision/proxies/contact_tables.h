@@ -1,8 +1,8 @@
 // What contact between surfaces needs to know about all bodies and particles of a World.
 //
-// Each substep group has a PairModel of its own, and all of them share one of these tables. A body belongs to one group,
-// so a PairModel writes and reads only the entries of its own bodies. Memory therefore grows with the World and not with
-// the number of groups, and indices of particles and bodies are the same everywhere.
+// Each substep group has a PairModel of its own, and all of them share one of these tables. A body belongs to one
+// group, so a PairModel writes and reads only the entries of its own bodies. Memory therefore grows with the World and
+// not with the number of groups, and indices of particles and bodies are the same everywhere.
 #pragma once
 
 #include <memory>

@@ -21,11 +21,11 @@ struct PairParticles {
 /// The motion of a cluster in a substep: a rigid motion, and the residual motion of its vertices. Rigid rotation keeps
 /// distances: two points displaced by spin x (x - centre) are no nearer than before.
 struct ClusterMotion {
-  Vec3f mean{};               ///< displacement of the centre [m]
-  Vec3f centre{};             ///< centre at the substep's start [m]
-  Vec3f spin{};               ///< rotation vector over the substep [rad]
-  float radius = 0;           ///< largest distance of a vertex from the centre [m]
-  float largest = 0;          ///< upper bound of the residual motion: displacement minus (mean + spin x (x - centre)) [m]
+  Vec3f mean{};       ///< displacement of the centre [m]
+  Vec3f centre{};     ///< centre at the substep's start [m]
+  Vec3f spin{};       ///< rotation vector over the substep [rad]
+  float radius = 0;   ///< largest distance of a vertex from the centre [m]
+  float largest = 0;  ///< upper bound of the residual motion: displacement minus (mean + spin x (x - centre)) [m]
   Vec3f low[2]{}, high[2]{};  ///< bounding box at the substep's start [0] and end [1] [m]
   float extent = 0;           ///< largest absolute coordinate at the substep's start [m]
   bool is_bounded = true;     ///< true if all coordinates at the substep's end are finite and below 1e14 m
@@ -90,8 +90,8 @@ struct PairPaths {
   alignas(64) float falls
       [16];  ///< the sum of the residual motions of both sides; the distance decreases at most by this and by the
              ///< relative rigid motion of the clusters [m]
-  alignas(
-      64) float apart[16];  ///< the largest separation, along any coordinate axis, of the swept boxes of the two sides [m]
+  alignas(64) float apart
+      [16];  ///< the largest separation, along any coordinate axis, of the swept boxes of the two sides [m]
 };
 
 /// The clusters of both sides of a pair, exchanged in lanes of `swapped`, and the displacement of the reference frame.
@@ -103,15 +103,18 @@ struct PairMotion {
 };
 
 struct PairKernels {
-  /// Measures a cluster; `vertices`: its own and its primitives' corners, padded by repetition to a multiple of sixteen.
+  /// Measures a cluster; `vertices`: its own and its primitives' corners, padded by repetition to a multiple of
+  /// sixteen.
   void (*measure_cluster)(const std::int32_t* vertices, int count, const PairParticles& particles, ClusterMotion& out);
   /// Swept boxes of primitives `first` to `last` - 1, both multiples of sixteen, relative to a frame moving by `drift`.
-  void (*fit_boxes)(const ElementCorners& elements, int first, int last, const PairParticles& particles, const Vec3f& drift,
-                    const BoxRows& out);
-  /// Writes all pairs of overlapping rows and columns to `hits`, ascending; returns their number. Room: 256 a batch of rows.
+  void (*fit_boxes)(const ElementCorners& elements, int first, int last, const PairParticles& particles,
+                    const Vec3f& drift, const BoxRows& out);
+  /// Writes all pairs of overlapping rows and columns to `hits`, ascending; returns their number. Room: 256 a batch of
+  /// rows.
   int (*find_overlaps)(const BoxComparison& boxes, BoxHit* hits);
   /// Gathers the positions of vertices number `first` to `last` - 1, both multiples of sixteen.
-  void (*gather_places)(const std::int32_t* vertices, int first, int last, const Record* positions, const PlaceRows& out);
+  void (*gather_places)(const std::int32_t* vertices, int first, int last, const Record* positions,
+                        const PlaceRows& out);
   /// Returns the largest squared length of lines `first` to `last` - 1, both multiples of sixteen [m^2].
   float (*longest_squared)(const ElementCorners& lines, int first, int last, const Record* positions);
   /// Returns the least squared distance of a row and a column, or `beyond` if all are farther apart [m^2].

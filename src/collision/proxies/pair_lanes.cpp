@@ -103,8 +103,9 @@ PLIANT_HD Wide squared_to_plane(const Vec3<Wide>& point, const Vec3<Wide>& norma
 /// sides. A projection wrongly classified as inside still gives a lower bound.
 PLIANT_HD Wide least_squared_to_triangle(const Vec3<Wide>& a, const Vec3<Wide>& b, const Vec3<Wide>& c) {
   const Vec3<Wide> ab = b - a, bc = c - b, ca = a - c, normal = cross(ab, bc);
-  const Wide sides = min(squared_to_segment(a, ab, over(dot(ab, ab))),
-                         min(squared_to_segment(b, bc, over(dot(bc, bc))), squared_to_segment(c, ca, over(dot(ca, ca)))));
+  const Wide sides =
+      min(squared_to_segment(a, ab, over(dot(ab, ab))),
+          min(squared_to_segment(b, bc, over(dot(bc, bc))), squared_to_segment(c, ca, over(dot(ca, ca)))));
   const Wide least = min(dot(cross(a, b), normal), min(dot(cross(b, c), normal), dot(cross(c, a), normal)));
   return select(least > Wide(0.f), min(squared_to_plane(a, normal), sides), sides);
 }
@@ -196,7 +197,8 @@ void measure_cluster(const std::int32_t* vertices, int count, const PairParticle
   Wide beyond = zero, movable = zero;
   for (int i = 0; i < count; i += 16) {
     const WideRecords at = from_registers(load_indexed(particles.positions, vertices + i));
-    const Vec3<Wide> start = at.position, end = start + places(particles.displacements, vertices + i), move = end - start;
+    const Vec3<Wide> start = at.position, end = start + places(particles.displacements, vertices + i),
+                     move = end - start;
     add(moments, start - everywhere(x0), move - everywhere(d0));
     const WideMask free = at.w > zero;
     sum += Vec3<Wide>{select(free, move.x, zero), select(free, move.y, zero), select(free, move.z, zero)};
@@ -240,8 +242,9 @@ void measure_cluster(const std::int32_t* vertices, int count, const PairParticle
 
 /// Converts bits to a mask: lane i is true if bit i is set.
 PLIANT_HD WideMask lanes_of(unsigned bits) {
-  constexpr std::int32_t bit_of_lane[wide_width] = {1,      1 << 1, 1 << 2,  1 << 3,  1 << 4,  1 << 5,  1 << 6,  1 << 7,
-                                                    1 << 8, 1 << 9, 1 << 10, 1 << 11, 1 << 12, 1 << 13, 1 << 14, 1 << 15};
+  constexpr std::int32_t bit_of_lane[wide_width] = {1,       1 << 1,  1 << 2,  1 << 3, 1 << 4,  1 << 5,
+                                                    1 << 6,  1 << 7,  1 << 8,  1 << 9, 1 << 10, 1 << 11,
+                                                    1 << 12, 1 << 13, 1 << 14, 1 << 15};
   PartMask bit;
   std::memcpy(&bit, bit_of_lane, sizeof bit);
   WideMask mask;
@@ -350,7 +353,8 @@ PLIANT_HD unsigned overlaps(const float* box, const BoxRows& boxes, int at) {
 #endif
 }
 
-/// Writes the hits of a row in the sixteen columns from `first` on, and returns their number. `hits` has room for sixteen.
+/// Writes the hits of a row in the sixteen columns from `first` on, and returns their number. `hits` has room for
+/// sixteen.
 PLIANT_HD int write_hits(std::int32_t row, std::int32_t first, unsigned bits, BoxHit* hits) {
 #if PLIANT_X86_BITS == 512
   // The number of hits is unpredictable, so all sixteen entries are written.

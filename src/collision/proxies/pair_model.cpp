@@ -12,7 +12,8 @@ namespace pliant {
 
 namespace {
 
-/// Pairs are listed up to the largest thickness plus this share of the median edge, so that lists stay valid for a while.
+/// Pairs are listed up to the largest thickness plus this share of the median edge, so that lists stay valid for a
+/// while.
 constexpr float skin_over_edge = 0.5f;
 
 /// Rounding limit of a cluster without edges: its size does not say which rounding is too coarse.
@@ -29,7 +30,8 @@ ContactElements elements_of(const CompiledObject& object) {
   const std::vector<std::array<int, 2>> lines = triangles.empty() ? object.lines : std::vector<std::array<int, 2>>{};
   std::vector<int> all;
   for (int i = 0; i < object.particles; ++i)
-    if (object.order[static_cast<std::size_t>(i)] < object.user_particles && !object.bodies.has_centre(i)) all.push_back(i);
+    if (object.order[static_cast<std::size_t>(i)] < object.user_particles && !object.bodies.has_centre(i))
+      all.push_back(i);
   return make_contact_elements(triangles, lines, all, object.particles);
 }
 
@@ -125,7 +127,9 @@ void add_body(const Model& model, int body, PairModel& out) {
   of.clusters = out.cluster_blocks.take(body, clusters.count);
   fit_arrays(out);
   const int first = of.vertices.first;
-  const auto number = [&](int vertex) { return clusters.of[vertex] < 0 ? -1 : of.clusters.first + clusters.of[vertex]; };
+  const auto number = [&](int vertex) {
+    return clusters.of[vertex] < 0 ? -1 : of.clusters.first + clusters.of[vertex];
+  };
   for (int v = 0; v < of.vertices.size; ++v) out.shared->vertex_cluster[first + v] = number(v);
   for (int e = 0; e < of.edges.size; ++e) {
     const auto [a, b] = own.edges[e];
@@ -152,8 +156,8 @@ void append_points(const Model& model, int object, std::vector<int>& points) {
       points.push_back(model.first[object] + i);
 }
 
-/// Lists free particles that can meet others: of objects with self-collision, or that meet other objects of free particles or lines.
-/// Lists the lines that free particles meet.
+/// Lists free particles that can meet others: of objects with self-collision, or that meet other objects of free
+/// particles or lines. Lists the lines that free particles meet.
 void find_free_points(const Model& model, PairModel& out) {
   out.free_points.clear();
   out.points_at_lines.clear();
@@ -226,7 +230,8 @@ std::vector<int> find_meeting(const Model& model, PairModel& out) {
 }
 
 /// The bodies to remove or to add: those changed, and those that begin or cease to meet others.
-std::vector<int> find_affected(const PairModel& model, const std::vector<int>& changed, const std::vector<int>& meeting) {
+std::vector<int> find_affected(const PairModel& model, const std::vector<int>& changed,
+                               const std::vector<int>& meeting) {
   std::vector<int> affected = changed, present;
   present.reserve(meeting.size());
   for (const auto& [body, elements] : model.bodies) present.push_back(body);
@@ -281,7 +286,8 @@ namespace {
 
 /// Sets each body's block of one array, in which the entries of a body are contiguous.
 template <class BodyOf>
-void index_entries(std::size_t count, BodyOf body_of, BodyBlocks& blocks, Block BodyElements::*block, PairModel& model) {
+void index_entries(std::size_t count, BodyOf body_of, BodyBlocks& blocks, Block BodyElements::*block,
+                   PairModel& model) {
   std::size_t first = 0;
   while (first < count) {
     const int body = body_of(first);

@@ -1,10 +1,10 @@
 // Which surfaces can meet, and their contact parameters: all that contact needs to know apart from motion.
 //
-// Arrays of primitives and clusters hold those of the PairModel's own bodies. Each body has a block in every such array; a
-// removed body leaves unused entries that a later one takes. So adding a body costs what that body costs, and indices of
-// other bodies stay. Indices of primitives and clusters therefore say nothing about the order of bodies; whatever decides bits
-// is ordered by body first (is_before, cluster_order). Arrays of particles and bodies are in ContactTables, which the
-// PairModels of a World share.
+// Arrays of primitives and clusters hold those of the PairModel's own bodies. Each body has a block in every such
+// array; a removed body leaves unused entries that a later one takes. So adding a body costs what that body costs, and
+// indices of other bodies stay. Indices of primitives and clusters therefore say nothing about the order of bodies;
+// whatever decides bits is ordered by body first (is_before, cluster_order). Arrays of particles and bodies are in
+// ContactTables, which the PairModels of a World share.
 #pragma once
 
 #include <algorithm>
@@ -28,8 +28,8 @@ struct BodyElements {
   float median_edge = 0;  ///< median edge length at rest [m]; 0: no edges
 };
 
-/// The elements of bodies, ordered by body. A sorted array, because it is read for all bodies each time that one of thousands comes
-/// or goes.
+/// The elements of bodies, ordered by body. A sorted array, because it is read for all bodies each time that one of
+/// thousands comes or goes.
 class ElementsOfBodies {
  public:
   using Entry = std::pair<int, BodyElements>;
@@ -69,14 +69,15 @@ struct PairModel {
       free_points;  ///< particles of bodies without triangles and lines, ordered by body; they meet one another as spheres
   std::vector<int> points_at_lines;       ///< free particles that meet bodies of lines, ordered by body
   std::vector<std::array<int, 2>> lines;  ///< edges of bodies of lines that meet free particles, ordered by body
-  /// Clusters: about 64 neighbouring vertices of one body, with the edges and triangles whose first vertex is one of them.
+  /// Clusters: about 64 neighbouring vertices of one body, with the edges and triangles whose first vertex is one of
+  /// them.
   int clusters = 0;                                               ///< one past the last cluster in use
   std::vector<int> edge_cluster, triangle_cluster, cluster_body;  ///< -1: none
   std::vector<int> cluster_order;                                 ///< clusters in use, ordered by body
   /// For each cluster: its pairs have no contact where positions round by more than this [m]. Empty: no limit.
   std::vector<float> coarsest;
   ElementsOfBodies bodies;  ///< of the members that meet others or themselves
-  int sets = 0;             ///< the number of sets that these form (ContactRules::sets); ContactTables::body_set is below
+  int sets = 0;  ///< the number of sets that these form (ContactRules::sets); ContactTables::body_set is below
   BodyBlocks edge_blocks, triangle_blocks, cluster_blocks;
   TrianglesAround triangles_around;
   float radius = 0;             ///< distance within which clusters are searched for candidates [m]
@@ -106,13 +107,13 @@ struct PairChanges {
   bool radius = false;              ///< true if the search radius changed
 };
 
-/// Updates bodies that were added, removed or edited, became members or ceased to be (ascending), and bodies that begin or
-/// cease to meet others because of them. The tables must be up to date. Returns nullopt if no two bodies can meet any more;
-/// the PairModel is then invalid.
+/// Updates bodies that were added, removed or edited, became members or ceased to be (ascending), and bodies that begin
+/// or cease to meet others because of them. The tables must be up to date. Returns nullopt if no two bodies can meet
+/// any more; the PairModel is then invalid.
 std::optional<PairChanges> update_pair_model(const Model& model, const std::vector<int>& changed, PairModel& out);
 
-/// Computes `members`, `bodies`, `sets`, their numbers, `cluster_order` and `triangles_around` of a model whose other arrays are
-/// in the order of bodies.
+/// Computes `members`, `bodies`, `sets`, their numbers, `cluster_order` and `triangles_around` of a model whose other
+/// arrays are in the order of bodies.
 void index_bodies(PairModel& model);
 
 }  // namespace pliant

@@ -30,9 +30,9 @@ struct alignas(64) PairStencils {
   std::int32_t vertex[4][16];
 };
 
-/// The distances of sixteen pairs of one kind, in float. Positions are relative to each pair's first particle, so rounding
-/// errors scale with the pair's size. For nearly parallel edges and sliver triangles the closest points in float can be
-/// wrong: `distance` may then exceed the true distance, `at_least` never does.
+/// The distances of sixteen pairs of one kind, in float. Positions are relative to each pair's first particle, so
+/// rounding errors scale with the pair's size. For nearly parallel edges and sliver triangles the closest points in
+/// float can be wrong: `distance` may then exceed the true distance, `at_least` never does.
 struct PairBatch {
   alignas(64) float distance[16];
   alignas(64) float at_least[16];  ///< lower bound of the true distance, >= 0 [m]

@@ -6,7 +6,8 @@ namespace pliant {
 
 namespace {
 
-/// Share of the thickness that contacts must keep while a kinematic collider moves by up to half a thickness in a substep.
+/// Share of the thickness that contacts must keep while a kinematic collider moves by up to half a thickness in a
+/// substep.
 constexpr float least_share_kept = 0.9f;
 
 /// True if a kinematic side of a contact moves by more than the loss of thickness that least_share_kept permits.
@@ -191,8 +192,8 @@ void SurfaceContact::filter(Executor& executor, const PairParticles& particles,
     has_impacts_ = has_impacts_ || is_impact(contact);
   }
   const auto exempt = [&](const PairStencil& pair) { return is_exempt(pair); };
-  is_bounded_ =
-      model_.filter ? filter_.apply(executor, lists_, particles, find_free, exempt) : lists_.measure(executor, particles);
+  is_bounded_ = model_.filter ? filter_.apply(executor, lists_, particles, find_free, exempt)
+                              : lists_.measure(executor, particles);
 }
 
 bool SurfaceContact::comes_near(int body, const BoxBounds& box, float reach) const {

@@ -25,7 +25,8 @@ namespace pliant {
 
 /// Statistics of a frame for the Report.
 struct PairCounts {
-  std::int64_t candidates = 0, contacts = 0, truncated = 0, unresolvable = 0, intersecting = 0, rebuilds = 0, inside = 0;
+  std::int64_t candidates = 0, contacts = 0, truncated = 0, unresolvable = 0, intersecting = 0, rebuilds = 0,
+               inside = 0;
   double deepest = 0;  ///< largest remaining penetration of a contact in the last substep [m]
 };
 
@@ -74,9 +75,8 @@ class SurfaceContact {
   bool has_impacts() const { return has_impacts_; }
   /// The number of the set of a contact's bodies, below sets().
   std::size_t set_of(const Contact& contact) const {
-    return static_cast<std::size_t>(
-        model_.shared
-            ->body_set[static_cast<std::size_t>(model_.shared->vertex_body[static_cast<std::size_t>(contact.point[0])])]);
+    return static_cast<std::size_t>(model_.shared->body_set[static_cast<std::size_t>(
+        model_.shared->vertex_body[static_cast<std::size_t>(contact.point[0])])]);
   }
   std::size_t sets() const { return static_cast<std::size_t>(model_.sets); }
   /// Removes the remaining approach speed of an impact after a substep, and returns it [m/s].

@@ -89,8 +89,8 @@ void InitialIntersections::find(const Record* positions, bool forget) {
   keep(std::move(found));
 }
 
-/// Makes the search over all triangles. It numbers the vertices body by body, so that it costs what the PairModel's bodies cost
-/// and not what the World does.
+/// Makes the search over all triangles. It numbers the vertices body by body, so that it costs what the PairModel's
+/// bodies cost and not what the World does.
 void InitialIntersections::make_finder() {
   std::vector<Triangle> in_use;
   triangles_.clear();

@@ -1,4 +1,5 @@
-// Divides surfaces into parts: connected components of objects (two skirts in one file are two), and whole mesh colliders.
+// Divides surfaces into parts: connected components of objects (two skirts in one file are two), and whole mesh
+// colliders.
 #pragma once
 
 #include <vector>

@@ -12,8 +12,8 @@ namespace pliant {
 
 namespace {
 
-/// Writes the triangles of a body, with vertices numbered from its first one. Returns false if they do not form a closed
-/// surface.
+/// Writes the triangles of a body, with vertices numbered from its first one. Returns false if they do not form a
+/// closed surface.
 bool closed_surface(const PairModel& model, const BodyElements& body, std::vector<Triangle>& triangles) {
   const int first = body.vertices.first;
   for (int number = body.triangles.first; number < body.triangles.end(); ++number) {
@@ -72,7 +72,8 @@ Vec3f mean_normal(const PairModel& model, const Patch& patch, const Record* posi
   float all = 0;
   for (const int number : at_patch) {
     const Triangle& t = model.elements.triangles[static_cast<std::size_t>(number)];
-    const Vec3f normal = cross(xyz(positions[t[1]]) - xyz(positions[t[0]]), xyz(positions[t[2]]) - xyz(positions[t[0]]));
+    const Vec3f normal =
+        cross(xyz(positions[t[1]]) - xyz(positions[t[0]]), xyz(positions[t[2]]) - xyz(positions[t[0]]));
     sum += normal;
     all += length(normal);
   }
@@ -174,7 +175,8 @@ void Untangler::find_inside(const Record* positions) {
     query.move(places_of(positions, closed.first, static_cast<int>(query.positions().size())));
     std::vector<int> inside;
     for (const int v : vertices_) {
-      const bool meets = model_.shared->rules.meet(model_.shared->vertex_body[static_cast<std::size_t>(v)], closed.body);
+      const bool meets =
+          model_.shared->rules.meet(model_.shared->vertex_body[static_cast<std::size_t>(v)], closed.body);
       if (positions[v].w > 0 && meets && query.is_inside(xyz(positions[v]))) inside.push_back(v);
     }
     inside_ += static_cast<std::int64_t>(inside.size());
@@ -271,7 +273,8 @@ std::vector<Untangler::PartPair> Untangler::made_worse(const Record* positions, 
   if (candidates.empty()) return {};
   std::vector<Vec3f> places = places_of(positions, 0, static_cast<int>(model_.shared->rest.size()));
   for (const Candidate& candidate : candidates)
-    places[static_cast<std::size_t>(candidate.push.vertex)] += candidate.push.direction * (model_.untangling_speed / 60);
+    places[static_cast<std::size_t>(candidate.push.vertex)] +=
+        candidate.push.direction * (model_.untangling_speed / 60);
   std::map<PartPair, int> more;
   for (const Intersection& one : found) --more[parts_of(one)];
   for (const Intersection& then : finder_.find(places)) {
@@ -286,7 +289,8 @@ std::vector<Untangler::PartPair> Untangler::made_worse(const Record* positions, 
 
 namespace {
 
-/// The connected components of a part that remain without its intersected edges: each vertex's component, and their sizes.
+/// The connected components of a part that remain without its intersected edges: each vertex's component, and their
+/// sizes.
 struct Pieces {
   std::vector<int> of, size;
 
@@ -331,7 +335,8 @@ void Untangler::lead_back(const Record* positions, const std::vector<Intersectio
   std::map<int, Vec3f> ways;
   for (const Intersection& cut : cuts) {
     const Triangle& t = model_.elements.triangles[cut.triangle];
-    const Vec3f normal = cross(xyz(positions[t[1]]) - xyz(positions[t[0]]), xyz(positions[t[2]]) - xyz(positions[t[0]]));
+    const Vec3f normal =
+        cross(xyz(positions[t[1]]) - xyz(positions[t[0]]), xyz(positions[t[2]]) - xyz(positions[t[0]]));
     for (const auto& [from, to] : {std::pair{cut.a, cut.b}, {cut.b, cut.a}}) {
       const int piece = pieces.of[static_cast<std::size_t>(from)];
       if (piece == largest_piece || piece == pieces.of[static_cast<std::size_t>(to)]) continue;

@@ -93,8 +93,9 @@ class Untangler {
   std::vector<int> wrong_side_of_;  ///< for each vertex, the part whose wrong side it is on, or -1; empty: no vertex is
   std::vector<int> piece_;          ///< index of the piece of each vertex on a wrong side
   std::vector<Push> pushes_;
-  std::vector<char> led_;                      ///< for each part, 1 if its speed is limited; empty: none is
-  std::vector<std::pair<int, float>> speeds_;  ///< vertices of parts with a speed limit, and their predicted speeds [m/s]
+  std::vector<char> led_;  ///< for each part, 1 if its speed is limited; empty: none is
+  std::vector<std::pair<int, float>>
+      speeds_;  ///< vertices of parts with a speed limit, and their predicted speeds [m/s]
   std::int64_t inside_ = 0;
 };
 

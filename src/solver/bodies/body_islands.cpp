@@ -79,7 +79,8 @@ void BodyIslands::find_movers(const Substep& s, const ContactBodies& bodies, std
       continue;
     }
     if (of.is_body()) is_fixed_[at(place)] = 1;
-    const bool moves = of.is_body() ? is_carried(s, of) : state.deforms || has_moved(bodies.poses_of_collider(s, place));
+    const bool moves =
+        of.is_body() ? is_carried(s, of) : state.deforms || has_moved(bodies.poses_of_collider(s, place));
     moves_[at(place)] = moves || slides ? 1 : 0;
   }
 }

@@ -1,7 +1,7 @@
 // Islands of rigid bodies: sets of bodies, and of particles that they touch, which act on one another.
 //
-// A node is a body, or all particles of an object that are no centres of bodies. Nodes are joined by contacts that press and by
-// constraints. Bodies of infinite mass and colliders join nothing.
+// A node is a body, or all particles of an object that are no centres of bodies. Nodes are joined by contacts that
+// press and by constraints. Bodies of infinite mass and colliders join nothing.
 #pragma once
 
 #include <span>
@@ -41,8 +41,8 @@ class BodyIslands {
   int node_of_points(int object) const { return bodies_ + object; }
   /// The smallest node of a node's island.
   int island_of(int node) const { return island_[static_cast<std::size_t>(node)]; }
-  /// True if work may be done on the island from outside, or by energy that is not counted: a collider or body of infinite mass that
-  /// moves touches it, a joint has a motor or gives way, or an object has a volume.
+  /// True if work may be done on the island from outside, or by energy that is not counted: a collider or body of
+  /// infinite mass that moves touches it, a joint has a motor or gives way, or an object has a volume.
   bool is_driven(int island) const { return is_driven_[static_cast<std::size_t>(island)] != 0; }
 
  private:

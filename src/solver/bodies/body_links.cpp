@@ -35,7 +35,9 @@ class JointsOfConstraints {
   }
 
  private:
-  static std::size_t index(std::int64_t batch, int lane) { return static_cast<std::size_t>(batch * batch_width + lane); }
+  static std::size_t index(std::int64_t batch, int lane) {
+    return static_cast<std::size_t>(batch * batch_width + lane);
+  }
 
   Entry& entry(const CompiledObject& object, const CompiledJoint::Part& part) {
     std::vector<Entry>& entries = of_pool_[at(part.pool)];
@@ -46,7 +48,8 @@ class JointsOfConstraints {
   std::vector<std::vector<Entry>> of_pool_;
 };
 
-/// True if a constraint may do work: a motor, or a constraint that gives way and so stores energy. Friction in a joint only takes energy.
+/// True if a constraint may do work: a motor, or a constraint that gives way and so stores energy. Friction in a joint
+/// only takes energy.
 bool does_work(const ConstraintPlace& place, const JointsOfConstraints::Entry& entry) {
   if (constraint_type(place.pool.type).acts_on_motion) return entry.is_motor || entry.joint < 0;
   const float response = place.value(place.pool.fields);

@@ -1,4 +1,5 @@
-// The constraints that connect rigid bodies with one another and with particles: the edges of islands that do not change with contact.
+// The constraints that connect rigid bodies with one another and with particles: the edges of islands that do not
+// change with contact.
 #pragma once
 
 #include <utility>
@@ -16,11 +17,12 @@ struct BodyLink {
   bool does_work = false;  ///< true: has a motor, or gives way, so that it may store energy
 };
 
-/// The links of an object with bodies. Its bodies are the nodes from `first_body` on, its other particles the node `points`.
+/// The links of an object with bodies. Its bodies are the nodes from `first_body` on, its other particles the node
+/// `points`.
 void add_links(const Model& model, int object, int first_body, int points, std::vector<BodyLink>& links);
 
-/// The pairs of bodies between which nothing is left but broken joints, so that they collide from then on; sorted. `broken` are indices in
-/// CompiledObject::joints, in ascending order.
+/// The pairs of bodies between which nothing is left but broken joints, so that they collide from then on; sorted.
+/// `broken` are indices in CompiledObject::joints, in ascending order.
 std::vector<std::pair<int, int>> pairs_without_joint(const CompiledObject& object, const std::vector<int>& broken);
 
 }  // namespace pliant

@@ -15,7 +15,8 @@ inline Record plus(const Record& r, const Vec3f& v) { return {r.x + v.x, r.y + v
 
 /// A symmetric matrix (xx, yy, zz, yz, zx, xy) times a vector.
 inline Vec3f times(const std::array<float, 6>& m, const Vec3f& v) {
-  return {m[0] * v.x + m[5] * v.y + m[4] * v.z, m[5] * v.x + m[1] * v.y + m[3] * v.z, m[4] * v.x + m[3] * v.y + m[2] * v.z};
+  return {m[0] * v.x + m[5] * v.y + m[4] * v.z, m[5] * v.x + m[1] * v.y + m[3] * v.z,
+          m[4] * v.x + m[3] * v.y + m[2] * v.z};
 }
 
 /// Turns an orientation by a small rotation vector in world axes.

@@ -136,7 +136,8 @@ void BodyMotions::begin_substep(const Substep& s) {
   for_bodies(s, bodies(), [&](int first, int last) { s.kernels.motions.load_inertia(all, first, last); });
 }
 
-void BodyMotions::load_predicted(const Substep& s, const ContactBodies& bodies_and_colliders, bool is_first, float share) {
+void BodyMotions::load_predicted(const Substep& s, const ContactBodies& bodies_and_colliders, bool is_first,
+                                 float share) {
   for (int i = bodies(); i < static_cast<int>(places_); ++i)
     follow(bodies_and_colliders.poses_of_collider(s, i), s.h, motions_[at(i)]);
   restarts_.clear();
@@ -268,7 +269,8 @@ void BodyMotions::bounce(const Substep& s, const std::vector<char>& restarts, Fu
   for (int i = 0; i < bodies(); ++i) {
     pushed_[at(i)] = plus(pushed_[at(i)], before_velocity_[at(i)] - motions_[at(i)].velocity);
     const Quatf start = quaternion(start_orientations_[at(i)]);
-    pushed_spin_[at(i)] = plus(pushed_spin_[at(i)], rotate(conjugate(start), before_spin_[at(i)] - motions_[at(i)].spin));
+    pushed_spin_[at(i)] =
+        plus(pushed_spin_[at(i)], rotate(conjugate(start), before_spin_[at(i)] - motions_[at(i)].spin));
   }
 }
 

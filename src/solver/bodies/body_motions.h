@@ -1,5 +1,5 @@
-// The motions of the rigid bodies of a substep group, gathered from the State for a pass over their contacts and scattered after it, so
-// that constraints, chains and other contact act on bodies as on any particle and frame.
+// The motions of the rigid bodies of a substep group, gathered from the State for a pass over their contacts and
+// scattered after it, so that constraints, chains and other contact act on bodies as on any particle and frame.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ class BodyMotions {
   BodyMotions() = default;
   explicit BodyMotions(const ContactBodies& bodies);
 
-  /// Of the places of ContactBodies. Spins, rotations and inertias of bodies are turned back to the frame's start; rotations leave out
-  /// axes about which a body is round.
+  /// Of the places of ContactBodies. Spins, rotations and inertias of bodies are turned back to the frame's start;
+  /// rotations leave out axes about which a body is round.
   std::vector<BodyMotion>& all() { return motions_; }
   const std::vector<BodyMotion>& all() const { return motions_; }
 
@@ -33,7 +33,8 @@ class BodyMotions {
   void begin_substep(const Substep& s);
   const std::vector<BodyMotion>& present() const { return present_; }
 
-  /// Gathers predicted motions. If `is_first` in the substep, they start with `share` times what contacts did in the last one.
+  /// Gathers predicted motions. If `is_first` in the substep, they start with `share` times what contacts did in the
+  /// last one.
   void load_predicted(const Substep& s, const ContactBodies& bodies, bool is_first, float share);
   /// Adds what contacts have changed to the prediction.
   void store_predicted(const Substep& s);
@@ -42,11 +43,11 @@ class BodyMotions {
     Records linear, angular;
   };
   Pushes pushes() const { return {pushed_, pushed_spin_}; }
-  /// Does the same for the bodies with 1 in `of` [body]. For the others, undoes load_predicted with `is_first`, before which contacts had
-  /// done `before`.
+  /// Does the same for the bodies with 1 in `of` [body]. For the others, undoes load_predicted with `is_first`, before
+  /// which contacts had done `before`.
   void store_predicted(const Substep& s, const std::vector<char>& of, const Pushes& before);
-  /// Gathers once more the motions of the bodies with 1 in `of`, without what contacts did in the last substep. In this one they have done
-  /// `pushes`.
+  /// Gathers once more the motions of the bodies with 1 in `of`, without what contacts did in the last substep. In this
+  /// one they have done `pushes`.
   void reload_predicted(const Substep& s, const std::vector<char>& of, const Pushes& pushes);
   /// By how much contacts have changed the angular velocity of a body since load_predicted [rad/s].
   float spin_change(int body) const {
@@ -62,9 +63,10 @@ class BodyMotions {
   float turned(int body) const { return length(motions_[static_cast<std::size_t>(body)].rotation); }
 
   /// Calls impacts(), whose effect on velocities the next substep does not start with. Impacts act at the substep's
-  /// start: bodies with 1 in `restarts` [body] that no constraint has turned show them the spin that they have there, and
-  /// then turn freely with what impacts leave of it; but not those that hardly turn in a substep. With the spin of the substep's middle, and impulses after the
-  /// gyroscopic torque, each impact of a tilted box would bring or take energy.
+  /// start: bodies with 1 in `restarts` [body] that no constraint has turned show them the spin that they have there,
+  /// and then turn freely with what impacts leave of it; but not those that hardly turn in a substep. With the spin of
+  /// the substep's middle, and impulses after the gyroscopic torque, each impact of a tilted box would bring or take
+  /// energy.
   void bounce(const Substep& s, const std::vector<char>& restarts, FunctionRef<void()> impacts);
 
  private:

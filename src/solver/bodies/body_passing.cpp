@@ -15,9 +15,11 @@ namespace pliant {
 
 namespace {
 
-/// A ball that slides along cloth meets a few triangles in a substep; in all but violent impacts two or three rounds do.
+/// A ball that slides along cloth meets a few triangles in a substep; in all but violent impacts two or three rounds
+/// do.
 constexpr int rounds_of_both_sides = 8;
-/// Up to this round the points stay and the body alone moves, so that it stops before light cloth too. Momentum is not kept then.
+/// Up to this round the points stay and the body alone moves, so that it stops before light cloth too. Momentum is not
+/// kept then.
 constexpr int rounds_of_impulses = 16;
 /// In the rounds after those, whatever would still pass goes back to the substep's start, where nothing has passed.
 constexpr int most_rounds_of_passing = 32, most_rounds_of_holding = 16;
@@ -96,7 +98,8 @@ void BodyPassing::note_moved(const Substep& s, const Parts& parts, std::size_t f
   for (const int body : parts.solids.body_of_solid()) moved_solids_.push_back(has_moved[at(body)]);
 }
 
-/// Stops what would pass; not in the first round of a pass, of what the last round has moved. False if there is nothing.
+/// Stops what would pass; not in the first round of a pass, of what the last round has moved. False if there is
+/// nothing.
 bool BodyPassing::stop_once(Substep& s, const Parts& parts, bool is_first, Stop by) {
   BodySolids& solids = parts.solids;
   SurfaceTiles& surfaces = parts.surfaces;
@@ -124,12 +127,14 @@ bool BodyPassing::stop_once(Substep& s, const Parts& parts, bool is_first, Stop 
 
 namespace {
 
-/// Why a body and a surface overlap, and what to do. What presses from the other side is the cause where something does. Else the
-/// vertex is held; else the substeps were too few for the impact, or nothing was apart at the start.
+/// Why a body and a surface overlap, and what to do. What presses from the other side is the cause where something
+/// does. Else the vertex is held; else the substeps were too few for the impact, or nothing was apart at the start.
 std::string cause_of(const Substep& s, int vertex, const std::string& other) {
-  if (!other.empty()) return "it is pinched between that body and " + other + "; give it more room, or name more substeps";
+  if (!other.empty())
+    return "it is pinched between that body and " + other + "; give it more room, or name more substeps";
   if (s.state.positions[at(vertex)].w == 0) return "the vertex is pinned; move the pin away, or let the body yield";
-  return "they hit one another too hard for " + std::to_string(s.planned) + (s.planned == 1 ? " substep" : " substeps") +
+  return "they hit one another too hard for " + std::to_string(s.planned) +
+         (s.planned == 1 ? " substep" : " substeps") +
          " a frame, or overlapped when they came into contact; name more substeps, or move them apart";
 }
 
@@ -191,7 +196,8 @@ bool BodyPassing::has_moved(const Substep& s, const SurfaceTiles& surfaces) cons
     const std::size_t count = at(tile.last - tile.first);
     const Record* const now = &s.work.displacements[at(tile.first)];
     const auto are_same = [](const Record& a, const Record& b) { return xyz(a) == xyz(b); };
-    if (std::memcmp(kept, now, count * sizeof(Record)) != 0 && !std::equal(kept, kept + count, now, are_same)) return true;
+    if (std::memcmp(kept, now, count * sizeof(Record)) != 0 && !std::equal(kept, kept + count, now, are_same))
+      return true;
     kept += count;
   }
   return false;

@@ -1,5 +1,5 @@
-// Keeps bodies and surfaces from passing one another in a substep, in rounds: what the filter finds gets contacts, which are projected, and
-// what is moved by that is looked at again. The Report says where it does not succeed.
+// Keeps bodies and surfaces from passing one another in a substep, in rounds: what the filter finds gets contacts,
+// which are projected, and what is moved by that is looked at again. The Report says where it does not succeed.
 #pragma once
 
 #include <cstddef>
@@ -48,7 +48,8 @@ class BodyPassing {
   void warn_of_overlaps(const Substep& s, const Found& found, std::vector<std::string>& warnings) const;
 
  private:
-  /// How a round stops what would pass: by impulses on both sides or on bodies alone, or by taking back their motion in the substep.
+  /// How a round stops what would pass: by impulses on both sides or on bodies alone, or by taking back their motion in
+  /// the substep.
   enum class Stop { both_sides, bodies, back, bodies_back };
 
   bool stop_once(Substep& s, const Parts& parts, bool is_first, Stop by);

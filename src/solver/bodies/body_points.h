@@ -1,9 +1,11 @@
-// Contact of particles, edges and triangles with the solids of rigid bodies, in both directions: each contact moves the points of
-// a surface and the body by one impulse at the point of contact, with the generalised inverse masses of both sides. The impulse
-// m dx / dt of the encyclopedia entry on position based dynamics is the limit of a body much heavier than the points.
+// Contact of particles, edges and triangles with the solids of rigid bodies, in both directions: each contact moves the
+// points of a surface and the body by one impulse at the point of contact, with the generalised inverse masses of both
+// sides. The impulse m dx / dt of the encyclopedia entry on position based dynamics is the limit of a body much heavier
+// than the points.
 //
-// BodySolids are what points touch, PointImpulses project the contacts that are found here, PointDepenetration moves out what starts
-// inside, PointLoads are what particles carry of bodies, and BodyPassing keeps both sides from passing one another.
+// BodySolids are what points touch, PointImpulses project the contacts that are found here, PointDepenetration moves
+// out what starts inside, PointLoads are what particles carry of bodies, and BodyPassing keeps both sides from passing
+// one another.
 #pragma once
 
 #include <string>
@@ -44,8 +46,8 @@ class BodyPoints {
   void keep_poses(const Substep& s);
   /// Finds the contacts of a substep, after the prediction.
   void detect(Substep& s);
-  /// Projects each contact once, or those with points of the objects for which `of` is not zero. Here and below, `motions` have the bodies'
-  /// inverse masses and inertias, in the order of the bodies.
+  /// Projects each contact once, or those with points of the objects for which `of` is not zero. Here and below,
+  /// `motions` have the bodies' inverse masses and inertias, in the order of the bodies.
   void project(Substep& s, const std::vector<BodyMotion>& motions, const std::vector<char>* of = nullptr) {
     impulses_.project(s, solids_, motions, of);
   }
@@ -65,7 +67,8 @@ class BodyPoints {
   void end_chains(Substep& s, const std::vector<BodyMotion>& motions) {
     loads_.end_chains(s, motions, impulses_.impulses());
   }
-  /// Applies restitution to velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
+  /// Applies restitution to velocities. `gravity` is what the velocities of an object lack of this frame's gravity
+  /// [m/s].
   void respond(Substep& s, const std::vector<BodyMotion>& motions, FunctionRef<Vec3f(int object)> gravity) {
     impulses_.respond(s, solids_, motions, gravity);
   }

@@ -110,14 +110,14 @@ bool BodySleep::is_driven(const Substep& s, int body) const {
   return is_restless_ || s.work.control.object(bodies_->places()[at(body)].object) != nullptr;
 }
 
-/// Wakes bodies that have a velocity, because a State was restored with one, those on which the user acts, and those that a
-/// constraint connects with a body that is awake.
+/// Wakes bodies that have a velocity, because a State was restored with one, those on which the user acts, and those
+/// that a constraint connects with a body that is awake.
 void BodySleep::wake_pushed(Substep& s, std::span<const BodyContact> contacts) {
   std::vector<char> is_woken(at(count()));
   for (const HeldBodies::Held& held : held_.all()) {
     const BodyPlace& place = bodies_->places()[at(held.body)];
-    const bool has_velocity =
-        !is_zero(s.state.velocities[at(place.particle)]) || !is_zero(s.state.frames.angular_velocities[at(place.frame)]);
+    const bool has_velocity = !is_zero(s.state.velocities[at(place.particle)]) ||
+                              !is_zero(s.state.frames.angular_velocities[at(place.frame)]);
     if (has_velocity || is_driven(s, held.body) || is_tied_[at(held.body)] != 0) is_woken[at(held.body)] = 1;
   }
   const auto is_awake = [&](int body) {
@@ -210,7 +210,9 @@ void BodySleep::add_rest(Substep& s, const Frame& frame) {
 /// Lets the islands sleep whose bodies have all been slow for long enough.
 int BodySleep::fall_asleep(Substep& s, const Frame& frame) {
   islands_.reset(count());
-  const auto is_free = [&](int body) { return body < count() && !held_.holds(body) && !frame.states[at(body)].is_fixed; };
+  const auto is_free = [&](int body) {
+    return body < count() && !held_.holds(body) && !frame.states[at(body)].is_fixed;
+  };
   const auto join = [&](int a, int b) {
     if (is_free(a) && is_free(b)) islands_.unite(a, b);
   };

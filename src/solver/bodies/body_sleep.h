@@ -1,6 +1,7 @@
 // Sleep of rigid bodies: an island of bodies that have been slow for some time rests until something acts on it.
 //
-// A body that sleeps is held in place while a frame is made (held_bodies.h), so no stage moves it. Its contacts stay in the State as they were, and its constraints are left out. What comes near enough to touch wakes it before the
+// A body that sleeps is held in place while a frame is made (held_bodies.h), so no stage moves it. Its contacts stay in
+// the State as they were, and its constraints are left out. What comes near enough to touch wakes it before the
 // contacts of the frame are solved. All that lasts is State::rest_times.
 #pragma once
 
@@ -34,11 +35,11 @@ class BodySleep {
   void begin_frame(Substep& s, std::span<const BodyContact> contacts);
   /// True if a body sleeps.
   bool any() const { return !held_.all().empty(); }
-  /// Wakes the islands of bodies that have a contact in this frame. `pairs` are places, `contacts` those of the State. Returns false if
-  /// there are none.
+  /// Wakes the islands of bodies that have a contact in this frame. `pairs` are places, `contacts` those of the State.
+  /// Returns false if there are none.
   bool wake_touched(Substep& s, std::span<const std::pair<int, int>> pairs, std::span<const BodyContact> contacts);
-  /// Keeps the contacts of bodies that sleep, after the last wake_touched. `is_alone`: no other group has bodies in the list, which is taken
-  /// if all sleep.
+  /// Keeps the contacts of bodies that sleep, after the last wake_touched. `is_alone`: no other group has bodies in the
+  /// list, which is taken if all sleep.
   void keep_contacts(bool is_alone, std::vector<BodyContact>& contacts);
   const std::vector<BodyContact>& kept_contacts() const { return kept_; }
   /// The body of a part; -1: a collider, or a body of another group.

@@ -46,7 +46,8 @@ bool are_alike(const ConvexShape& a, const ConvexShape& b) {
 /// Boxes, balls and capsules as primitives; others are a plane, which no body is.
 LocalShape primitive_of(const CompiledSolid& solid) {
   const ConvexShape& shape = solid.shape;
-  if (solid.half_extents.x > 0) return {ShapeKind::box, solid.half_extents.x, solid.half_extents.y, solid.half_extents.z};
+  if (solid.half_extents.x > 0)
+    return {ShapeKind::box, solid.half_extents.x, solid.half_extents.y, solid.half_extents.z};
   if (shape.kind == ConvexShape::Kind::point) return {ShapeKind::sphere, shape.radius};
   if (shape.kind == ConvexShape::Kind::segment) return {ShapeKind::capsule, shape.radius, shape.half_length};
   return {};
@@ -61,7 +62,8 @@ std::shared_ptr<const SolidField> field_of(const ConvexShape& shape) {
   }
 }
 
-/// A primitive in the place of a solid that is too thin for a distance grid: a capsule if it is long, else the box around it.
+/// A primitive in the place of a solid that is too thin for a distance grid: a capsule if it is long, else the box
+/// around it.
 LocalShape primitive_around(const ConvexShape& shape) {
   const float radius = shape.core_radius, half = shape.half_length;
   if (shape.kind != ConvexShape::Kind::polyhedron)
@@ -74,13 +76,14 @@ LocalShape primitive_around(const ConvexShape& shape) {
 
 BoundingBox<float> box_around(const BoxBounds& box, const Posef& pose) {
   const Vec3f centre = to_world(pose, (box.low + box.high) * 0.5f), half = (box.high - box.low) * 0.5f;
-  const Vec3f reach = abs(rotate(pose.rotation, Vec3f{half.x, 0, 0})) + abs(rotate(pose.rotation, Vec3f{0, half.y, 0})) +
-                      abs(rotate(pose.rotation, Vec3f{0, 0, half.z}));
+  const Vec3f reach = abs(rotate(pose.rotation, Vec3f{half.x, 0, 0})) +
+                      abs(rotate(pose.rotation, Vec3f{0, half.y, 0})) + abs(rotate(pose.rotation, Vec3f{0, 0, half.z}));
   const Vec3f grown = reach + reach * 1e-5f;
   return {centre - grown, centre + grown};
 }
 
-/// What the scene says of the pairs of an object of bodies with others; distances are measured from a field inside a margin.
+/// What the scene says of the pairs of an object of bodies with others; distances are measured from a field inside a
+/// margin.
 std::vector<NamedPair> named_with(const Model& model, const std::string& object, float margin) {
   std::vector<NamedPair> named;
   for (const PairProperties& pair : model.pairs) {
@@ -175,7 +178,8 @@ void BodySolids::place(const Substep& s) {
     moving.restitution = object.restitution;
     moving.named = solid.named.empty() ? nullptr : &solid.named;
     const Vec3f sliding = surface_velocity_of_body(s.model, s.work.control, body.object, body.body);
-    if (sliding != Vec3f{}) moving.slide = rotate(quaternion(s.state.frames.orientations[at(body.frame)]), sliding) * s.h;
+    if (sliding != Vec3f{})
+      moving.slide = rotate(quaternion(s.state.frames.orientations[at(body.frame)]), sliding) * s.h;
     const auto box = [&](const Posef& pose) {
       return solid.field == nullptr ? bounding_box(solid.shape, pose, solid.margin)
                                     : box_around(solid.field->bounds(), pose);

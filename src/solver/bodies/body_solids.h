@@ -1,4 +1,5 @@
-// The solids of rigid bodies as the points of surfaces see them: like primitive colliders that move with their body's prediction.
+// The solids of rigid bodies as the points of surfaces see them: like primitive colliders that move with their body's
+// prediction.
 #pragma once
 
 #include <memory>
@@ -27,7 +28,9 @@ class BodySolids {
   /// The index among bodies() of the body of each solid.
   const std::vector<int>& body_of_solid() const { return body_of_solid_; }
   int number_of(const Contact& contact) const { return body_of_solid_[static_cast<std::size_t>(contact.collider)]; }
-  const TouchedBody& body_of(const Contact& contact) const { return bodies_[static_cast<std::size_t>(number_of(contact))]; }
+  const TouchedBody& body_of(const Contact& contact) const {
+    return bodies_[static_cast<std::size_t>(number_of(contact))];
+  }
   /// The solids themselves, and those that points touch as primitives.
   std::vector<ConvexShape> convex_shapes() const;
   std::vector<LocalShape> primitives() const;

@@ -18,9 +18,9 @@ namespace {
 
 /// Most rounds in which impacts are passed on from body to body in a substep.
 constexpr int most_rounds_of_body_impacts = 32;
-/// Where the contacts of the last substep turn a jointed body by more than this in a substep [rad], as where a long chain hits
-/// a peg, joints take up only what the position pass leaves of them: the solve of joints is linear. The same as |f| h^2 |r| over
-/// the inertia, for which joints have this limit, too (joint_forest_solve.cpp).
+/// Where the contacts of the last substep turn a jointed body by more than this in a substep [rad], as where a long
+/// chain hits a peg, joints take up only what the position pass leaves of them: the solve of joints is linear. The same
+/// as |f| h^2 |r| over the inertia, for which joints have this limit, too (joint_forest_solve.cpp).
 constexpr float largest_turn_by_contact = 0.25f;
 
 /// Reads the part of a contact that manifold_of needs into the cache.
@@ -32,16 +32,17 @@ void fetch(const BodyContact& contact) {
 
 /// The speed above which a contact slides that begins where bodies are at rest against each other (Manifold::settles),
 /// else 0. `fall` is what gravity adds to velocities in a substep [m/s].
-float settling_speed(const BodyContact& contact, const Manifold& m, const BodyState& a, const BodyState& b, float fall) {
+float settling_speed(const BodyContact& contact, const Manifold& m, const BodyState& a, const BodyState& b,
+                     float fall) {
   constexpr float at_rest = 2, sliding = 0.01f;                                      // times `fall`
   if (contact.substep > 0 || !(m.friction > 0) || slides(a) || slides(b)) return 0;  // a belt sets in motion
   const Vec3f motion = (b.velocity + cross(b.spin, m.arm_b)) - (a.velocity + cross(a.spin, m.arm_a));
   return length_squared(motion) <= (at_rest * fall) * (at_rest * fall) ? sliding * fall : 0;
 }
 
-/// Turns the arm of a body that is driven round by half of what it turns about the contact normal in `left` seconds, so that displacement and
-/// friction of linear motion along the arm follow the chord of its circle, and what rides on a turntable does not drift outward. Spin about
-/// other axes, as of a roller, moves the surface along itself.
+/// Turns the arm of a body that is driven round by half of what it turns about the contact normal in `left` seconds, so
+/// that displacement and friction of linear motion along the arm follow the chord of its circle, and what rides on a
+/// turntable does not drift outward. Spin about other axes, as of a roller, moves the surface along itself.
 void turn_arm(const BodyState& body, const Vec3f& normal, double left, Vec3f& arm) {
   constexpr float largest = 0.5f;  // beyond which the series is wrong [rad]
   if (!body.is_driven_round) return;
@@ -98,7 +99,8 @@ void BodySolver::follow_meshes(const Substep& s) {
   const std::vector<BodyState>& states = contacts_.states();
   followed_.clear();
   is_fixed_.assign(contacts_.is_fixed().begin(), contacts_.is_fixed().end());
-  if (std::none_of(states.begin() + bodies_.dynamic(), states.end(), [](const BodyState& state) { return state.deforms; }))
+  if (std::none_of(states.begin() + bodies_.dynamic(), states.end(),
+                   [](const BodyState& state) { return state.deforms; }))
     return;
   const auto elapsed = static_cast<float>(time_of(s, s.number) - s.frame_start);
   followed_.assign(contacts_.all().size(), -1);
@@ -183,8 +185,8 @@ void BodySolver::renew_contacts(Substep& s) {
   make_manifolds(s);
 }
 
-/// Gathers the prediction at the start of a substep, which begins with the impulses of the last one. What these do is known from it, but in
-/// the first one of a frame.
+/// Gathers the prediction at the start of a substep, which begins with the impulses of the last one. What these do is
+/// known from it, but in the first one of a frame.
 void BodySolver::start_substep(const Substep& s) {
   Executor& executor = s.context.executor;
   const ManifoldKernels& kernels = s.kernels.manifolds;
@@ -237,7 +239,8 @@ bool BodySolver::find_jointed(const Substep& s) {
   return any;
 }
 
-/// Of the islands of jointed and touching bodies, those that have joints, and in which contacts turn no jointed body far.
+/// Of the islands of jointed and touching bodies, those that have joints, and in which contacts turn no jointed body
+/// far.
 void BodySolver::find_pressed(const Substep& s) {
   const auto is_free = [&](int place) { return place < bodies_.dynamic() && contacts_.is_fixed()[at(place)] == 0; };
   const auto join = [&](int a, int b) {
@@ -286,7 +289,8 @@ bool BodySolver::is_pressed(int contact) const {
   return is_started(a) || is_started(b);
 }
 
-/// The rest of a substep's start after press_joints: what has moved stays, and the other bodies start as if they were alone.
+/// The rest of a substep's start after press_joints: what has moved stays, and the other bodies start as if they were
+/// alone.
 void BodySolver::start_others(const Substep& s) {
   const BodyMotions::Pushes pressed = motions_.pushes();
   const std::vector<float> bounced = bounced_;
@@ -383,7 +387,8 @@ void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
     add(contacts_.all()[at(i)], bounced,
         contacts_.states()[b].pose.position + convert<double>(motions_.all()[b].displacement));
   }
-  for (const BodyContact& c : sleep_.kept_contacts()) add(c, 0, contacts_.states()[at(sleep_.body_of(c.b))].pose.position);
+  for (const BodyContact& c : sleep_.kept_contacts())
+    add(c, 0, contacts_.states()[at(sleep_.body_of(c.b))].pose.position);
   points_.impulses().log_contacts(s, points_.solids(), shares_, log);
   finish_substep(log);
 }

@@ -1,8 +1,9 @@
 // Contact of the rigid bodies of a substep group with one another and with colliders, as stages of a frame.
 //
-// Contacts are found once a frame, and again where bodies turn fast, and each substep solves them with one soft pass that corrects the predicted motion and one
-// pass over velocities after the update, which takes back what the first added (manifold_passes.h). Bodies' motions are gathered from the
-// State for a pass and scattered after it, so constraints, chains and other contact act on bodies as on any particle and frame.
+// Contacts are found once a frame, and again where bodies turn fast, and each substep solves them with one soft pass
+// that corrects the predicted motion and one pass over velocities after the update, which takes back what the first
+// added (manifold_passes.h). Bodies' motions are gathered from the State for a pass and scattered after it, so
+// constraints, chains and other contact act on bodies as on any particle and frame.
 #pragma once
 
 #include <utility>
@@ -38,17 +39,19 @@ class BodySolver {
 
   /// Finds the contacts of a frame. Kept ones come from the State.
   void begin_frame(Substep& s);
-  /// Before the prediction of a substep: finds them again if bodies have turned or moved so far that its arms and normals are no longer true.
+  /// Before the prediction of a substep: finds them again if bodies have turned or moved so far that its arms and
+  /// normals are no longer true.
   void renew_contacts(Substep& s);
   /// Finds the contacts of points and bodies in a substep.
   void collide(Substep& s);
-  /// Starts a substep with the contact impulses of the last one, before joints and chains are solved, so that these balance them and
-  /// gravity. Otherwise they would take up contact forces after friction, and bodies at rest would creep or hum. Moves only islands of
-  /// jointed and touching bodies that have joints solved directly, or ties to chains, and none in which contacts turn such a body far.
-  /// Returns the objects with bodies that were moved, by 1 each [object]; empty if there are none.
+  /// Starts a substep with the contact impulses of the last one, before joints and chains are solved, so that these
+  /// balance them and gravity. Otherwise they would take up contact forces after friction, and bodies at rest would
+  /// creep or hum. Moves only islands of jointed and touching bodies that have joints solved directly, or ties to
+  /// chains, and none in which contacts turn such a body far. Returns the objects with bodies that were moved, by 1
+  /// each [object]; empty if there are none.
   const std::vector<char>& press_joints(Substep& s);
-  /// Corrects displacements and rotations of bodies, and of points that touch them. In the first iteration of a substep, starts from the impulses of the last
-  /// one, unless press_joints has, and makes bodies bounce.
+  /// Corrects displacements and rotations of bodies, and of points that touch them. In the first iteration of a
+  /// substep, starts from the impulses of the last one, unless press_joints has, and makes bodies bounce.
   void project(Substep& s, bool is_first);
   /// Projects the contacts of points of the objects for which `of` is not zero once more.
   void project_points(Substep& s, const std::vector<char>& of) { points_.project(s, motions_.present(), &of); }
@@ -66,7 +69,8 @@ class BodySolver {
   PointLoads& loads() { return points_.loads(); }
   /// After a phase of chains: gives the bodies the impulses of the particles that carry them.
   void end_chains(Substep& s) { points_.end_chains(s, motions_.present()); }
-  /// The solids of bodies as points touch them, and the masses and inertias of the bodies by their orientations at the substep's start.
+  /// The solids of bodies as points touch them, and the masses and inertias of the bodies by their orientations at the
+  /// substep's start.
   const BodySolids& solids() const { return points_.solids(); }
   const std::vector<BodyMotion>& present_motions() const { return motions_.present(); }
   /// In the order of bodies in BodyIslands.
@@ -113,10 +117,10 @@ class BodySolver {
   std::vector<std::pair<int, int>> pressing_;  ///< bodies of those that press, for find_islands
   ManifoldColours colours_;                    ///< of contacts_
   ManifoldBlocks blocks_;                      ///< the manifolds of contacts_ in a frame
-  std::vector<float> bounced_;                 ///< [contact] impulses of impacts with restitution in a substep, for events
-  std::vector<int> followed_;                  ///< [contact] motion of the mesh that deforms, or -1; empty if none does
-  std::vector<char> is_fixed_;                 ///< [motion] nonzero: fixed
-  std::vector<int> overlaps_;                  ///< [place] FrameContacts::count_overlaps
+  std::vector<float> bounced_;  ///< [contact] impulses of impacts with restitution in a substep, for events
+  std::vector<int> followed_;   ///< [contact] motion of the mesh that deforms, or -1; empty if none does
+  std::vector<char> is_fixed_;  ///< [motion] nonzero: fixed
+  std::vector<int> overlaps_;   ///< [place] FrameContacts::count_overlaps
   PressedBy pressed_by_ = PressedBy::bodies;
   std::vector<char> is_separating_;    ///< [contact] nonzero: its bodies overlap more than what presses them explains
   std::vector<char> may_bounce_;       ///< [contact] nonzero: has restitution

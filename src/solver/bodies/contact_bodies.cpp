@@ -149,9 +149,10 @@ void ContactBodies::add_mesh(const Model& model, int object) {
   const bool is_terrain = field != model.fields.end() && field->field->is_ground();
   BodyMeshes::Entry& entry = meshes_->of_object[object];
   if (entry.mesh == nullptr || entry.generation != model.generation[at(object)])
-    entry = {model.generation[at(object)], false,
-             std::make_unique<BodyMesh>(from.carrier.rest, from.surface.triangles,
-                                        is_terrain ? BodyMesh::Kind::terrain : BodyMesh::Kind::surface, from.thickness)};
+    entry = {
+        model.generation[at(object)], false,
+        std::make_unique<BodyMesh>(from.carrier.rest, from.surface.triangles,
+                                   is_terrain ? BodyMesh::Kind::terrain : BodyMesh::Kind::surface, from.thickness)};
   BodyPlace place;
   place.object = object;
   place.mesh = entry.mesh.get();
@@ -188,7 +189,8 @@ bool ContactBodies::meets_mesh(const Model& model, const BodyPlace& body, const 
   const auto field = std::find_if(model.fields.begin(), model.fields.end(),
                                   [&](const FieldCollider& one) { return one.object == mesh.object; });
   const bool has_field = field != model.fields.end();
-  const std::uint32_t groups = has_field ? field->groups : collider.groups, mask = has_field ? field->mask : collider.mask;
+  const std::uint32_t groups = has_field ? field->groups : collider.groups,
+                      mask = has_field ? field->mask : collider.mask;
   return (object.groups & mask) != 0 && (groups & object.mask) != 0;
 }
 
@@ -279,15 +281,17 @@ BodyState ContactBodies::collider_at_start(const Substep& s, const BodyPlace& pl
   // Within a frame they stay where they were at its start: other groups that run at the same time touch the mesh, too.
   if (place.mesh != nullptr && s.number == 0) move_vertices(s, place);
   if (place.mesh != nullptr && meshes_->of_object.at(place.object).is_deformed) return deformed_at_start(s, place);
-  const auto [before, after] = place.mesh == nullptr ? poses_between(colliders_at_start_[at(place.collider)])
-                                                     : poses_of_mesh(s, place, time_of(s, s.number), s.frame_start + s.dt);
+  const auto [before, after] = place.mesh == nullptr
+                                   ? poses_between(colliders_at_start_[at(place.collider)])
+                                   : poses_of_mesh(s, place, time_of(s, s.number), s.frame_start + s.dt);
   const Posef start = convert<float>(before), end = convert<float>(after);
   const float rate = static_cast<float>(1 / time_left(s));
   BodyState state{before, convert<float>(after.position - before.position) * rate,
                   turn_between(start.rotation, end.rotation) * rate, true};
   state.surface_velocity =
-      place.mesh == nullptr ? rotate(start.rotation, surface_velocity_of_collider(s.model, s.work.control, place.collider))
-                            : surface_velocity_of_mesh(s.model, s.work.control, place.object, time_of(s, s.number));
+      place.mesh == nullptr
+          ? rotate(start.rotation, surface_velocity_of_collider(s.model, s.work.control, place.collider))
+          : surface_velocity_of_mesh(s.model, s.work.control, place.object, time_of(s, s.number));
   return state;
 }
 

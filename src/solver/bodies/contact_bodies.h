@@ -18,8 +18,8 @@ namespace pliant {
 
 struct Substep;
 
-/// The meshes of a World's mesh colliders as bodies touch them, by object and generation. They are kept, because to make one takes
-/// longer than a frame.
+/// The meshes of a World's mesh colliders as bodies touch them, by object and generation. They are kept, because to
+/// make one takes longer than a frame.
 struct BodyMeshes {
   struct Entry {
     int generation = 0;
@@ -66,7 +66,8 @@ class ContactBodies {
 
   /// Finds where colliders are at the substep's start and the frame's end.
   void begin_frame(const Substep& s);
-  /// The state of a place at the substep's start. At a frame's start, moves the vertices of a mesh that deforms to where they are.
+  /// The state of a place at the substep's start. At a frame's start, moves the vertices of a mesh that deforms to
+  /// where they are.
   BodyState state_at_start(const Substep& s, int place);
   /// The poses of a collider before and after the substep.
   std::pair<Posed, Posed> poses_of_collider(const Substep& s, int place) const;

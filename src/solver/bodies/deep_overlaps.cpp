@@ -10,8 +10,8 @@ namespace pliant {
 
 namespace {
 
-/// The deepest contact is named in the Report if it is deeper than this share of half of a body's thickness in so many frames one after
-/// another: impacts are over sooner.
+/// The deepest contact is named in the Report if it is deeper than this share of half of a body's thickness in so many
+/// frames one after another: impacts are over sooner.
 constexpr float deep_share = 0.2f;
 constexpr int frames_of_rest = 6;
 
@@ -21,8 +21,8 @@ void StartOverlaps::warn(Substep& s, const ContactBodies& bodies) const {
   if (count_ == 0) return;
   s.report.warnings.push_back(
       (count_ == 1 ? "1 pair of bodies overlaps" : std::to_string(count_) + " pairs of bodies overlap") +
-      " where contact begins, deepest " + bodies.name(s.model, deepest_.a) + " and " + bodies.name(s.model, deepest_.b) +
-      " by " + std::to_string(deepest_.depth) + " m: each pair is moved apart at " +
+      " where contact begins, deepest " + bodies.name(s.model, deepest_.a) + " and " +
+      bodies.name(s.model, deepest_.b) + " by " + std::to_string(deepest_.depth) + " m: each pair is moved apart at " +
       std::to_string(depenetration_speed(deepest_.depth / deepest_.share)) +
       " m/s at most; place bodies apart, or if they meet fast give shorter frames or more substeps");
 }

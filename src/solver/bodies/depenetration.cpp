@@ -23,7 +23,8 @@ float inverse_mass_at(const Vec3f& arm, const Vec3f& normal, const BodyMotion& b
 
 float depenetration_speed(float size) { return std::min(fastest_depenetration, sizes_a_second * size); }
 
-bool limit_depths(const BodyMotion& a, const BodyMotion& b, float size, int others, PressedBy by, float h, Manifold& m) {
+bool limit_depths(const BodyMotion& a, const BodyMotion& b, float size, int others, PressedBy by, float h,
+                  Manifold& m) {
   constexpr ContactSoftness softness;
   const float share = std::min(few_overlaps / static_cast<float>(std::max(others, 1)), 1.f);
   const float margin = share * depenetration_speed(size) * h / softness.beta;

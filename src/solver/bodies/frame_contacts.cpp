@@ -13,11 +13,11 @@ namespace {
 
 /// Contacts are found again in a frame if a body has turned by more than this since they were found [rad].
 constexpr float far_turned = 0.2f, soon_far_turned = 0.5f * far_turned;
-/// The same if two bodies, of which some bounce, have moved against each other by more than this share of half of the smaller one's
-/// thickness: the direction of an impact is that of the place where they meet.
+/// The same if two bodies, of which some bounce, have moved against each other by more than this share of half of the
+/// smaller one's thickness: the direction of an impact is that of the place where they meet.
 constexpr float far_moved = 0.1f;
-/// The same if a body leaves the path by which pairs were found by more than this share of half of its thickness, as one
-/// that another one hits: nothing else would hold it on its new path.
+/// The same if a body leaves the path by which pairs were found by more than this share of half of its thickness, as
+/// one that another one hits: nothing else would hold it on its new path.
 constexpr float far_strayed = 0.5f;
 
 }  // namespace
@@ -40,7 +40,8 @@ void FrameContacts::read_states(const Substep& s) {
 
 void FrameContacts::update(Substep& s, const std::vector<BodyContact>& before) {
   finder_.update(
-      s.context.executor, states_, left_, faster_, [&](int a, int b) { return bodies_->meet(s, a, b); }, before, contacts_);
+      s.context.executor, states_, left_, faster_, [&](int a, int b) { return bodies_->meet(s, a, b); }, before,
+      contacts_);
 }
 
 /// Contacts with a body that sleeps wake it, and are found once more with those of its island.
@@ -118,8 +119,8 @@ void FrameContacts::warn_of_overlaps(Substep& s, const std::vector<char>& is_sep
   overlaps_.note(s, *bodies_, deepest);
 }
 
-/// Calls visit(a, b) for the bodies of contacts that have moved far against each other, until it returns true. Returns true if it has. How
-/// far bodies move along planes and meshes, whose size has no end, does not matter.
+/// Calls visit(a, b) for the bodies of contacts that have moved far against each other, until it returns true. Returns
+/// true if it has. How far bodies move along planes and meshes, whose size has no end, does not matter.
 template <class Visit>
 bool FrameContacts::any_moved_far(const BodyMotions& motions, const Visit& visit) const {
   const std::vector<BodyMotion>& all = motions.all();
@@ -131,7 +132,9 @@ bool FrameContacts::any_moved_far(const BodyMotions& motions, const Visit& visit
   return false;
 }
 
-void FrameContacts::begin_path(int body) { paths_[at(body)] = {states_[at(body)].velocity * left_, {}, left_ * faster_}; }
+void FrameContacts::begin_path(int body) {
+  paths_[at(body)] = {states_[at(body)].velocity * left_, {}, left_ * faster_};
+}
 
 /// The first test excludes bodies that have hardly moved.
 bool FrameContacts::has_strayed(const BodyMotions& motions, int body) const {
@@ -152,8 +155,8 @@ bool FrameContacts::are_outdated(const BodyMotions& motions, bool some_bounce) c
     any = any || turned(body);
   }
   const auto& pairs = finder_.bodies();
-  if (any &&
-      std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) { return turned(pair.first) || turned(pair.second); }))
+  if (any && std::any_of(pairs.begin(), pairs.end(),
+                         [&](const auto& pair) { return turned(pair.first) || turned(pair.second); }))
     return true;
   return some_bounce && any_moved_far(motions, [](int, int) { return true; });
 }

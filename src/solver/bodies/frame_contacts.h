@@ -1,5 +1,5 @@
-// The contacts of a frame between the bodies of a substep group, and of bodies with colliders: found at its start, and again where bodies
-// turn or move so far that normals and arms are no longer true.
+// The contacts of a frame between the bodies of a substep group, and of bodies with colliders: found at its start, and
+// again where bodies turn or move so far that normals and arms are no longer true.
 #pragma once
 
 #include <span>
@@ -32,7 +32,8 @@ class FrameContacts {
   void count_overlaps(std::vector<int>& counts) const;
   /// Half of the thickness of the smaller body of a contact [m].
   float size(int contact) const;
-  /// Warns of bodies that overlap when the frame begins. `is_separating` is nonzero for contacts that limit_depths has limited.
+  /// Warns of bodies that overlap when the frame begins. `is_separating` is nonzero for contacts that limit_depths has
+  /// limited.
   void warn_of_overlaps(Substep& s, const std::vector<char>& is_separating);
 
   /// In ascending order of parts.
@@ -73,7 +74,7 @@ class FrameContacts {
   std::vector<SearchedPath> paths_;  ///< [place]
   std::vector<char> is_fixed_;
   std::vector<BodyContact> contacts_;
-  std::vector<float> turned_;        ///< [place] rotation from when a body's contacts were found to the last renewal [rad]
+  std::vector<float> turned_;  ///< [place] rotation from when a body's contacts were found to the last renewal [rad]
   std::vector<char> is_outdated_;    ///< [place] nonzero: its contacts are found again
   std::vector<BodyContact> before_;  ///< of the frame before, where bodies sleep
 };

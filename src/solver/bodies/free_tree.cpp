@@ -15,7 +15,8 @@ namespace {
 
 Vec3d times(const Symmetric& m, const Vec3d& v) {
   const auto e = [&](std::size_t i) { return static_cast<double>(m[i]); };
-  return {e(0) * v.x + e(5) * v.y + e(4) * v.z, e(5) * v.x + e(1) * v.y + e(3) * v.z, e(4) * v.x + e(3) * v.y + e(2) * v.z};
+  return {e(0) * v.x + e(5) * v.y + e(4) * v.z, e(5) * v.x + e(1) * v.y + e(3) * v.z,
+          e(4) * v.x + e(3) * v.y + e(2) * v.z};
 }
 
 /// Adds what a rotation by theta changes of the angular momentum of a particle at x that is now at y, about any point:
@@ -47,8 +48,8 @@ FreeTree::FreeTree(std::vector<JointForest::Body> bodies, const SweepArguments& 
   std::sort(bodies_.begin(), bodies_.end(), [](const auto& a, const auto& b) { return a.point < b.point; });
   for (const JointForest::Body& body : bodies_) {
     float inertia[6], inverse[6];
-    joint_formulas::turned_inertia(quaternion(frames.orientations[body.frame]), xyz(frames.inverse_inertias[body.frame]),
-                                   inertia, inverse);
+    joint_formulas::turned_inertia(quaternion(frames.orientations[body.frame]),
+                                   xyz(frames.inverse_inertias[body.frame]), inertia, inverse);
     std::copy_n(inertia, 6, inertias_.emplace_back().begin());
   }
   before_ = momentum();

@@ -1,10 +1,11 @@
 // Keeps the angular momentum of trees of joints that hold on to nothing.
 //
-// A substep conserves angular momentum if sum_i x_i x m_i d_i + I_i theta_i = 0, where x are the positions at its start, and d and
-// theta the corrections (solver/momentum.h). Gradients of the substep's start have no torque about these. Those of the present,
-// and the stiffness by which pulls hold bodies back, do: a rod that spins freely would lose a share of the order of the square of
-// the angle that it turns in a substep, in each substep. So what a solve with these has done to a free tree is followed by a
-// rotation of the tree as a whole that gives the angular momentum back. Joints stay as they are.
+// A substep conserves angular momentum if sum_i x_i x m_i d_i + I_i theta_i = 0, where x are the positions at its
+// start, and d and theta the corrections (solver/momentum.h). Gradients of the substep's start have no torque about
+// these. Those of the present, and the stiffness by which pulls hold bodies back, do: a rod that spins freely would
+// lose a share of the order of the square of the angle that it turns in a substep, in each substep. So what a solve
+// with these has done to a free tree is followed by a rotation of the tree as a whole that gives the angular momentum
+// back. Joints stay as they are.
 #pragma once
 
 #include <vector>
@@ -19,8 +20,8 @@ bool is_free(const JointForest& forest);
 
 class FreeTree {
  public:
-  /// Notes the angular momentum of the corrections before a solve. The bodies are those of a tree, in any order: the bits are the
-  /// same. Other arguments are the arrays of its object.
+  /// Notes the angular momentum of the corrections before a solve. The bodies are those of a tree, in any order: the
+  /// bits are the same. Other arguments are the arrays of its object.
   FreeTree(std::vector<JointForest::Body> bodies, const SweepArguments& points, const FrameArguments& frames);
   /// Rotates the tree so that this is what it was.
   void restore() const;

@@ -63,7 +63,8 @@ void HeldBodies::leave_out_constraints(Substep& s) const {
     const CompiledObject& object = s.model.objects[at(jointed.object)];
     const auto from = is_held_.begin() + jointed.first_body,
                to = from + static_cast<std::ptrdiff_t>(object.bodies.bodies.size());
-    const std::vector<char> now = std::find(from, to, char{1}) == to ? std::vector<char>{} : std::vector<char>(from, to);
+    const std::vector<char> now =
+        std::find(from, to, char{1}) == to ? std::vector<char>{} : std::vector<char>(from, to);
     ObjectJoints& joints = s.work.joints[at(jointed.object)];
     if (joints.is_asleep == now) continue;
     joints.is_asleep = now;

@@ -1,4 +1,5 @@
-// Bodies that sleep, held in place while a frame is made: they have infinite mass, and at its end their poses are put back bit by bit.
+// Bodies that sleep, held in place while a frame is made: they have infinite mass, and at its end their poses are put
+// back bit by bit.
 #pragma once
 
 #include <cstddef>

@@ -14,8 +14,8 @@ namespace pliant {
 
 namespace {
 
-/// What a body can do: nothing, move and rotate, rotate about a held centre. Those that are held about some axes alone are left to the
-/// stencil driver.
+/// What a body can do: nothing, move and rotate, rotate about a held centre. Those that are held about some axes alone
+/// are left to the stencil driver.
 enum class Mobility { fixed, free, rotating, partial };
 
 Mobility mobility(const CompiledObject& object, std::int32_t point, std::int32_t frame) {
@@ -79,7 +79,8 @@ bool acts_on_two_bodies(const ConstraintDefinition& type) {
   return type.slots == std::vector<SlotKind>{SlotKind::point, SlotKind::frame, SlotKind::point, SlotKind::frame};
 }
 
-/// Adds the limits, or the motors and friction, to the joints of trees whose bodies they act on, as far as there is room.
+/// Adds the limits, or the motors and friction, to the joints of trees whose bodies they act on, as far as there is
+/// room.
 void add_bounded_parts(const CompiledObject& object, const std::vector<std::vector<char>>& is_broken, bool motors,
                        std::vector<JointForest>& forests) {
   std::map<std::array<std::int32_t, 4>, JointForest::Joint*> joints;
@@ -112,14 +113,16 @@ std::vector<std::vector<char>> find_left_out(const CompiledObject& object, const
   for (std::size_t b = 0; b < joints.is_asleep.size(); ++b) {
     const CompiledBodies::Body& body = object.bodies.bodies[b];
     const int frame = object.particles + body.frame;
-    is_asleep[static_cast<std::size_t>(body.particle)] = is_asleep[static_cast<std::size_t>(frame)] = joints.is_asleep[b];
+    is_asleep[static_cast<std::size_t>(body.particle)] = is_asleep[static_cast<std::size_t>(frame)] =
+        joints.is_asleep[b];
   }
   for (const Segment& segment : object.segments) {
     const Pool& pool = object.pools[static_cast<std::size_t>(segment.pool)];
     if (pool.in_lanes) continue;
     for_segment(object, segment, [&](const ConstraintPlace& at, const std::int32_t* number) {
-      const bool sleeps = std::any_of(number, number + pool.stencil,
-                                      [&](std::int32_t slot) { return is_asleep[static_cast<std::size_t>(slot)] != 0; });
+      const bool sleeps = std::any_of(number, number + pool.stencil, [&](std::int32_t slot) {
+        return is_asleep[static_cast<std::size_t>(slot)] != 0;
+      });
       if (!sleeps) return;
       auto& of_pool = marks[static_cast<std::size_t>(at.pool_number)];
       of_pool.resize(static_cast<std::size_t>(pool.batches) * batch_width);

@@ -1,12 +1,13 @@
 // The joints of an object's rigid bodies that form trees, solved directly in each pass over the stencils (JointTree).
 //
-// C is that of the present positions, its gradients are those of the substep's start, which keeps energy (SHAKE; Ryckaert,
-// Ciccotti, Berendsen 1977). Where joints pull so hard that a body would oscillate faster than substeps can follow, gradients
-// are those of the present, and the geometric stiffness of the joint forces is added to the body's inertia (Tournier, Nesme,
-// Gilles, Faure 2015). What that takes from the angular momentum of a tree that holds on to nothing is given back (free_tree.h).
+// C is that of the present positions, its gradients are those of the substep's start, which keeps energy (SHAKE;
+// Ryckaert, Ciccotti, Berendsen 1977). Where joints pull so hard that a body would oscillate faster than substeps can
+// follow, gradients are those of the present, and the geometric stiffness of the joint forces is added to the body's
+// inertia (Tournier, Nesme, Gilles, Faure 2015). What that takes from the angular momentum of a tree that holds on to
+// nothing is given back (free_tree.h).
 //
-// Limits, motors and friction of a joint in a tree are further rows of that joint. Which of them act at a bound is found by
-// repeated solves (an active set). Joints that close loops remain with the stencil driver.
+// Limits, motors and friction of a joint in a tree are further rows of that joint. Which of them act at a bound is
+// found by repeated solves (an active set). Joints that close loops remain with the stencil driver.
 #pragma once
 
 #include <array>
@@ -22,7 +23,8 @@ namespace pliant {
 struct CompiledObject;
 struct Substep;
 
-/// Joints of one object that are solved directly, and scratch data for them. Bodies that no joints connect are in different forests.
+/// Joints of one object that are solved directly, and scratch data for them. Bodies that no joints connect are in
+/// different forests.
 struct JointForest {
   /// A constraint: of a joint, or a limit, motor or friction of it.
   struct Part {
@@ -69,7 +71,7 @@ struct JointForest {
   using Pull = std::array<Vec3f, 2>;  ///< the force on bodies a and b, times h^2 [kg m]
   std::vector<Pull> pulls;            ///< [joint] of the last substep, or of this one's passes so far
   std::vector<Pull> pulls_of_pass;    ///< [joint] scratch
-  bool is_fast = false;           ///< a body turns so fast on a bearing that stands still that joints hold velocities, too
+  bool is_fast = false;  ///< a body turns so fast on a bearing that stands still that joints hold velocities, too
   float inverse_h2_of_pulls = 0;  ///< of the substep in which the pulls were found [1/s^2]
 };
 

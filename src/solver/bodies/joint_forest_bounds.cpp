@@ -1,4 +1,5 @@
-// Solves joint trees whose limits, motors and friction have bounds: which rows act at a bound is found by repeated solves.
+// Solves joint trees whose limits, motors and friction have bounds: which rows act at a bound is found by repeated
+// solves.
 #include <algorithm>
 #include <utility>
 
@@ -57,8 +58,8 @@ float residual(const JointForest& forest, const BoundedRow& bounded, float chang
   return sum;
 }
 
-/// The state of a bounded row after a solve. A row that depends on others is left out of the solve; if it is not met, it
-/// is held at the bound that would reduce its error.
+/// The state of a bounded row after a solve. A row that depends on others is left out of the solve; if it is not met,
+/// it is held at the bound that would reduce its error.
 RowState next_state(const JointForest& forest, const BoundedRow& bounded, bool may_leave) {
   const float tolerance = 1e-7f + 1e-4f * abs(bounded.value);
   if (bounded.state != RowState::free) {

@@ -184,7 +184,8 @@ float* multipliers_of(const JointWork& work, const ConstraintPlace& at) {
   return all == nullptr ? nullptr : all + at.multiplier_place(0);
 }
 
-void load_slots(JointWork& work, const JointForest::Joint& joint, const Record* displacements, const Record* orientations) {
+void load_slots(JointWork& work, const JointForest::Joint& joint, const Record* displacements,
+                const Record* orientations) {
   const std::int32_t origin = joint.slots[0];
   for (int slot = 0; slot < 4; ++slot) {
     const std::int32_t n = joint.slots[static_cast<std::size_t>(slot)];
@@ -224,8 +225,8 @@ void fill_rows(JointWork& work, bool start_gradients) {
 
 namespace {
 
-/// True if the residual of a row of a joint with compliance, C + alpha lambda with damping, is above `most` [m], divided by the gradient
-/// at b's point. Rows that only turn bodies do not count.
+/// True if the residual of a row of a joint with compliance, C + alpha lambda with damping, is above `most` [m],
+/// divided by the gradient at b's point. Rows that only turn bodies do not count.
 bool is_displaced(const JointWork& work, const JointForest::Joint& joint, const ConstraintPlace& at, float most) {
   const float softness = at.value(at.pool.fields), alpha = min(softness * work.points.inverse_h2, largest_compliance);
   const float gamma = at.pool.law == Law::damped

@@ -27,8 +27,8 @@ void find_pulls(const JointForest& forest, std::vector<JointForest::Pull>& pulls
   }
 }
 
-/// Computes the geometric stiffness of all bodies from the pulls of joints. Returns the largest ratio of |f||r| to the mean
-/// inertia of a body. The rest data of joints begin with the anchor in a, then in b.
+/// Computes the geometric stiffness of all bodies from the pulls of joints. Returns the largest ratio of |f||r| to the
+/// mean inertia of a body. The rest data of joints begin with the anchor in a, then in b.
 float find_stiffness(JointWork& work, const std::vector<JointForest::Pull>& pulls) {
   JointForest& forest = work.forest;
   forest.stiffness.assign(forest.bodies.size(), {});
@@ -100,7 +100,8 @@ void apply(JointWork& work) {
   store_multipliers(work);
 }
 
-/// Solves again with the present gradients, and with the stiffness of the pulls that were found last. A free tree is noted before.
+/// Solves again with the present gradients, and with the stiffness of the pulls that were found last. A free tree is
+/// noted before.
 void solve_stiffly(JointWork& work, std::optional<FreeTree>& free) {
   if (is_free(work.forest)) free.emplace(work.forest.bodies, work.points, work.frames);
   stiffen(work);
@@ -130,8 +131,8 @@ void solve_softly(JointWork& work, std::optional<FreeTree>& free) {
   if (find_stiffness(work, forest.pulls_of_pass) > largest_advance) solve_stiffly(work, free);
 }
 
-/// Where the joints of the last substep pulled hard, they do so now, and one solve is enough. What is kept is of this frame
-/// alone, so a restored State gives the same bits.
+/// Where the joints of the last substep pulled hard, they do so now, and one solve is enough. What is kept is of this
+/// frame alone, so a restored State gives the same bits.
 bool was_pulled_hard(JointWork& work, const Substep& s) {
   JointForest& forest = work.forest;
   if (!work.points.first_pass || s.number == 0 || forest.pulls.size() != forest.joints.size()) return false;

@@ -1,8 +1,10 @@
-// Rigid joints of trees hold velocities too where a body on a bearing that stands still turns by radians in a substep (RATTLE; Andersen 1983).
+// Rigid joints of trees hold velocities too where a body on a bearing that stands still turns by radians in a substep
+// (RATTLE; Andersen 1983).
 //
-// A body that turns by radians is predicted as a free top. What a joint should have taken from its angular momentum then comes back turned, and a
-// disc on a hinge gains speed. Where bodies turn less, the next solve of positions does the same by nearly the same gradients. Bearings that move are
-// left out: a wheel on a light, free frame swings (nutates) faster than substeps can follow, and holding velocities would make it grow.
+// A body that turns by radians is predicted as a free top. What a joint should have taken from its angular momentum
+// then comes back turned, and a disc on a hinge gains speed. Where bodies turn less, the next solve of positions does
+// the same by nearly the same gradients. Bearings that move are left out: a wheel on a light, free frame swings
+// (nutates) faster than substeps can follow, and holding velocities would make it grow.
 //
 // Multipliers of velocities are no part of Report's joint loads.
 #include "constraints/registry.h"

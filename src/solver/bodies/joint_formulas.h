@@ -1,4 +1,5 @@
-// What the solution of joint trees computes for each body and joint, written once: F is float for one tree, Wide for sixteen side by side.
+// What the solution of joint trees computes for each body and joint, written once: F is float for one tree, Wide for
+// sixteen side by side.
 #pragma once
 
 #include "math/quat.h"
@@ -12,7 +13,8 @@ inline constexpr float least_gap = 1e-6f;
 /// A joint with compliance is open if it is off by this share of its arms.
 inline constexpr float open_share_of_soft = 1e-3f;
 
-/// The inertia of a body in world axes and its inverse (xx, yy, zz, yz, zx, xy), from the inverses of its principal moments.
+/// The inertia of a body in world axes and its inverse (xx, yy, zz, yz, zx, xy), from the inverses of its principal
+/// moments.
 template <class F>
 PLIANT_HD void turned_inertia(const Quat<F>& q, const Vec3<F>& of, F (&inertia)[6], F (&inverse)[6]) {
   const F zero(0.f), one(1.f);
@@ -30,8 +32,8 @@ PLIANT_HD void turned_inertia(const Quat<F>& q, const Vec3<F>& of, F (&inertia)[
   }
 }
 
-/// Adds the stiffness against rotation that force f at arm r gives a body: (f.r + |f||r|) / 2 - (f r^T + r f^T) / 2, which
-/// is never negative. Returns |f||r|.
+/// Adds the stiffness against rotation that force f at arm r gives a body: (f.r + |f||r|) / 2 - (f r^T + r f^T) / 2,
+/// which is never negative. Returns |f||r|.
 template <class F>
 PLIANT_HD F add_stiffness(const Vec3<F>& f, const Vec3<F>& r, F* sum) {
   const F size = sqrt(length_squared(f) * length_squared(r)), half = (dot(f, r) + size) * F(0.5f), less(-0.5f);

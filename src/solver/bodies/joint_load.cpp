@@ -24,7 +24,9 @@ void add_part(const LoadView& view, const CompiledJoint& joint, const Constraint
               StencilArrays<float>& arrays, ReactionLoad& load) {
   const auto& multipliers = view.multipliers[static_cast<std::size_t>(at.pool_number)];
   if (multipliers.empty()) return;
-  const auto moved = [&](std::int32_t n) { return view.displacements == nullptr ? Vec3f{} : xyz(view.displacements[n]); };
+  const auto moved = [&](std::int32_t n) {
+    return view.displacements == nullptr ? Vec3f{} : xyz(view.displacements[n]);
+  };
   int origin = -1;
   for (int slot = 0; slot < at.pool.stencil; ++slot) {
     const std::int32_t n = number[slot];
@@ -44,7 +46,8 @@ void add_part(const LoadView& view, const CompiledJoint& joint, const Constraint
     const float force = multipliers[static_cast<std::size_t>(at.multiplier_place(row))] * inverse_h2;
     for (int slot = 0; slot < at.pool.stencil; ++slot) {
       if (number[slot] == joint.point) load.force += arrays.gradient(at.pool, row, slot) * force;
-      if (number[slot] == view.object.particles + joint.frame) load.torque += arrays.gradient(at.pool, row, slot) * force;
+      if (number[slot] == view.object.particles + joint.frame)
+        load.torque += arrays.gradient(at.pool, row, slot) * force;
     }
   }
 }
@@ -89,8 +92,9 @@ struct Overload {
 /// An object after the solve of a substep.
 LoadView view_of(const Substep& s, int o) {
   const SweepArguments a = arguments(s, o, false);
-  return {s.model.objects[static_cast<std::size_t>(o)],    a.positions, a.displacements, frame_arguments(s, o).orientations,
-          s.work.multipliers[static_cast<std::size_t>(o)], s.h};
+  return {
+      s.model.objects[static_cast<std::size_t>(o)],    a.positions, a.displacements, frame_arguments(s, o).orientations,
+      s.work.multipliers[static_cast<std::size_t>(o)], s.h};
 }
 
 /// The joints of an object that carry more than they can, ascending.
@@ -110,8 +114,8 @@ std::vector<Overload> find_overloads(const Substep& s, int o) {
   return found;
 }
 
-/// The frames of the bodies of a joint between segments of a rod: add_rod numbers them one after another, but not what holds an
-/// end. Equal numbers for other joints.
+/// The frames of the bodies of a joint between segments of a rod: add_rod numbers them one after another, but not what
+/// holds an end. Equal numbers for other joints.
 std::pair<int, int> segments_of(const CompiledObject& object, const CompiledJoint& joint) {
   for (const CompiledJoint::Part& part : joint.parts) {
     const Pool& pool = object.pools[static_cast<std::size_t>(part.pool)];
@@ -122,7 +126,8 @@ std::pair<int, int> segments_of(const CompiledObject& object, const CompiledJoin
   return {joint.frame, joint.frame};
 }
 
-/// For each frame of an object the lowest frame of the same rod, as far as it is whole; -1: it is not of a segment of a rod.
+/// For each frame of an object the lowest frame of the same rod, as far as it is whole; -1: it is not of a segment of a
+/// rod.
 std::vector<int> rods_of(const CompiledObject& object, const std::vector<int>& broken) {
   DisjointSets rods(object.frames.size());
   std::vector<int> found(object.frames.size(), -1);
@@ -138,8 +143,8 @@ std::vector<int> rods_of(const CompiledObject& object, const std::vector<int>& b
   return found;
 }
 
-/// Of each rod, with the joints that hold its ends, keeps the joint with the greatest share, the first of equal ones: they bear
-/// one load in series, so the one that breaks relieves the others.
+/// Of each rod, with the joints that hold its ends, keeps the joint with the greatest share, the first of equal ones:
+/// they bear one load in series, so the one that breaks relieves the others.
 void keep_one_of_each_rod(const CompiledObject& object, const std::vector<int>& broken, std::vector<Overload>& joints) {
   const std::vector<int> rods = rods_of(object, broken);
   const auto rod_of = [&](const Overload& one) {

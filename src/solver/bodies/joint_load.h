@@ -25,11 +25,12 @@ struct LoadView {
 
 ReactionLoad load_of(const LoadView& view, const CompiledJoint& joint);
 
-/// Breaks the joints that carry more than they can, after the solve of a substep: of each rod only the one with the greatest load
-/// over its limit. Names them in the Report.
+/// Breaks the joints that carry more than they can, after the solve of a substep: of each rod only the one with the
+/// greatest load over its limit. Names them in the Report.
 void break_joints(Substep& s);
 
-/// Marks joints of an object as broken, so that their constraints are left out. `joints` are indices in ascending order.
+/// Marks joints of an object as broken, so that their constraints are left out. `joints` are indices in ascending
+/// order.
 void set_broken(const CompiledObject& object, const std::vector<int>& joints, ObjectJoints& into);
 
 }  // namespace pliant

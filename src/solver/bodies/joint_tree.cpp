@@ -12,16 +12,17 @@ namespace pliant {
 namespace {
 
 constexpr int body_unknowns = 6;
-/// Between two joints with the ground a joint may find that one side cannot move along some direction at all, and has no pivot
-/// there before the other side is known. Joints get this share of their inverse mass as compliance in such trees.
+/// Between two joints with the ground a joint may find that one side cannot move along some direction at all, and has
+/// no pivot there before the other side is known. Joints get this share of their inverse mass as compliance in such
+/// trees.
 constexpr double compliance_share = 1e-4;
 /// A row with compliance of its own needs no more than this share, above least_pivot of the blocks.
 constexpr double least_compliance = 2e-6;
 
 using BodyInverseMass = joint_tree_formulas::InverseMass<double>;
 
-/// In double: along a chain whose joints hold angles, the smallest eigenvalues of the system fall with the fourth power of its length, below a
-/// float's rounding of the largest at a hundred links.
+/// In double: along a chain whose joints hold angles, the smallest eigenvalues of the system fall with the fourth power
+/// of its length, below a float's rounding of the largest at a hundred links.
 using RowGradient = joint_tree_formulas::Gradient<double>;
 
 RowGradient gradient(const std::array<Vec3f, 2>& g) { return {convert<double>(g[0]), convert<double>(g[1])}; }
@@ -136,14 +137,15 @@ void JointTree::find_loose(int bodies, const std::vector<char>& centre_is_held) 
   }
   std::vector<int> grounds(above.size(), 0);
   for (int i = 0; i < bodies; ++i)
-    if (ground_[at(i)] >= 0 || (!centre_is_held.empty() && centre_is_held[at(i)] != 0)) ++grounds[at(root_of(above, i))];
+    if (ground_[at(i)] >= 0 || (!centre_is_held.empty() && centre_is_held[at(i)] != 0))
+      ++grounds[at(root_of(above, i))];
   held_.assign(above.size(), 0);
   for (int i = 0; i < bodies; ++i) held_[at(i)] = static_cast<char>(grounds[at(root_of(above, i))] > 1);
 }
 
-/// From each tree's root outward; reversed, children come before parents. The root is at the first body that has a joint with
-/// the ground, else at the first body: seen from a body that the ground holds, a joint may have no inverse mass along some
-/// direction.
+/// From each tree's root outward; reversed, children come before parents. The root is at the first body that has a
+/// joint with the ground, else at the first body: seen from a body that the ground holds, a joint may have no inverse
+/// mass along some direction.
 void JointTree::order() {
   std::vector<char> seen(joints_of_.size(), 0);
   for (const bool grounded : {true, false})

@@ -1,4 +1,5 @@
-// Joints between bodies solved directly, all at once, where they form trees. Joints that close loops are left to sweeps.
+// Joints between bodies solved directly, all at once, where they form trees. Joints that close loops are left to
+// sweeps.
 #pragma once
 
 #include <array>
@@ -17,8 +18,8 @@ struct JointEnds {
 
 constexpr int most_joint_rows = 10;  ///< of a joint with its limits and motors
 
-/// One joint's rows at the start of a solve: gradients for displacement and rotation of both bodies, and the value that the
-/// corrections shall take away.
+/// One joint's rows at the start of a solve: gradients for displacement and rotation of both bodies, and the value that
+/// the corrections shall take away.
 struct JointRows {
   int rows = 0;
   std::array<std::array<Vec3f, 2>, most_joint_rows> of_a{}, of_b{};  ///< [row], for displacement and rotation
@@ -45,8 +46,8 @@ struct BodyCorrection {
 
 class JointTree {
  public:
-  /// A joint, or a body with three joints or more; its joint with the ground is part of its block. Other bodies are eliminated
-  /// beforehand, since the inverse of their mass is known. That couples their two joints.
+  /// A joint, or a body with three joints or more; its joint with the ground is part of its block. Other bodies are
+  /// eliminated beforehand, since the inverse of their mass is known. That couples their two joints.
   struct Node {
     bool is_body = false;
     int index = 0;     ///< of the body or joint
@@ -54,8 +55,8 @@ class JointTree {
     int through = -1;  ///< the body that is shared with the parent, or the body itself; -1: a root
   };
 
-  /// Joints that close a loop are loose; so are further joints of a body that has one with the ground, and joints of a body with
-  /// itself. `centre_is_held` by body: its mass is so large that it only rotates; empty: none.
+  /// Joints that close a loop are loose; so are further joints of a body that has one with the ground, and joints of a
+  /// body with itself. `centre_is_held` by body: its mass is so large that it only rotates; empty: none.
   JointTree(int bodies, const std::vector<JointEnds>& joints, const std::vector<char>& centre_is_held = {});
 
   /// Joints that are left out, in ascending order.
@@ -66,8 +67,8 @@ class JointTree {
   /// True if no block is a body's, and no tree has two joints with the ground.
   bool is_plain() const;
 
-  /// Solves M d + J^T lambda = 0, J d - compliance lambda = -value for all joints that are not loose. `corrections` are by body,
-  /// zero where none acts; `multipliers` by joint, if not null.
+  /// Solves M d + J^T lambda = 0, J d - compliance lambda = -value for all joints that are not loose. `corrections` are
+  /// by body, zero where none acts; `multipliers` by joint, if not null.
   void solve(const std::vector<BodyMass>& masses, const std::vector<JointRows>& joints,
              std::vector<BodyCorrection>& corrections,
              std::vector<std::array<float, most_joint_rows>>* multipliers = nullptr);

@@ -1,4 +1,5 @@
-// The blocks of joints whose bodies are eliminated (JointTree), written once: D is double for one tree, WideDouble for eight side by side.
+// The blocks of joints whose bodies are eliminated (JointTree), written once: D is double for one tree, WideDouble for
+// eight side by side.
 #pragma once
 
 #include "math/scalar.h"
@@ -22,7 +23,8 @@ struct InverseMass {
 /// A symmetric matrix times a vector.
 template <class D>
 PLIANT_HD Vec3<D> times(const D (&m)[6], const Vec3<D>& v) {
-  return {m[0] * v.x + m[5] * v.y + m[4] * v.z, m[5] * v.x + m[1] * v.y + m[3] * v.z, m[4] * v.x + m[3] * v.y + m[2] * v.z};
+  return {m[0] * v.x + m[5] * v.y + m[4] * v.z, m[5] * v.x + m[1] * v.y + m[3] * v.z,
+          m[4] * v.x + m[3] * v.y + m[2] * v.z};
 }
 
 template <class D>

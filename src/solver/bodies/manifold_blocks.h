@@ -1,7 +1,7 @@
 // The manifolds of a frame as blocks of sixteen, colour after colour, and the passes over them on all threads.
 //
-// Manifolds of one colour share no dynamic body, so neither lanes nor threads change a bit: the result is that of the scalar
-// functions (manifold_passes.h) called in the order of colours. The tail is solved one by one.
+// Manifolds of one colour share no dynamic body, so neither lanes nor threads change a bit: the result is that of the
+// scalar functions (manifold_passes.h) called in the order of colours. The tail is solved one by one.
 #pragma once
 
 #include <span>
@@ -15,8 +15,8 @@ namespace pliant {
 
 class ManifoldBlocks {
  public:
-  /// Asks for each manifold by its number in colours.order(), on any thread, after prefetch(number), since these are far apart in memory.
-  /// `is_fixed` is by body: nonzero where a body is fixed.
+  /// Asks for each manifold by its number in colours.order(), on any thread, after prefetch(number), since these are
+  /// far apart in memory. `is_fixed` is by body: nonzero where a body is fixed.
   void fill(Executor& executor, const ManifoldColours& colours, std::span<const char> is_fixed,
             FunctionRef<void(int)> prefetch, FunctionRef<Manifold(int)> manifold);
 

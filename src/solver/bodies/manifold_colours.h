@@ -1,7 +1,7 @@
 // Colours of manifolds: those of one colour share no dynamic body, so threads and SIMD lanes may solve them together.
 //
-// In the order given, each manifold gets the first colour that none of its dynamic bodies has yet. Fixed bodies are never
-// written, so they limit nothing. Colours depend on the manifolds alone, never on threads or instruction set.
+// In the order given, each manifold gets the first colour that none of its dynamic bodies has yet. Fixed bodies are
+// never written, so they limit nothing. Colours depend on the manifolds alone, never on threads or instruction set.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,12 @@ class ManifoldColours {
   /// Colours manifold i, which has the bodies `bodies_of[i]`. `is_fixed` is by body: nonzero where a body is fixed.
   void colour(std::span<const std::pair<int, int>> bodies_of, std::span<const char> is_fixed);
 
-  /// Indices of manifolds by colour, in the given order within each colour. Those without a free colour, the tail, are last.
+  /// Indices of manifolds by colour, in the given order within each colour. Those without a free colour, the tail, are
+  /// last.
   const std::vector<int>& order() const { return order_; }
 
-  /// The start of each colour in order(), then that of the tail, then the number of manifolds: manifold_colours + 2 entries.
+  /// The start of each colour in order(), then that of the tail, then the number of manifolds: manifold_colours + 2
+  /// entries.
   const std::vector<int>& start() const { return start_; }
 
   /// The start of the tail, which is solved one by one.

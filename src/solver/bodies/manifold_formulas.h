@@ -1,8 +1,8 @@
 // The passes over contacts of bodies, written once: R is float for one manifold, Wide for sixteen (math/wide.h).
 //
-// All points of a manifold move in the relative motion at their centre, of which only three numbers act on them: the velocity
-// along the normal and the spins about both tangents. Impulses at points are a force and two moments in the same three
-// directions. So bodies are read and written once for all four points.
+// All points of a manifold move in the relative motion at their centre, of which only three numbers act on them: the
+// velocity along the normal and the spins about both tangents. Impulses at points are a force and two moments in the
+// same three directions. So bodies are read and written once for all four points.
 #pragma once
 
 #include "math/rows.h"
@@ -62,7 +62,8 @@ struct Moved {
 template <class R>
 PLIANT_HD Vec3<R> turned(const Motion<R>& body, const Vec3<R>& v) {
   const R* m = body.inverse_inertia;
-  return {m[0] * v.x + m[5] * v.y + m[4] * v.z, m[5] * v.x + m[1] * v.y + m[3] * v.z, m[4] * v.x + m[3] * v.y + m[2] * v.z};
+  return {m[0] * v.x + m[5] * v.y + m[4] * v.z, m[5] * v.x + m[1] * v.y + m[3] * v.z,
+          m[4] * v.x + m[3] * v.y + m[2] * v.z};
 }
 
 /// Adds an impulse at the centre and a moment to b, and the opposite to a.
@@ -113,7 +114,8 @@ PLIANT_HD Mobility<R> mobility_of(const ManifoldRows<lanes>& m) {
 template <class R, int lanes>
 PLIANT_HD Wrench<R> answer(const ManifoldRows<lanes>& m, const Mobility<R>& of, int i) {
   const R y = get<R>(m.y[i]), x = get<R>(m.x[i]);
-  return {of.k[0] + of.k[5] * y - of.k[4] * x, of.k[5] + of.k[1] * y - of.k[3] * x, of.k[4] + of.k[3] * y - of.k[2] * x};
+  return {of.k[0] + of.k[5] * y - of.k[4] * x, of.k[5] + of.k[1] * y - of.k[3] * x,
+          of.k[4] + of.k[3] * y - of.k[2] * x};
 }
 
 template <class R>
@@ -151,8 +153,8 @@ PLIANT_HD R pressing(const ManifoldRows<lanes>& m) {
   return (impulse.at[0] + impulse.at[1]) + (impulse.at[2] + impulse.at[3]);
 }
 
-/// Friction at the centre: inside of a disc of the normal impulse times the coefficient, and a twist within the normal impulse
-/// times an arm.
+/// Friction at the centre: inside of a disc of the normal impulse times the coefficient, and a twist within the normal
+/// impulse times an arm.
 template <class R, int lanes>
 PLIANT_HD void rub(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b) {
   const Vec3<R> velocity = approach(m, a, b), spin = b.spin - a.spin;
@@ -161,7 +163,8 @@ PLIANT_HD void rub(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b) {
   const R u = dot(velocity, first) - get<R>(m.drift[0]), v = dot(velocity, second) - get<R>(m.drift[1]);
   const R before[2] = {get<R>(m.friction_impulse[0]), get<R>(m.friction_impulse[1])};
   const R both = get<R>(m.slide[2]);
-  const R wanted[2] = {before[0] - (get<R>(m.slide[0]) * u + both * v), before[1] - (get<R>(m.slide[1]) * v + both * u)};
+  const R wanted[2] = {before[0] - (get<R>(m.slide[0]) * u + both * v),
+                       before[1] - (get<R>(m.slide[1]) * v + both * u)};
   const R pressed = pressing<R>(m), limit = get<R>(m.friction) * pressed;
   const R size = sqrt(wanted[0] * wanted[0] + wanted[1] * wanted[1]);
   const R scale = select(size <= limit, R(1.f), get<R>(m.sliding) * limit / max(size, R(tiny)));
@@ -174,7 +177,8 @@ PLIANT_HD void rub(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b) {
   add(m, first * (after[0] - before[0]) + second * (after[1] - before[1]), normal * (twist - old_twist), a, b);
 }
 
-/// Adds a moment to b, and the opposite to a, where there is rolling friction: elsewhere not even the sign of a zero may change.
+/// Adds a moment to b, and the opposite to a, where there is rolling friction: elsewhere not even the sign of a zero
+/// may change.
 template <class R, int lanes>
 PLIANT_HD void add_moment(const ManifoldRows<lanes>& m, const Vec3<R>& moment, Motion<R>& a, Motion<R>& b) {
   const auto rolls = get<R>(m.rolling) > R(0.f);
@@ -185,7 +189,8 @@ PLIANT_HD void add_moment(const ManifoldRows<lanes>& m, const Vec3<R>& moment, M
 /// Friction against rolling: a moment about the tangents, inside of a disc of the normal impulse times an arm.
 template <class R, int lanes>
 PLIANT_HD void resist_rolling(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b) {
-  const Vec3<R> spin = b.spin - a.spin, normal = get<R>(m.normal), first = get<R>(m.tangent), second = cross(normal, first);
+  const Vec3<R> spin = b.spin - a.spin, normal = get<R>(m.normal), first = get<R>(m.tangent),
+                second = cross(normal, first);
   const R u = dot(spin, first), v = dot(spin, second);
   const R uu = get<R>(m.mobility[1]), vv = get<R>(m.mobility[2]), uv = get<R>(m.mobility[3]);
   const R scale = R(1.f) / max(uu * vv - uv * uv, R(tiny));
@@ -214,7 +219,8 @@ struct Aim {
   R bias, kept, leak;
 };
 
-/// A point in a pass: what it goes for, what it opposes to an impulse and had before, and the motion of its unit impulse.
+/// A point in a pass: what it goes for, what it opposes to an impulse and had before, and the motion of its unit
+/// impulse.
 template <class R>
 struct PressedPoint {
   Aim<R> aim;
@@ -232,9 +238,9 @@ PLIANT_HD R press_point(const ManifoldRows<lanes>& m, int i, const PressedPoint<
   return change;
 }
 
-/// One pass over the points, one after another, in two orders from the same start: 0 1 2 3 and 2 3 0 1. The mean of both impulses counts:
-/// points of a flat contact lie around its centre, so what one order tilts, the other one tilts back. With one order, the fall of a
-/// tower of boxes into its contacts leans it, and it sways for minutes.
+/// One pass over the points, one after another, in two orders from the same start: 0 1 2 3 and 2 3 0 1. The mean of
+/// both impulses counts: points of a flat contact lie around its centre, so what one order tilts, the other one tilts
+/// back. With one order, the fall of a tower of boxes into its contacts leans it, and it sways for minutes.
 template <class R, int lanes, class AimOf>
 PLIANT_HD void press(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const AimOf& aim_of) {
   Wrench<R> motion = along(m, approach(m, a, b), b.spin - a.spin), other = motion;
@@ -345,17 +351,17 @@ PLIANT_HD void rub_in_impact(const ManifoldRows<lanes>& m, const R& pressed, Mot
   add(m, first * (one * scale) + second * (two * scale), Vec3<R>{none, none, none}, a, b);
 }
 
-/// True where a point would pass through in this substep; those points get the velocity that restitution demands. Their impulses are summed
-/// apart from those that press: they act once, and no substep may start with them.
+/// True where a point would pass through in this substep; those points get the velocity that restitution demands. Their
+/// impulses are summed apart from those that press: they act once, and no substep may start with them.
 template <class R, int lanes>
-PLIANT_HD auto bounce(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const Moved<R>& moved_a, const Moved<R>& moved_b,
-                      float h, const Vec3f& fall) {
+PLIANT_HD auto bounce(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b, const Moved<R>& moved_a,
+                      const Moved<R>& moved_b, float h, const Vec3f& fall) {
   Wrench<R> motion = along(m, approach(m, a, b), b.spin - a.spin);
   const Wrench<R> moved = moved_apart(m, moved_a, moved_b);
   const Mobility<R> mobility = mobility_of<R>(m);
   const R zero(0.f), restitution = get<R>(m.restitution), slow(-2 * length(fall));
-  // Gravity's share of the approach in this substep, where it acts on one of both alone. A body that goes back where it came from leaves
-  // the height at which it is with the speed that it had there.
+  // Gravity's share of the approach in this substep, where it acts on one of both alone. A body that goes back where it
+  // came from leaves the height at which it is with the speed that it had there.
   const Vec3<R> falls{R(fall.x), R(fall.y), R(fall.z)}, none{zero, zero, zero};
   const R together =
       dot(get<R>(m.normal), select(b.inverse_mass > zero, falls, none) - select(a.inverse_mass > zero, falls, none));
@@ -449,7 +455,8 @@ PLIANT_HD void prepare(ManifoldRows<lanes>& m, const Motion<R>& a, const Motion<
   }
   store_row(m.twist_arm, get<R>(m.friction) * mean_radius<R>(m) + get<R>(m.spinning));
   store_row(m.twist_mass, one / max(dot(normal, turned(a, normal) + turned(b, normal)), least));
-  const Vec3<R> ua = cross(arm_a, first), ub = cross(arm_b, first), va = cross(arm_a, second), vb = cross(arm_b, second);
+  const Vec3<R> ua = cross(arm_a, first), ub = cross(arm_b, first), va = cross(arm_a, second),
+                vb = cross(arm_b, second);
   const Vec3<R> of_va = turned(a, va), of_vb = turned(b, vb);
   const R uu = inverse_mass + (dot(ua, turned(a, ua)) + dot(ub, turned(b, ub))),
           vv = inverse_mass + (dot(va, of_va) + dot(vb, of_vb)), uv = dot(ua, of_va) + dot(ub, of_vb);

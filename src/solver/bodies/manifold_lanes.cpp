@@ -22,10 +22,11 @@ PLIANT_HD Motion<Wide> load_motion(const BodyMotion* motions, const std::int32_t
   const WideRecords linear = load_record(motions, velocity_and_mass, index),
                     diagonal = load_record(motions, inertia_diagonal, index),
                     rest = load_record(motions, inertia_rest, index);
-  return {linear.position,
-          load_record(motions, spin, index).position,
-          linear.w,
-          {diagonal.position.x, diagonal.position.y, diagonal.position.z, diagonal.w, rest.position.x, rest.position.y}};
+  return {
+      linear.position,
+      load_record(motions, spin, index).position,
+      linear.w,
+      {diagonal.position.x, diagonal.position.y, diagonal.position.z, diagonal.w, rest.position.x, rest.position.y}};
 }
 
 PLIANT_HD Moved<Wide> load_moved(const BodyMotion* motions, const std::int32_t* index) {
@@ -34,8 +35,8 @@ PLIANT_HD Moved<Wide> load_moved(const BodyMotion* motions, const std::int32_t* 
 
 constexpr std::uint32_t all_lanes = 0xffff;
 
-PLIANT_HD void store_record(BodyMotion* motions, BodyRecord record, const std::int32_t* index, const WideRecords& values,
-                            std::uint32_t moves) {
+PLIANT_HD void store_record(BodyMotion* motions, BodyRecord record, const std::int32_t* index,
+                            const WideRecords& values, std::uint32_t moves) {
   Record* const base = reinterpret_cast<Record*>(motions) + record;
   const Registers registers = to_registers(values);
   if (moves == all_lanes) return store_indexed(base, index, registers);
@@ -92,7 +93,8 @@ void position_pass_blocks(const BlockRange& range, const PassNumbers& numbers) {
   for_blocks(
       range, [&](ManifoldBlock & block, Motion<Wide> & a, Motion<Wide> & b) __attribute__((always_inline)) {
         if (block.rolls != 0) resist_rolling(block.rows, a, b);
-        position_pass(block.rows, a, b, load_moved(range.motions, block.a), load_moved(range.motions, block.b), numbers);
+        position_pass(block.rows, a, b, load_moved(range.motions, block.a), load_moved(range.motions, block.b),
+                      numbers);
       });
 }
 

@@ -1,9 +1,10 @@
-// Contact of two rigid bodies: up to four points that share a normal, solved together through the motion at their centre.
+// Contact of two rigid bodies: up to four points that share a normal, solved together through the motion at their
+// centre.
 //
-// One multiplier per point is kept over substeps and frames. A soft pass moves the bodies apart, a second pass takes back the
-// velocity that this made. Arms and normal stay those of the manifold's birth while the pair hardly moves; gaps are renewed.
-// Impacts with restitution come before both passes.
-// Soft constraints: Catto 2011; substeps: Macklin et al. 2019.
+// One multiplier per point is kept over substeps and frames. A soft pass moves the bodies apart, a second pass takes
+// back the velocity that this made. Arms and normal stay those of the manifold's birth while the pair hardly moves;
+// gaps are renewed. Impacts with restitution come before both passes. Soft constraints: Catto 2011; substeps: Macklin
+// et al. 2019.
 #pragma once
 
 #include <array>
@@ -13,8 +14,8 @@
 
 namespace pliant {
 
-/// The motion of a body in a frame, as contact sees it. A fixed body has zero inverse mass and inertia. It consists of records
-/// of four floats, which kernels load for sixteen bodies at a time.
+/// The motion of a body in a frame, as contact sees it. A fixed body has zero inverse mass and inertia. It consists of
+/// records of four floats, which kernels load for sixteen bodies at a time.
 struct alignas(64) BodyMotion {
   Vec3f velocity{};        ///< of the centre of mass [m/s]
   float inverse_mass = 0;  ///< [1/kg]
@@ -58,9 +59,10 @@ void prepare(Manifold& manifold, const BodyMotion& a, const BodyMotion& b);
 /// Applies the kept impulses, at the start of a substep.
 void warm_start(const Manifold& manifold, BodyMotion& a, BodyMotion& b);
 
-/// Where points would pass through in this substep, faster than twice `fall`, which is what gravity adds to velocities in the substep [m/s], gives them the velocity that restitution demands.
-/// Returns true if there were any, and adds their impulses to Manifold::bounced. Called for all manifolds in turn until none is left, before the passes, so that a row of
-/// balls passes an impact on.
+/// Where points would pass through in this substep, faster than twice `fall`, which is what gravity adds to velocities
+/// in the substep [m/s], gives them the velocity that restitution demands. Returns true if there were any, and adds
+/// their impulses to Manifold::bounced. Called for all manifolds in turn until none is left, before the passes, so that
+/// a row of balls passes an impact on.
 bool bounce(Manifold& manifold, BodyMotion& a, BodyMotion& b, float h, const Vec3f& fall);
 
 /// Corrects velocities so that gaps become shorter by their share: friction first, then the points one after another.

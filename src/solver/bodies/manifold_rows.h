@@ -1,7 +1,8 @@
 // Manifolds as rows of numbers, one lane for each: what the passes over contacts of bodies read and write.
 //
-// ManifoldRows<16> is a block of sixteen manifolds of one colour for the SIMD kernels, ManifoldRows<1> a single one. Points that
-// a manifold does not have, and lanes that a block does not fill, have zeros and a gap so large that no impulse acts there.
+// ManifoldRows<16> is a block of sixteen manifolds of one colour for the SIMD kernels, ManifoldRows<1> a single one.
+// Points that a manifold does not have, and lanes that a block does not fill, have zeros and a gap so large that no
+// impulse acts there.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,8 @@ namespace pliant {
 /// The gap of a point that does not exist [m].
 inline constexpr float no_point = 1e30f;
 
-/// The members of Manifold by lanes. First what both passes use, then what one of them uses, then what is used once a frame.
+/// The members of Manifold by lanes. First what both passes use, then what one of them uses, then what is used once a
+/// frame.
 template <int lanes>
 struct ManifoldRows {
   float normal[3][lanes], tangent[3][lanes];  ///< the second tangent is normal x tangent

@@ -8,7 +8,8 @@ namespace pliant {
 
 namespace {
 
-/// Puts the second of two points into the third place, so that both orders of a pass (manifold_formulas.h) differ for them, too.
+/// Puts the second of two points into the third place, so that both orders of a pass (manifold_formulas.h) differ for
+/// them, too.
 void spread_two_points(Manifold& m) {
   if (m.count != 2) return;
   m.count = 3;

@@ -142,8 +142,8 @@ void PassingFilter::take_motion(Solid& solid) {
   solid.is_grouped = false;
 }
 
-void PassingFilter::find_pairs(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at_solid, int number,
-                               const FunctionRef<bool(const Contact&)>& meets, Solid& solid) {
+void PassingFilter::find_pairs(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& at_solid,
+                               int number, const FunctionRef<bool(const Contact&)>& meets, Solid& solid) {
   take_motion(solid);
   std::vector<Pair> kept;
   kept.swap(solid.pairs);
@@ -253,7 +253,9 @@ void PassingFilter::check(const Substep& s, int number, Solid& solid, Pair& pair
   if (pair.next > kept) return;
   const bool is_slow = moved < motion_over_inner_radius * solid.inner;
   const Element end = at_end(s, pair.element);
-  const auto gap_along = [&](const Vec3d& n) { return nearest_along(end, n) - reach_along(solid.shape, motion.after, n); };
+  const auto gap_along = [&](const Vec3d& n) {
+    return nearest_along(end, n) - reach_along(solid.shape, motion.after, n);
+  };
   if (is_slow && pair.normal != Vec3f{}) {
     pair.next = static_cast<float>(gap_along(rotate(motion.after.rotation, convert<double>(pair.normal)))) - 1e-7f;
     if (pair.next > kept) return;
@@ -262,14 +264,16 @@ void PassingFilter::check(const Substep& s, int number, Solid& solid, Pair& pair
   const auto keep = [&](const ConvexDistance& d, const Posed& pose) {
     pair.normal = convert<float>(rotate(conjugate(pose.rotation), d.normal));
   };
-  const ConvexDistance before = distance_of(solid.shape, motion.before, at_start(s, pair.element), is_line, solid.corners);
+  const ConvexDistance before =
+      distance_of(solid.shape, motion.before, at_start(s, pair.element), is_line, solid.corners);
   keep(before, motion.before);
   pair.next = 0;
   const auto thickness = static_cast<double>(pair.thickness);
   pair.overlaps = true;  // if not found otherwise
   if (before.separation < -shallow * thickness) return;
   const double rounded = rounding_share * (1 + largest(motion.after.position));
-  const double least = std::min(std::max(static_cast<double>(kept), 2 * rounded), std::max(before.separation, 2 * rounded));
+  const double least =
+      std::min(std::max(static_cast<double>(kept), 2 * rounded), std::max(before.separation, 2 * rounded));
   const double wanted = before.separation < 0 ? before.separation : least;
   const double needed = wanted - std::max(gap_tolerance * wanted, rounded);
   const double gap = gap_along(before.normal);
@@ -287,12 +291,13 @@ void PassingFilter::check(const Substep& s, int number, Solid& solid, Pair& pair
       return;
     }
   }
-  add_contacts(s, number, pair, before.normal, reach_along(solid.shape, motion.after, before.normal) + wanted, solid.found);
+  add_contacts(s, number, pair, before.normal, reach_along(solid.shape, motion.after, before.normal) + wanted,
+               solid.found);
 }
 
 /// Finds which pairs of a solid a find concerns.
-void PassingFilter::begin_find(const SurfaceTiles& surfaces, const MovingCollider& at_solid, int number, const Moved& moved,
-                               Solid& solid) {
+void PassingFilter::begin_find(const SurfaceTiles& surfaces, const MovingCollider& at_solid, int number,
+                               const Moved& moved, Solid& solid) {
   solid.found.clear();
   solid.is_concerned = solid.is_new = false;
   if (surfaces.tiles_near(number).empty()) return forget(solid);

@@ -1,12 +1,13 @@
 // Finds triangles of cloth and solids of bodies that a substep would make pass one another.
 //
-// A triangle and a convex solid that are apart at the substep's start have a plane between them. If they are apart at its end too,
-// and moved by less than the solid's size, nothing has passed. Else each vertex of the triangle that ends on the solid's side of the
-// plane gets a contact along the plane's normal, which takes back as much of the approach as is needed, and no more. So it adds
-// no energy. The gap may shrink to `least_gap`, and no further; where it was smaller at the start it stays.
+// A triangle and a convex solid that are apart at the substep's start have a plane between them. If they are apart at
+// its end too, and moved by less than the solid's size, nothing has passed. Else each vertex of the triangle that ends
+// on the solid's side of the plane gets a contact along the plane's normal, which takes back as much of the approach as
+// is needed, and no more. So it adds no energy. The gap may shrink to `least_gap`, and no further; where it was smaller
+// at the start it stays.
 //
-// Whether a pair passes depends on positions at the substep's start and its end alone. Kept bounds and planes only tell where this
-// need not be computed.
+// Whether a pair passes depends on positions at the substep's start and its end alone. Kept bounds and planes only tell
+// where this need not be computed.
 #pragma once
 
 #include <array>
@@ -29,14 +30,15 @@ class PassingFilter {
 
   /// Starts a frame: forgets what is kept, because a State does not have it.
   void begin_frame();
-  /// What has moved since the last find of a substep. Of other triangles and solids the answer is the same, and is none.
+  /// What has moved since the last find of a substep. Of other triangles and solids the answer is the same, and is
+  /// none.
   struct Moved {
     const std::vector<char>* solids = nullptr;    ///< [solid] null: all
     const std::vector<char>* vertices = nullptr;  ///< [particle of the State]
     float farthest = 0;                           ///< largest displacement of these vertices [m]
   };
-  /// Appends contacts for vertices that end beyond a plane, by solid, then by triangle. `solids` are where the displacements put
-  /// them; `meets` tells which triangles a solid may touch.
+  /// Appends contacts for vertices that end beyond a plane, by solid, then by triangle. `solids` are where the
+  /// displacements put them; `meets` tells which triangles a solid may touch.
   void find(const Substep& s, SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids, const Moved& moved,
             FunctionRef<bool(const Contact&)> meets, std::vector<Contact>& found);
   /// After the last find of a substep. `is_final`: nothing has moved since.

@@ -58,7 +58,8 @@ PinchSide side_of_body(const Substep& s, const PinchedPoints::Parts& parts, Cont
 /// The displacement of a side's place by an impulse on it.
 Vec3f response(const PinchSide& side, const Vec3f& impulse) {
   if (!(side.motion.inverse_mass > 0)) return {};
-  return impulse * side.motion.inverse_mass + cross(times(side.motion.inverse_inertia, cross(side.arm, impulse)), side.arm);
+  return impulse * side.motion.inverse_mass +
+         cross(times(side.motion.inverse_inertia, cross(side.arm, impulse)), side.arm);
 }
 
 /// The distance of the vertex from a side less their thickness after motion against it [m].
@@ -88,8 +89,8 @@ float share_in_cone(const Contact& c, const Vec3f& added) {
   return root > 0 ? min(max((sqrt(root) - along) / square, 0.f), 1.f) : 0.f;
 }
 
-/// Gives a side the impulse on the vertex, which is `along` a direction near its normal and `across` it. `scale` is the inverse mass of
-/// its contact.
+/// Gives a side the impulse on the vertex, which is `along` a direction near its normal and `across` it. `scale` is the
+/// inverse mass of its contact.
 void answer(const PinchSide& side, float along, const Vec3f& direction, const Vec3f& across, float scale) {
   side.contact->push += along * scale;
   side.contact->friction += across * (scale * side.sign);
@@ -163,7 +164,8 @@ void PinchedPoints::find(const Substep& s, const BodySolids& solids, const std::
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (has_single_vertex(contacts[i]) && s.state.positions[at(contacts[i].point[0])].w > 0)
       touches_.push_back({contacts[i].point[0], static_cast<int>(i)});
-  std::stable_sort(touches_.begin(), touches_.end(), [](const Touch& a, const Touch& b) { return a.vertex < b.vertex; });
+  std::stable_sort(touches_.begin(), touches_.end(),
+                   [](const Touch& a, const Touch& b) { return a.vertex < b.vertex; });
   find_between_bodies(solids, contacts);
   if (!touches_.empty() && s.has_pairs()) find_at_meshes(s, contacts);
 }

@@ -1,10 +1,10 @@
 // Vertices that two bodies, or a body and a mesh collider, press on from opposite sides.
 //
-// A light vertex passes little of what one side does on to the other in a pass: a crate of 8 500 of its masses would have to be
-// projected a thousand times until its weight and its friction reach the table beneath the cloth. So both sides get one impulse
-// in addition, as if the vertex joined them: along the normal as much as keeps the room between them from shrinking, and across it
-// what keeps them from sliding on one another, within the cones of both contacts. Nothing is left for the vertex, so momentum is
-// kept.
+// A light vertex passes little of what one side does on to the other in a pass: a crate of 8 500 of its masses would
+// have to be projected a thousand times until its weight and its friction reach the table beneath the cloth. So both
+// sides get one impulse in addition, as if the vertex joined them: along the normal as much as keeps the room between
+// them from shrinking, and across it what keeps them from sliding on one another, within the cones of both contacts.
+// Nothing is left for the vertex, so momentum is kept.
 #pragma once
 
 #include <cstddef>
@@ -38,8 +38,8 @@ class PinchedPoints {
 
   /// Finds them among the contacts of a substep, with bodies and with mesh colliders.
   void find(const Substep& s, const BodySolids& solids, const std::vector<Contact>& contacts);
-  /// Projects each, in the order of vertices. Contacts have been projected, and are those for which pinched vertices were found.
-  /// Unless `of` is null only vertices of the objects for which it is not zero.
+  /// Projects each, in the order of vertices. Contacts have been projected, and are those for which pinched vertices
+  /// were found. Unless `of` is null only vertices of the objects for which it is not zero.
   void project(Substep& s, const Parts& parts, const std::vector<char>* of) const;
 
  private:

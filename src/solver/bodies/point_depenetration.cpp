@@ -15,8 +15,8 @@ namespace {
 constexpr float depenetration_speed_of_points = 1;
 /// What is deeper than this share of the solid's half thickness is moved as a whole.
 constexpr float share_of_half_thickness = 0.3f;
-/// Nearer to a surface it is so as well if the way out is at most so many times the depth: where the ways of all points differ, as those
-/// of a belt around a body do, the nearest side of each is right.
+/// Nearer to a surface it is so as well if the way out is at most so many times the depth: where the ways of all points
+/// differ, as those of a belt around a body do, the nearest side of each is right.
 constexpr float most_ways_over_depth = 1.5f;
 /// A way down, into the ground, counts as so many times as long.
 constexpr float length_of_way_down = 2;
@@ -57,8 +57,8 @@ struct WayOut {
   float way = 0, half_thickness = 1e30f;
 };
 
-/// `down`: the direction of gravity in the frame of the solid; ways along it count more. Ways that differ by a twentieth are alike, and the
-/// one that is most against gravity is taken, so that symmetric ones do not take turns.
+/// `down`: the direction of gravity in the frame of the solid; ways along it count more. Ways that differ by a
+/// twentieth are alike, and the one that is most against gravity is taken, so that symmetric ones do not take turns.
 WayOut shortest_way(const ConvexShape& shape, const Within& within, const Vec3f& down) {
   Vec3f middle{};
   for (const Vec3f& place : within.places) middle += place * (1 / static_cast<float>(within.places.size()));
@@ -150,8 +150,9 @@ void PointDepenetration::replace(const Substep& s, const BodySolids& solids, std
     const int object = s.model.object_of(c.point[0]);
     const auto holds = [&](const Inside& inside) {
       return inside.object == object && inside.solid == c.collider &&
-             std::any_of(c.point.begin(), c.point.end(),
-                         [&](int point) { return std::binary_search(inside.points.begin(), inside.points.end(), point); });
+             std::any_of(c.point.begin(), c.point.end(), [&](int point) {
+               return std::binary_search(inside.points.begin(), inside.points.end(), point);
+             });
     };
     return std::any_of(inside_.begin(), inside_.end(), holds);
   };
@@ -161,7 +162,8 @@ void PointDepenetration::replace(const Substep& s, const BodySolids& solids, std
     const float reach = reach_to(shapes_[at(inside.solid)], directions_[i]);
     contacts.reserve(contacts.size() + inside.points.size());
     for (const int point : inside.points)
-      contacts.push_back(contact_along(s, solids.moving()[at(inside.solid)], inside.solid, directions_[i], reach, point));
+      contacts.push_back(
+          contact_along(s, solids.moving()[at(inside.solid)], inside.solid, directions_[i], reach, point));
   }
 }
 

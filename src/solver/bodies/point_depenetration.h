@@ -1,8 +1,9 @@
 // Moves surfaces and ropes out of the solids of bodies in which they start, or into which they are teleported.
 //
-// Contact moves each point to the side of the solid that is nearest to it. What begins deep inside of a solid would be torn to all
-// sides, and what it stores in stretch would throw it out: a cloth of 10 cm in the middle of a box flew off with 455 m/s. So what is deep
-// inside moves along one direction, at 1 m/s. All its points keep their distances, and contact takes back the speed along the normal. There is no friction.
+// Contact moves each point to the side of the solid that is nearest to it. What begins deep inside of a solid would be
+// torn to all sides, and what it stores in stretch would throw it out: a cloth of 10 cm in the middle of a box flew off
+// with 455 m/s. So what is deep inside moves along one direction, at 1 m/s. All its points keep their distances, and
+// contact takes back the speed along the normal. There is no friction.
 //
 // Whether something is deep inside depends on positions at the substep's start alone, so a State need not keep it.
 #pragma once

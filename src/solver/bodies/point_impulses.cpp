@@ -11,7 +11,8 @@ namespace pliant {
 
 namespace {
 
-/// The impulse at an arm from a body's centre that changes the velocity of its point against points of inverse mass `w` by `change`.
+/// The impulse at an arm from a body's centre that changes the velocity of its point against points of inverse mass `w`
+/// by `change`.
 Vec3f impulse_for(const Vec3f& change, const BodyMotion& body, const Vec3f& arm, float w) {
   const float mass = w + body.inverse_mass;
   Vec3f column[3];
@@ -50,7 +51,8 @@ void PointImpulses::begin_pass(const Substep& s, const BodySolids& solids) {
     BodyProgress& p = progress_[b];
     const std::size_t frame = at(all[b].frame);
     p.moved = p.moved_before = xyz(s.work.displacements[at(all[b].particle)]) - p.displacement;
-    p.turned = p.turned_before = (xyz(s.work.frames.predicted[frame]) + xyz(s.work.frames.corrections[frame])) - p.rotation;
+    p.turned = p.turned_before =
+        (xyz(s.work.frames.predicted[frame]) + xyz(s.work.frames.corrections[frame])) - p.rotation;
   }
 }
 
@@ -174,7 +176,8 @@ void PointImpulses::log_contacts(const Substep& s, const BodySolids& solids, con
 }
 
 int PointImpulses::contacts_that_press() const {
-  return static_cast<int>(std::count_if(contacts_.begin(), contacts_.end(), [](const Contact& c) { return c.push > 0; }));
+  return static_cast<int>(
+      std::count_if(contacts_.begin(), contacts_.end(), [](const Contact& c) { return c.push > 0; }));
 }
 
 }  // namespace pliant

@@ -43,15 +43,15 @@ float mobility_across(const BodyMotion& body, const Vec3f& arm) {
   return body.inverse_mass + 0.5f * (length_squared(arm) * (m[0] + m[1] + m[2]) - dot(arm, times(m, arm)));
 }
 
-/// A body's inertia for each of `carriers` particles. All together they may not exceed its mass; where they turn it, a particle
-/// moves it more easily than by its mass, and others share in the turn.
+/// A body's inertia for each of `carriers` particles. All together they may not exceed its mass; where they turn it, a
+/// particle moves it more easily than by its mass, and others share in the turn.
 float share_of(float inverse_mass, float mobility, int carriers) {
   const auto n = static_cast<float>(carriers);
   return min(1 / (inverse_mass * n), 1 / (mobility * max(1.f, 0.5f * n)));
 }
 
-/// The ties of an object that yield: particles and frames, by their numbers in the object. In the chain's system a body hangs rigidly on
-/// its particle, which would take the compliance out of such a tie.
+/// The ties of an object that yield: particles and frames, by their numbers in the object. In the chain's system a body
+/// hangs rigidly on its particle, which would take the compliance out of such a tie.
 std::vector<std::pair<int, int>> yielding_ties(const CompiledObject& object) {
   std::vector<std::pair<int, int>> found;
   for (int type = 0; type < constraint_type_count(); ++type) {
@@ -237,8 +237,8 @@ Vec3f PointLoads::impulse_of(Load& load, const Vec3f& moved) const {
 
 namespace {
 
-/// Lets the particle's object keep the momentum that its chains have given to a body. `apart` is the displacement of the
-/// particle less that of the body: so, with the arm of the present, the angular momentum about any point adds up.
+/// Lets the particle's object keep the momentum that its chains have given to a body. `apart` is the displacement of
+/// the particle less that of the body: so, with the arm of the present, the angular momentum about any point adds up.
 void note_impulse(Substep& s, int particle, const Vec3f& apart, const Vec3f& impulse) {
   const int object = s.model.object_of(particle);
   const auto& x = s.state.positions;
@@ -259,8 +259,8 @@ void PointLoads::end_chains(Substep& s, const std::vector<BodyMotion>& motions, 
     if (load.contact >= 0) impulses[at(load.contact)] -= dot(load.axis, impulse) / s.h;
     const TouchedBody& body = bodies_[at(load.body)];
     Record& of_body = s.work.displacements[at(body.particle)];
-    const Vec3f arm =
-        (xyz(s.state.positions[at(load.particle)]) + xyz(d)) - (xyz(s.state.positions[at(body.particle)]) + xyz(of_body));
+    const Vec3f arm = (xyz(s.state.positions[at(load.particle)]) + xyz(d)) -
+                      (xyz(s.state.positions[at(body.particle)]) + xyz(of_body));
     note_impulse(s, load.particle, xyz(d) - xyz(of_body), impulse);
     of_body = plus(of_body, impulse * motion.inverse_mass);
     const Vec3f turned = times(motion.inverse_inertia, cross(arm, impulse));

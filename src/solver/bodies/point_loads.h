@@ -1,8 +1,8 @@
 // Particles that carry rigid bodies: those tied to a body, and those on which a body presses.
 //
-// In the solve of chains such a particle has a share of its body's inertia (sweeps/chain_loaded.h). The motion that a phase of
-// chains gives it, times that share, is an impulse on the body. Shares of one body add up to its mass at most (mass splitting:
-// Tonge et al. 2012), so the body moves by no more than the mean of its particles.
+// In the solve of chains such a particle has a share of its body's inertia (sweeps/chain_loaded.h). The motion that a
+// phase of chains gives it, times that share, is an impulse on the body. Shares of one body add up to its mass at most
+// (mass splitting: Tonge et al. 2012), so the body moves by no more than the mean of its particles.
 #pragma once
 
 #include <cstddef>
@@ -39,8 +39,8 @@ class PointLoads {
 
   /// Notes the particles on which bodies press at a substep's end.
   void note_pressed(const Substep& s, const Contacts& contacts);
-  /// Finds the particles that carry bodies: those tied, and those of contacts that push, or that pushed in the last substep
-  /// where `begins`. `motions` have the bodies' inertias.
+  /// Finds the particles that carry bodies: those tied, and those of contacts that push, or that pushed in the last
+  /// substep where `begins`. `motions` have the bodies' inertias.
   void find(const Substep& s, const Contacts& contacts, const std::vector<BodyMotion>& motions, bool begins);
 
   /// False if no particle of the object carries a body.
@@ -84,15 +84,16 @@ class PointLoads {
 
   std::vector<TouchedBody> bodies_;
   std::vector<std::pair<int, int>> ties_;  ///< particles in the State, and bodies
-  std::vector<std::int32_t> pressed_by_;  ///< [particle in the State] 1 + body that pressed at the last substep's end, or 0
-  std::vector<int> pressed_;              ///< particles with such an entry
+  std::vector<std::int32_t>
+      pressed_by_;            ///< [particle in the State] 1 + body that pressed at the last substep's end, or 0
+  std::vector<int> pressed_;  ///< particles with such an entry
   std::vector<std::int32_t> of_particle_;  ///< [particle in the State] index in loads_, or -1
   std::vector<char> is_loaded_;            ///< [object]
   std::vector<Load> loads_, kept_;
   std::vector<LoadedInertia> inertias_;  ///< of loads_
   std::vector<char> is_released_;        ///< [load] moved without its body in this phase
   std::vector<int> carriers_;            ///< [body] number of its loads
-  std::vector<int> first_path_;          ///< [particle in the State] of its paths in paths_; the last entry is their number
+  std::vector<int> first_path_;  ///< [particle in the State] of its paths in paths_; the last entry is their number
   std::vector<Lane> paths_;
   std::vector<std::size_t> first_batch_;  ///< [object] of its chain batches in lanes_
   std::vector<std::uint32_t> lanes_;      ///< [chain batch]

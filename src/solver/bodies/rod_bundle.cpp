@@ -214,7 +214,8 @@ class RodSolver {
 
   /// Solves those rods again whose pulls need stiffness, with the gradients of the present.
   void solve_again(RodBits soft) {
-    const RodBits grown = padded(kernels().find_stiffness(view_, !view_.points.first_pass, true, largest_advance) & soft);
+    const RodBits grown =
+        padded(kernels().find_stiffness(view_, !view_.points.first_pass, true, largest_advance) & soft);
     if (grown == 0) return;
     stiffen(grown);
     kernels().fill_rows(view_, 0);
@@ -244,8 +245,8 @@ class RodSolver {
     return bodies;
   }
 
-  /// Adds the stiffness to the inertia, and takes away the part of the predicted rotation that it prevents. Free rods are noted
-  /// before.
+  /// Adds the stiffness to the inertia, and takes away the part of the predicted rotation that it prevents. Free rods
+  /// are noted before.
   void stiffen(RodBits which) {
     for (int lane = 0; lane < bundle_.rods && is_free(); ++lane)
       if ((which >> lane & 1) != 0) free_.emplace_back(bodies_of(lane), view_.points, view_.frames);

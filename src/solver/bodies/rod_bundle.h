@@ -1,4 +1,5 @@
-// Rods of equal shape, as of hair, fur and grass, solved sixteen side by side in SIMD lanes with the bits of JointForest.
+// Rods of equal shape, as of hair, fur and grass, solved sixteen side by side in SIMD lanes with the bits of
+// JointForest.
 #pragma once
 
 #include <vector>
@@ -17,8 +18,8 @@ struct RodBundle {
   float inverse_h2_of_pulls = 0;  ///< of the substep in which the pulls of joints were found [1/s^2]; 0: none yet
 };
 
-/// Fewer rods than these are solved one after another: lanes without a rod cost as much as others. With AVX2 four rods of 64 links are as fast
-/// either way, with SSE six.
+/// Fewer rods than these are solved one after another: lanes without a rod cost as much as others. With AVX2 four rods
+/// of 64 links are as fast either way, with SSE six.
 constexpr std::size_t least_rods_of_bundle = 6;
 
 /// Gathers the forests of an object that are rods, and marks them.

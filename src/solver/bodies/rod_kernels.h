@@ -1,5 +1,5 @@
-// The solution of up to sixteen rods of equal shape side by side, one table for each instruction set level as in solver/kernels.h. All tables give
-// the bits of JointForest, which solves one after another.
+// The solution of up to sixteen rods of equal shape side by side, one table for each instruction set level as in
+// solver/kernels.h. All tables give the bits of JointForest, which solves one after another.
 #pragma once
 
 #include <cstdint>
@@ -51,8 +51,8 @@ struct alignas(64) RodJointScratch {
   RodLanes pull[2][3];        ///< of this pass
 };
 
-/// Scratch data of a body: mass [kg], inertia in world axes and its inverse, geometric stiffness times h^2, sum of |f| h^2 |r| of its
-/// joints [kg m^2], and by how much it is displaced and turned.
+/// Scratch data of a body: mass [kg], inertia in world axes and its inverse, geometric stiffness times h^2, sum of |f|
+/// h^2 |r| of its joints [kg m^2], and by how much it is displaced and turned.
 struct alignas(64) RodBodyScratch {
   RodLanes mass, inertia[6], inverse[6], stiffness[6], size, move[6];
 };
@@ -80,8 +80,8 @@ struct RodKernels {
   void (*fill_rows)(const RodBundleView& rods, RodBits at_start);
   /// Solves, and keeps what the rods in `which` get: multipliers, moves, pulls of this pass.
   void (*solve)(const RodBundleView& rods, RodBits which);
-  /// Sets the geometric stiffness by the kept pulls, those of this pass, or their sum. Returns the rods of which a body has more than `most`
-  /// times its inertia, no other lanes.
+  /// Sets the geometric stiffness by the kept pulls, those of this pass, or their sum. Returns the rods of which a body
+  /// has more than `most` times its inertia, no other lanes.
   RodBits (*find_stiffness)(const RodBundleView& rods, bool kept, bool of_pass, float most);
   /// Moves the bodies of the rods in `which`.
   void (*apply)(const RodBundleView& rods, RodBits which);

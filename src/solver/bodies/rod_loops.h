@@ -1,5 +1,5 @@
-// The functions of RodKernels, written once: F is float and D double for one rod after another, Wide and WideDouble for many. The formulas, and the
-// order of all sums, are those of JointForest and JointTree.
+// The functions of RodKernels, written once: F is float and D double for one rod after another, Wide and WideDouble for
+// many. The formulas, and the order of all sums, are those of JointForest and JointTree.
 #pragma once
 
 #include <cstring>
@@ -18,7 +18,8 @@ namespace pliant::rod_formulas {
 using namespace joint_tree_formulas;
 using block_tree::is_one_number;
 
-/// `Unit` is a type of an unnamed namespace, so that the linker never mixes the code of two levels; void for the sequential reference.
+/// `Unit` is a type of an unnamed namespace, so that the linker never mixes the code of two levels; void for the
+/// sequential reference.
 template <class F, class D, int lanes, int double_lanes, class Unit>
 struct Loops {
   using At = motion_formulas::Lanes<F, lanes>;
@@ -70,8 +71,8 @@ struct Loops {
     const At frame = at(body.frame + l);
     const F w = at(body.point + l).load(v.points.positions).w;
     F inertia[6], inverse[6];
-    joint_formulas::turned_inertia(frame.rotation(v.frames.orientations), frame.vector(v.frames.inverse_inertias), inertia,
-                                   inverse);
+    joint_formulas::turned_inertia(frame.rotation(v.frames.orientations), frame.vector(v.frames.inverse_inertias),
+                                   inertia, inverse);
     store_row(to.mass + l, F(1.f) / w);
     for (int i = 0; i < 6; ++i) {
       store_row(to.inertia[i] + l, inertia[i]);
@@ -86,8 +87,8 @@ struct Loops {
                                    const Record* orientations, int l) {
     const At a = at(joint.slots[0] + l), b = at(joint.slots[2] + l);
     Values out;
-    out.point[2] =
-        (b.vector(v.points.positions) - a.vector(v.points.positions)) + (b.vector(displacements) - a.vector(displacements));
+    out.point[2] = (b.vector(v.points.positions) - a.vector(v.points.positions)) +
+                   (b.vector(displacements) - a.vector(displacements));
     out.frame[1] = at(joint.slots[1] + l).rotation(orientations);
     out.frame[3] = at(joint.slots[3] + l).rotation(orientations);
     return out;
@@ -136,7 +137,8 @@ struct Loops {
       }
       const auto falls = n.load(v.points.positions).w > zero;
       const Vec3<F> velocity = n.vector(v.points.velocities);
-      coast[slot] = {(velocity.x + select(falls, gravity.x, zero)) * h, (velocity.y + select(falls, gravity.y, zero)) * h,
+      coast[slot] = {(velocity.x + select(falls, gravity.x, zero)) * h,
+                     (velocity.y + select(falls, gravity.y, zero)) * h,
                      (velocity.z + select(falls, gravity.z, zero)) * h};
     }
   }
@@ -160,8 +162,8 @@ struct Loops {
   struct Past {
     F share, value;
   };
-  PLIANT_HD static Past past_of(const View& v, const RodJoint& joint, const Vec3<F>* gradient, const Vec3<F> (&motion)[4],
-                                const F& alpha, int l) {
+  PLIANT_HD static Past past_of(const View& v, const RodJoint& joint, const Vec3<F>* gradient,
+                                const Vec3<F> (&motion)[4], const F& alpha, int l) {
     const F zero(0.f);
     if (!v.points.keeps_energy) return {zero, zero};
     Vec3<F> coast[4];
@@ -204,8 +206,8 @@ struct Loops {
     for (int r = 0; r < rod_rows; ++r)
       for (int slot = 0; slot < 4; ++slot) {
         const Vec3<F> old = vector<F>(to.gradient[r][slot], l), &own = rows.gradient[r][slot];
-        put({select(takes, own.x, old.x), select(takes, own.y, old.y), select(takes, own.z, old.z)}, to.gradient[r][slot],
-            l);
+        put({select(takes, own.x, old.x), select(takes, own.y, old.y), select(takes, own.z, old.z)},
+            to.gradient[r][slot], l);
       }
   }
   PLIANT_HD static void fill_values(const View& v, int j, const JointRows& now, int l) {
@@ -238,7 +240,8 @@ struct Loops {
     return {first, first + rod_rows * rod_rows, first + 2 * rod_rows * rod_rows};
   }
   PLIANT_HD static Gradient<D>* moves_of(const View& v) {
-    return reinterpret_cast<Gradient<D>*>(static_cast<D*>(v.blocks) + static_cast<std::ptrdiff_t>(v.joints) * rod_block);
+    return reinterpret_cast<Gradient<D>*>(static_cast<D*>(v.blocks) +
+                                          static_cast<std::ptrdiff_t>(v.joints) * rod_block);
   }
   PLIANT_HD static InverseMass<D> inverse_of(const RodBodyScratch& body, int l) {
     InverseMass<D> of;
@@ -319,7 +322,8 @@ struct Loops {
         for (int r = 0; r < rod_rows; ++r)
           pull = pull - vector<F>(joint.gradient[r][2 * end], l) * get<F>(joint.change[r] + l);
         const Vec3<F> old = vector<F>(joint.pull[end], l);
-        put({select(takes, pull.x, old.x), select(takes, pull.y, old.y), select(takes, pull.z, old.z)}, joint.pull[end], l);
+        put({select(takes, pull.x, old.x), select(takes, pull.y, old.y), select(takes, pull.z, old.z)}, joint.pull[end],
+            l);
       }
   }
   static void solve(const View& v, RodBits bits) {

@@ -44,7 +44,8 @@ int lowest(const std::array<int, 3>& element) { return std::min(element[0], std:
 /// Gives each element to the tile of its lowest vertex. `tiles` are those of one object, by their particles.
 void add_elements(const CompiledObject& object, int first_particle, SurfaceTile* tiles, int count) {
   std::vector<std::array<int, 3>> elements = elements_of(object);
-  std::stable_sort(elements.begin(), elements.end(), [](const auto& a, const auto& b) { return lowest(a) < lowest(b); });
+  std::stable_sort(elements.begin(), elements.end(),
+                   [](const auto& a, const auto& b) { return lowest(a) < lowest(b); });
   for (std::array<int, 3>& e : elements)
     for (int& i : e) i += first_particle;
   auto next = elements.begin();

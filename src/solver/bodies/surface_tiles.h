@@ -1,5 +1,6 @@
-// The surfaces that bodies can touch, tile by tile: their triangles, and which solids are near. Lists of near solids are kept while
-// tiles and solids stay in boxes that are a little larger than their own, so the cost of a substep is linear in both.
+// The surfaces that bodies can touch, tile by tile: their triangles, and which solids are near. Lists of near solids
+// are kept while tiles and solids stay in boxes that are a little larger than their own, so the cost of a substep is
+// linear in both.
 #pragma once
 
 #include <array>

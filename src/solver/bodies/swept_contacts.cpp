@@ -66,7 +66,8 @@ struct Passing {
     const Corners there = corners(time);
     return dot(there.normal(), point(time) - there.at[0]);
   }
-  /// When the point passes the plane, if it does. A triangle that turns on its way makes side() a cubic, so the root is bracketed.
+  /// When the point passes the plane, if it does. A triangle that turns on its way makes side() a cubic, so the root is
+  /// bracketed.
   float time() const {
     float low = 0, high = 1;
     const float before = side(0);
@@ -114,8 +115,8 @@ void SweptContacts::find_hits(const Substep& s, const SurfaceTile& tile, const M
   }
 }
 
-void SweptContacts::detect_solid(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& solid, int number,
-                                 const FunctionRef<bool(const Contact&)>& meets) {
+void SweptContacts::detect_solid(const Substep& s, const SurfaceTiles& surfaces, const MovingCollider& solid,
+                                 int number, const FunctionRef<bool(const Contact&)>& meets) {
   Found& found = found_[at(number)];
   found.hits.clear();
   found.contacts.clear();
@@ -147,7 +148,8 @@ void SweptContacts::detect(const Substep& s, const SurfaceTiles& surfaces, const
                                   [&](int i) { detect_solid(s, surfaces, solids[at(i)], i, meets); });
   has_fast_ = std::any_of(found_.begin(), found_.end(), [](const Found& f) { return f.is_fast; });
   if (std::all_of(found_.begin(), found_.end(), [](const Found& f) { return f.contacts.empty(); })) return;
-  std::erase_if(contacts, [&](const Contact& c) { return c.weight[1] != 0 && !found_[at(c.collider)].contacts.empty(); });
+  std::erase_if(contacts,
+                [&](const Contact& c) { return c.weight[1] != 0 && !found_[at(c.collider)].contacts.empty(); });
   for (const Found& found : found_) contacts.insert(contacts.end(), found.contacts.begin(), found.contacts.end());
 }
 

@@ -1,8 +1,8 @@
 // Contacts of triangles with solids that pass them within a substep.
 //
-// Contacts of edges and triangles are found where a solid ends. A solid that moves by more than its size ends beyond a coarse
-// cloth without ever overlapping it. So the path of its centre is tested against the triangles that move meanwhile. A contact at
-// the first hit keeps the whole solid on the side from which it came.
+// Contacts of edges and triangles are found where a solid ends. A solid that moves by more than its size ends beyond a
+// coarse cloth without ever overlapping it. So the path of its centre is tested against the triangles that move
+// meanwhile. A contact at the first hit keeps the whole solid on the side from which it came.
 #pragma once
 
 #include <array>
@@ -19,8 +19,9 @@ struct Substep;
 
 class SweptContacts {
  public:
-  /// Adds a contact for each triangle that a solid's centre hits first; `meets(contact)` tells which may touch. Of solids that have
-  /// one, the contacts of edges and triangles among `contacts` are removed, because they may be those of the far side.
+  /// Adds a contact for each triangle that a solid's centre hits first; `meets(contact)` tells which may touch. Of
+  /// solids that have one, the contacts of edges and triangles among `contacts` are removed, because they may be those
+  /// of the far side.
   void detect(const Substep& s, const SurfaceTiles& surfaces, const std::vector<MovingCollider>& solids,
               FunctionRef<bool(const Contact&)> meets, std::vector<Contact>& contacts);
 

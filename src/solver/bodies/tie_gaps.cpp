@@ -37,7 +37,8 @@ int tie_of(const CompiledBodies& bodies, int particle, int frame) {
   const auto& attached = bodies.attached;
   auto at = std::lower_bound(attached.begin(), attached.end(), std::pair{particle, 0});
   for (; at != attached.end() && at->first == particle; ++at)
-    if (bodies.bodies[static_cast<std::size_t>(at->second)].frame == frame) return static_cast<int>(at - attached.begin());
+    if (bodies.bodies[static_cast<std::size_t>(at->second)].frame == frame)
+      return static_cast<int>(at - attached.begin());
   return -1;
 }
 

@@ -12,7 +12,8 @@ namespace pliant {
 namespace {
 
 constexpr int freedoms = 6;
-/// Smallest inverse mass of a tie's particle, as a share of the body's there: particles that are fixed would overdetermine the body.
+/// Smallest inverse mass of a tie's particle, as a share of the body's there: particles that are fixed would
+/// overdetermine the body.
 constexpr double least_yield = 1e-7;
 
 /// The body at the start of the projection.
@@ -35,7 +36,8 @@ struct Body {
   }
 };
 
-/// One tie in the body's axes. In double: between fixed particles the system's largest and smallest pivots are 1e7 and more apart.
+/// One tie in the body's axes. In double: between fixed particles the system's largest and smallest pivots are 1e7 and
+/// more apart.
 struct Tie {
   Vec3d arm{}, rhs{};    ///< [m]
   double stiffness = 0;  ///< 1 / (w + a) [kg]

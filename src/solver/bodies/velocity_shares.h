@@ -1,4 +1,5 @@
-// Which share of a substep's corrections becomes velocity, for each rigid body and for the other particles of each object.
+// Which share of a substep's corrections becomes velocity, for each rigid body and for the other particles of each
+// object.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +27,9 @@ class VelocityShares {
   }
 
   /// Of the particles of an object that are no centres of bodies, and of the bodies that they touch.
-  float of_points(int object) const { return of_object_.empty() ? 1 : of_object_[static_cast<std::size_t>(object)].points; }
+  float of_points(int object) const {
+    return of_object_.empty() ? 1 : of_object_[static_cast<std::size_t>(object)].points;
+  }
 
   /// Calls body(first, last, share) for ranges of the particles [first, last) of an object that have one share.
   template <class Body>
@@ -43,7 +46,8 @@ class VelocityShares {
   /// The same for its frames.
   template <class Body>
   void for_frames(int object, int first, int last, const Body& body) const {
-    if (of_object_.empty() || of_object_[static_cast<std::size_t>(object)].frames.empty()) return body(first, last, 1.f);
+    if (of_object_.empty() || of_object_[static_cast<std::size_t>(object)].frames.empty())
+      return body(first, last, 1.f);
     for_ranges(first, last, body,
                [&](int i) { return of_object_[static_cast<std::size_t>(object)].frames[static_cast<std::size_t>(i)]; });
   }

@@ -30,7 +30,9 @@ void solve_one(const Substep& s, const Task& task, const SweepArguments& a, Alig
   // one than in mostly empty SIMD lanes. The bits are the same.
   const bool few = links->last_count <= 2;
   const ChainKernels& by = few ? chain_kernels_sequential() : s.kernels.chains;
-  const auto solve_all = [&] { by.solve_chain(chains.pool, links, batch.steps, softness, multipliers, a, scratch.data()); };
+  const auto solve_all = [&] {
+    by.solve_chain(chains.pool, links, batch.steps, softness, multipliers, a, scratch.data());
+  };
   const bool may_be_loaded = s.bodies != nullptr && s.bodies->loads().has_any(task.object);
   if (!may_be_loaded) return solve_all();
   const std::uint32_t lanes = s.bodies->loads().loaded_lanes(task.object, task.item);

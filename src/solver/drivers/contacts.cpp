@@ -33,8 +33,9 @@ void find_more_in_tile(Substep& s, int task) {
   const CompiledObject& object = object_of(s, task);
   grow_bounds(a, scratch.bounds);
   scratch.more_contacts.clear();
-  find_contacts({object, a, scratch.bounds, s.own->colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
-                scratch.near, scratch.more_contacts);
+  find_contacts(
+      {object, a, scratch.bounds, s.own->colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
+      scratch.near, scratch.more_contacts);
   const auto is_shallow = [&](const Contact& c) {
     const Record& d = a.displacements[c.point[0]];
     const float thickness = object.thickness + s.own->colliders[c.collider].thickness;
@@ -46,13 +47,15 @@ void find_more_in_tile(Substep& s, int task) {
   std::swap(scratch.contacts, scratch.all_contacts);
 }
 
-/// Projects particles that constraints moved below a plane collider and that had no predicted contact, and those of liquids that they moved
-/// into any solid. They move to the surface, not to the thickness: otherwise cloth at rest on a floor would move two to four times as much.
+/// Projects particles that constraints moved below a plane collider and that had no predicted contact, and those of
+/// liquids that they moved into any solid. They move to the surface, not to the thickness: otherwise cloth at rest on a
+/// floor would move two to four times as much.
 void hold_tile_at_surfaces(Substep& s, int task) {
   TileScratch& scratch = s.work.tiles[task];
   const AdvanceArguments a = particles(s, task);
-  const ContactSearch search{
-      object_of(s, task), a, scratch.bounds, s.own->colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts};
+  const ContactSearch search{object_of(s, task),  a,
+                             scratch.bounds,      s.own->colliders,
+                             s.kernels.find_near, s.kernels.contacts.make_point_contacts};
   if (search.object.fluid) grow_bounds(a, scratch.bounds);  // the density moves particles far
   // What leaves one solid may enter another, in a corner.
   const int rounds = search.object.fluid ? most_rounds_in_corners : 1;
@@ -122,15 +125,17 @@ void sweep_pairs(Substep& s) {
   // Objects of other sweeps keep the bits that they have alone.
   ObjectLookup objects(s.model);
   const auto is_of_group = [&](int object) { return is_swept(s, object); };
-  s.own->contact_solver.only(contacts, [&](const Contact& contact) { return concerns_any(objects, contact, is_of_group); })
+  s.own->contact_solver
+      .only(contacts, [&](const Contact& contact) { return concerns_any(objects, contact, is_of_group); })
       .project(s.context.executor, name, contacts, displacements);
 }
 
 namespace {
 
-/// True if one side takes nearly all of a contact's corrections, because the other is at least twenty times as heavy but can move: a stone
-/// on cloth. If such a contact yielded, the light side would be pulled into the heavy one in every substep, farther than the little that a
-/// correction moves the heavy side. Stones 70 times as heavy as the particles of a bag of cloth lay 1 mm from it instead of 11.
+/// True if one side takes nearly all of a contact's corrections, because the other is at least twenty times as heavy
+/// but can move: a stone on cloth. If such a contact yielded, the light side would be pulled into the heavy one in
+/// every substep, farther than the little that a correction moves the heavy side. Stones 70 times as heavy as the
+/// particles of a bag of cloth lay 1 mm from it instead of 11.
 bool is_lopsided(const Contact& c) {
   constexpr float least_share = 0.05f;
   float first = 0, second = 0;

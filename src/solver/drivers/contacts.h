@@ -13,8 +13,8 @@ void sweep_contacts(Substep& s);
 void sweep_pairs(Substep& s);
 
 /// Projects once more the contacts of the objects with has[object] != 0, for sweeps or passes over these alone: others
-/// keep the bits that they have alone. Contacts among surfaces may then overlap by a share `yield` of their thickness, but for those with a
-/// side that is at least twenty times as heavy as the other.
+/// keep the bits that they have alone. Contacts among surfaces may then overlap by a share `yield` of their thickness,
+/// but for those with a side that is at least twenty times as heavy as the other.
 void project_contacts_of(Substep& s, const char* name, const std::vector<char>& has, float yield);
 
 /// Calls visit(particle) for the points of active contacts with several points: of edges and triangles with colliders,

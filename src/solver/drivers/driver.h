@@ -39,13 +39,15 @@ const PhaseDriver& driver_of(const Phase& phase);
 /// Projects once all phases whose driver has this Turn, or all phases of one driver.
 void walk(Substep& s, Turn turn, const Pass& pass);
 void walk(Substep& s, Driver driver, const Pass& pass);
-/// Projects the ties of particles to bodies of the objects with 1 in `of` that are solved by chains, before anything else of a substep.
+/// Projects the ties of particles to bodies of the objects with 1 in `of` that are solved by chains, before anything
+/// else of a substep.
 void project_ties(Substep& s, const std::vector<char>& of);
 
 /// Calls body(task) for the tasks of objects whose sweep runs (is_swept). Uses all threads if the phase has at least
 /// `fewest_to_share` batches or steps of work; with less, waking them takes longer than the work. The call is timed
 /// under `name` unless that is null.
-void for_tasks(Substep& s, const Phase& phase, const char* name, int fewest_to_share, FunctionRef<void(const Task&)> body);
+void for_tasks(Substep& s, const Phase& phase, const char* name, int fewest_to_share,
+               FunctionRef<void(const Task&)> body);
 
 /// Inter-tile colours with fewer batches run on one thread, because waking others takes longer.
 inline constexpr int fewest_inter_tile_batches = 96;

@@ -44,7 +44,8 @@ void walk(Substep& s, Driver driver, const Pass& pass) {
     if (phase.driver == driver) driver_of(phase).project(s, phase, pass);
 }
 
-void for_tasks(Substep& s, const Phase& phase, const char* name, int fewest_to_share, FunctionRef<void(const Task&)> body) {
+void for_tasks(Substep& s, const Phase& phase, const char* name, int fewest_to_share,
+               FunctionRef<void(const Task&)> body) {
   const int tasks = static_cast<int>(phase.tasks.size());
   const auto visit = [&](int i) {
     if (is_swept(s, phase.tasks[i].object)) body(phase.tasks[i]);

@@ -26,8 +26,8 @@ void for_segments(Substep& s, const Phase& phase, FunctionRef<void(int, const Se
             [&](const Task& task) { body(task.object, s.model.objects[task.object].segments.data() + task.item); });
 }
 
-/// In how many pieces the constraints of a solid's tile are projected where it touches a collider. More leave thin slabs
-/// too stiff and fewer too soft (docs/internals/solids.md).
+/// In how many pieces the constraints of a solid's tile are projected where it touches a collider. More leave thin
+/// slabs too stiff and fewer too soft (docs/internals/solids.md).
 constexpr int pieces_in_contact = 4;
 
 /// True if contacts take turns with the constraints of an object. If they only came last, they would compress what
@@ -64,7 +64,8 @@ void project_with_contacts(const Substep& s, int task, bool first_pass) {
   int first = tile.first_segment, done = 0;
   for (int piece = 1; piece <= pieces_in_contact; ++piece) {
     int last = first;
-    for (; last < tile.last_segment && pieces_in_contact * done < piece * all; ++last) done += segments[at(last)].batches;
+    for (; last < tile.last_segment && pieces_in_contact * done < piece * all; ++last)
+      done += segments[at(last)].batches;
     if (last == first) continue;
     project_segments(s, object, first, last, first_pass);
     first = last;

@@ -20,7 +20,8 @@ bool begin_early(const std::vector<char>& of, const CompiledObject& object, cons
 
 void project_task(Substep& s, const Task& task, bool first) {
   const CompiledObject& object = s.model.objects[task.object];
-  project_segment(object, object.segments[task.item], arguments(s, task.object, first), frame_arguments(s, task.object));
+  project_segment(object, object.segments[task.item], arguments(s, task.object, first),
+                  frame_arguments(s, task.object));
 }
 
 }  // namespace

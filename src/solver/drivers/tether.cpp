@@ -40,7 +40,8 @@ bool tethers_hold(const CompiledObject& object, const Record* positions) {
   const std::vector<int>& anchors = object.tethers.anchors;
   for (std::size_t i = 0; i < anchors.size(); ++i) {
     const int from = anchors[i], to = anchors[(i + 1) % anchors.size()];
-    if (apart(positions[from], positions[to]) > 1.02f * apart(object.positions[from], object.positions[to])) return false;
+    if (apart(positions[from], positions[to]) > 1.02f * apart(object.positions[from], object.positions[to]))
+      return false;
   }
   return true;
 }

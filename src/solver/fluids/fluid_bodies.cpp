@@ -46,13 +46,14 @@ void FluidBodies::add_squares(const Substep& s, const FluidWalls& walls, const R
     for (std::size_t lane = 0; lane < NeighbourLists::lanes; ++lane) {
       const Vec3f& g = near.gradient[lane];
       const Vec3f turn = cross(xyz(places[first + lane]) - centre, g);
-      squares[first + lane] += share * (motion.inverse_mass * dot(g, g) + dot(turn, times(motion.inverse_inertia, turn)));
+      squares[first + lane] +=
+          share * (motion.inverse_mass * dot(g, g) + dot(turn, times(motion.inverse_inertia, turn)));
     }
   }
 }
 
-void FluidBodies::push(Substep& s, const FluidWalls& walls, const Records& weighted, const std::vector<float>& lightness,
-                       float mass) {
+void FluidBodies::push(Substep& s, const FluidWalls& walls, const Records& weighted,
+                       const std::vector<float>& lightness, float mass) {
   if (walls.near_solids().empty()) return;
   moved_.assign(touched_.size(), {});
   turned_.assign(touched_.size(), {});

@@ -1,5 +1,5 @@
-// The formulas of a liquid's passes, for one float and for sixteen lanes. Macklin and Mueller 2013, with one kernel for density and
-// gradient, and with multipliers and compliance of XPBD (Macklin, Mueller and Chentanez 2016).
+// The formulas of a liquid's passes, for one float and for sixteen lanes. Macklin and Mueller 2013, with one kernel for
+// density and gradient, and with multipliers and compliance of XPBD (Macklin, Mueller and Chentanez 2016).
 #pragma once
 
 #include "math/inverse_root.h"
@@ -54,7 +54,8 @@ struct Solved {
   R density, change;
 };
 
-/// `least` is added to the squared gradients. `multiplier` is what it is before, at most 0: a liquid pushes and does not pull.
+/// `least` is added to the squared gradients. `multiplier` is what it is before, at most 0: a liquid pushes and does
+/// not pull.
 template <class R>
 PLIANT_HD Solved<R> solve(const FluidLaw& law, float relaxation, float softness, const Sums<R>& sums, const R& wall,
                           const Vec3<R>& wall_gradient, const R& least, const R& multiplier) {
@@ -62,8 +63,8 @@ PLIANT_HD Solved<R> solve(const FluidLaw& law, float relaxation, float softness,
   const Vec3<R> gradient{wall_gradient.x - scale * sums.gradient.x, wall_gradient.y - scale * sums.gradient.y,
                          wall_gradient.z - scale * sums.gradient.z};
   const R density = R(law.own) + R(law.density_scale) * sums.cubes + wall;
-  const R squared =
-      gradient.x * gradient.x + gradient.y * gradient.y + gradient.z * gradient.z + scale * scale * sums.fourths + least;
+  const R squared = gradient.x * gradient.x + gradient.y * gradient.y + gradient.z * gradient.z +
+                    scale * scale * sums.fourths + least;
   const R error = density - R(1.f) + R(softness) * multiplier;
   const R change = -error / (squared / R(relaxation) + R(softness));
   return {density, min(multiplier + change, R(0.f)) - multiplier};

@@ -1,5 +1,5 @@
-// The passes over the particles of a liquid, one table for each instruction set level as in solver/kernels.h. All tables give the same
-// bits: a particle adds its neighbours one after another.
+// The passes over the particles of a liquid, one table for each instruction set level as in solver/kernels.h. All
+// tables give the same bits: a particle adds its neighbours one after another.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ struct FluidArrays {
   float relaxation = 0;  ///< share of a correction that is made
   float softness = 0;    ///< compliance over the square of the substep [1/m^2]
 
-  const Record* places = nullptr;        ///< predicted [m]
-  Record* weighted = nullptr;            ///< places, and in w what the multiplier changes
-  float* multipliers = nullptr;          ///< of the substep
-  const Record* walls = nullptr;         ///< gradient of the share of walls in the density [1/m], and that share [-]
-  const char* has_walls = nullptr;       ///< for each group, 1 if any of its `walls` is not zero
-  const float* squares = nullptr;        ///< what bodies add to the squared gradients [1/m^2]; null: nothing
-  float* densities = nullptr;            ///< over that at rest [-]
-  const float* lightness = nullptr;      ///< density of the lightest liquid over that of the particle; null: all are equal
+  const Record* places = nullptr;    ///< predicted [m]
+  Record* weighted = nullptr;        ///< places, and in w what the multiplier changes
+  float* multipliers = nullptr;      ///< of the substep
+  const Record* walls = nullptr;     ///< gradient of the share of walls in the density [1/m], and that share [-]
+  const char* has_walls = nullptr;   ///< for each group, 1 if any of its `walls` is not zero
+  const float* squares = nullptr;    ///< what bodies add to the squared gradients [1/m^2]; null: nothing
+  float* densities = nullptr;        ///< over that at rest [-]
+  const float* lightness = nullptr;  ///< density of the lightest liquid over that of the particle; null: all are equal
   const std::int32_t* points = nullptr;  ///< of each slot: its particle
   Record* displacements = nullptr;       ///< by particle [m]
   int slots = 0;

@@ -27,8 +27,8 @@ void log_slot(const Substep& s, const FluidPool& pool, const FluidBounds& bounds
   const Vec3f at{place.x, place.y, place.z};
   for (const WallGradient& wall : pool.walls.gradients(pool.law, bounds, at, slot / NeighbourLists::lanes)) {
     const double size = static_cast<double>(pool.mass) * static_cast<double>(place.w) / static_cast<double>(s.h);
-    add_pressure({liquid, -1}, side_of(s, bounds, wall.which), convert<double>(wall.gradient) * size, convert<double>(at),
-                 log);
+    add_pressure({liquid, -1}, side_of(s, bounds, wall.which), convert<double>(wall.gradient) * size,
+                 convert<double>(at), log);
   }
 }
 

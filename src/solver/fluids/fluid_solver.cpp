@@ -15,7 +15,8 @@ namespace pliant {
 
 namespace {
 
-/// Neighbours are found again after so many substeps. Finding them in each changes neither the density nor the energy of a dam break.
+/// Neighbours are found again after so many substeps. Finding them in each changes neither the density nor the energy
+/// of a dam break.
 constexpr int oldest_neighbours = 5;
 /// Share of a correction that is made, because neighbours correct the same error: without it particles overshoot.
 constexpr float relaxation = 0.4f;
@@ -132,7 +133,8 @@ void FluidSolver::find_neighbours(Substep& s, FluidPool& pool) {
 /// Particles that are fixed do not move, but push others.
 void FluidSolver::find_lightness(const State& state, FluidPool& pool) const {
   const auto is_fixed = [&](std::int32_t particle) { return state.positions[at(particle)].w == 0; };
-  const bool are_alike = pool.lightness_of_point.empty() && std::none_of(pool.points.begin(), pool.points.end(), is_fixed);
+  const bool are_alike =
+      pool.lightness_of_point.empty() && std::none_of(pool.points.begin(), pool.points.end(), is_fixed);
   pool.lightness.assign(are_alike ? 0 : pool.places.size(), 1);
   const auto moving = std::find_if_not(pool.points.begin(), pool.points.end(), is_fixed);
   pool.mass = moving == pool.points.end() ? 0 : 1 / state.positions[at(*moving)].w;

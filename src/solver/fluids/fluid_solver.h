@@ -1,5 +1,6 @@
-// The liquids of a substep group, as stages of a frame: their neighbours are found every few substeps, and each iteration projects the
-// density constraint of every particle once (Macklin and Mueller 2013), with the small steps of Macklin et al. 2019.
+// The liquids of a substep group, as stages of a frame: their neighbours are found every few substeps, and each
+// iteration projects the density constraint of every particle once (Macklin and Mueller 2013), with the small steps of
+// Macklin et al. 2019.
 #pragma once
 
 #include <cstdint>
@@ -62,7 +63,8 @@ class FluidSolver {
   void collide(Substep& s);
   /// Projects all density constraints once.
   void project(Substep& s, bool is_first);
-  /// After the update: vorticity confinement. `gravity(object)` is the part of gravity that velocities do not include yet [m/s].
+  /// After the update: vorticity confinement. `gravity(object)` is the part of gravity that velocities do not include
+  /// yet [m/s].
   void respond(Substep& s, FunctionRef<Vec3f(int)> gravity);
   /// Of the last projection.
   Compression compression() const;

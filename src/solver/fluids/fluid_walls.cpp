@@ -66,8 +66,8 @@ bool is_within(const BoundingBox<float>& a, const BoundingBox<float>& b, float d
 
 float largest_of(const Vec3f& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// True if no point of a box can be within a distance of a primitive: its middle is too far, beyond all rounding. Distances to primitives grow
-/// no faster than ways; those to grids may.
+/// True if no point of a box can be within a distance of a primitive: its middle is too far, beyond all rounding.
+/// Distances to primitives grow no faster than ways; those to grids may.
 bool is_beyond(const MovingCollider& wall, const BoundingBox<float>& box, float distance) {
   if (wall.field != nullptr) return false;
   const Vec3f middle = (box.low + box.high) * 0.5f, half = (box.high - box.low) * 0.5f;
@@ -111,8 +111,8 @@ void FluidWalls::find_in_task(const CompiledObject& liquid, const NeighbourLists
   }
 }
 
-void FluidWalls::find(Executor& executor, const CompiledObject& liquid, const NeighbourLists& lists, const Records& places,
-                      const FluidBounds& bounds, float reach, float motion) {
+void FluidWalls::find(Executor& executor, const CompiledObject& liquid, const NeighbourLists& lists,
+                      const Records& places, const FluidBounds& bounds, float reach, float motion) {
   begin_.assign(1, 0);
   near_.clear();
   near_solids_.clear();
@@ -138,8 +138,8 @@ void FluidWalls::find(Executor& executor, const CompiledObject& liquid, const Ne
   }
 }
 
-void FluidWalls::measure(const FluidKernels& kernels, const FluidLaw& law, const FluidBounds& bounds, const Records& places,
-                         int group) {
+void FluidWalls::measure(const FluidKernels& kernels, const FluidLaw& law, const FluidBounds& bounds,
+                         const Records& places, int group) {
   const std::int32_t *first = near_.data() + begin_[at(group)], *last = near_.data() + begin_[at(group) + 1];
   has_any_[at(group)] = first != last ? 1 : 0;
   if (first == last) return;
@@ -170,7 +170,8 @@ void FluidWalls::measure(const FluidKernels& kernels, const FluidLaw& law, const
 void FluidWalls::measure_one_by_one(const FluidLaw& law, const FluidBounds& bounds, const Records& places, int group) {
   const std::int32_t *first = near_.data() + begin_[at(group)], *last = near_.data() + begin_[at(group) + 1];
   const int first_solid = first_solid_[at(group)], colliders = bounds.number_of_colliders();
-  for (int i = first_solid; i < first_solid_[at(group) + 1]; ++i) near_solids_[at(i)] = {group, near_solids_[at(i)].solid};
+  for (int i = first_solid; i < first_solid_[at(group) + 1]; ++i)
+    near_solids_[at(i)] = {group, near_solids_[at(i)].solid};
   for (int lane = 0; lane < NeighbourLists::lanes; ++lane) {
     const std::size_t slot = at(group) * NeighbourLists::lanes + at(lane);
     const Walls walls = walls_near(law, bounds, first, last, {places[slot].x, places[slot].y, places[slot].z});

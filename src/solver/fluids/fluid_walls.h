@@ -1,8 +1,9 @@
 // The share of colliders in the density of a liquid: what the kernel of a particle loses where a wall cuts it off.
 //
-// A wall counts as a half-space at its nearest point, for which the integral of the kernel is exact; several count by 1 - product of
-// (1 - share), which in a corner is within 2 % of a lattice that goes on behind the walls. Contacts keep particles out; the density only keeps
-// them from gathering at walls. The solids of rigid bodies count as colliders do; FluidBodies passes on what the liquid pushes them.
+// A wall counts as a half-space at its nearest point, for which the integral of the kernel is exact; several count by 1
+// - product of (1 - share), which in a corner is within 2 % of a lattice that goes on behind the walls. Contacts keep
+// particles out; the density only keeps them from gathering at walls. The solids of rigid bodies count as colliders do;
+// FluidBodies passes on what the liquid pushes them.
 #pragma once
 
 #include <cstdint>
@@ -58,7 +59,8 @@ class FluidWalls {
                int group);
 
   /// The gradient of each wall at the place of a slot of the group, as measure() sums them.
-  std::vector<WallGradient> gradients(const FluidLaw& law, const FluidBounds& bounds, const Vec3f& place, int group) const;
+  std::vector<WallGradient> gradients(const FluidLaw& law, const FluidBounds& bounds, const Vec3f& place,
+                                      int group) const;
 
   const Records& shares() const { return shares_; }  ///< by slot: see FluidArrays::walls
   const std::vector<char>& has_any() const { return has_any_; }

@@ -1,6 +1,7 @@
-// Surface tension of the liquids of a pool: forces that are minus the gradient of a surface energy (tension_law.h), at predicted places. That
-// takes hardly any energy from oscillations of drops, but damps the fast ones, which forces at the places where a substep starts would feed:
-// with those, drops burst. Where a substep is too long even so, less tension acts. Walls attract by wetting.h.
+// Surface tension of the liquids of a pool: forces that are minus the gradient of a surface energy (tension_law.h), at
+// predicted places. That takes hardly any energy from oscillations of drops, but damps the fast ones, which forces at
+// the places where a substep starts would feed: with those, drops burst. Where a substep is too long even so, less
+// tension acts. Walls attract by wetting.h.
 #pragma once
 
 #include <vector>
@@ -24,7 +25,8 @@ class FluidTension {
   bool has_any() const { return has_any_; }
 
   void begin_frame() { acts_ = {}; }
-  /// When the pool has found its neighbours: finds those of surface tension, which acts farther. `by_point` are predicted places.
+  /// When the pool has found its neighbours: finds those of surface tension, which acts farther. `by_point` are
+  /// predicted places.
   void find_neighbours(Substep& s, const FluidPool& pool, const Records& by_point);
   /// After the prediction: adds what forces move particles in the substep.
   void act(Substep& s, const FluidPool& pool);

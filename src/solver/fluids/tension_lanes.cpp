@@ -1,4 +1,5 @@
-// The passes of surface tension in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
+// The passes of surface tension in sixteen SIMD lanes, compiled per instruction set level under the rules of
+// solver/lanes.cpp.
 #include "solver/fluids/tension_loops.h"
 #include "solver/fluids/wide_slots.h"
 

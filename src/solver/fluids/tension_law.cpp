@@ -10,12 +10,15 @@ namespace pliant {
 namespace {
 
 constexpr double reach_over_spacing = 3, full_sum = 0.95;
-/// The tension that the height of puddles shows, over that of particles that are spread evenly: those at a surface crowd, which lowers it.
+/// The tension that the height of puddles shows, over that of particles that are spread evenly: those at a surface
+/// crowd, which lowers it.
 constexpr double crowding = 0.85;
-/// The square of the longest substep over sqrt(mass of a particle / surface tension). At 0.1 drops hardly oscillate, at 0.15 they burst.
+/// The square of the longest substep over sqrt(mass of a particle / surface tension). At 0.1 drops hardly oscillate, at
+/// 0.15 they burst.
 constexpr float stable = 0.0036f;
 
-/// Calls body(squared distance) for each point of a cubic lattice of spacing 1 within reach of one of its points, that one too.
+/// Calls body(squared distance) for each point of a cubic lattice of spacing 1 within reach of one of its points, that
+/// one too.
 template <class Body>
 void for_lattice(const Body& body) {
   constexpr int most = 3;
@@ -33,7 +36,8 @@ double count_of_lattice() {
   return sum;
 }
 
-/// The energy of a plane surface per area, of particles with energy (full_sum - c)^2 / 2 and a volume of 1, with lengths over the spacing.
+/// The energy of a plane surface per area, of particles with energy (full_sum - c)^2 / 2 and a volume of 1, with
+/// lengths over the spacing.
 double energy_of_plane() {
   constexpr int steps = 1024;
   double sum = 0;
@@ -56,8 +60,9 @@ struct Adhesion {
   double cosine, strength;
 };
 
-/// Particles crowd at walls and in the edge of a drop, so no sum over a lattice has the right energy. Each is the strength with which drops of
-/// 1 200 particles without viscosity or gravity, that start as half balls or flatter at the larger angles, come to rest at the angle.
+/// Particles crowd at walls and in the edge of a drop, so no sum over a lattice has the right energy. Each is the
+/// strength with which drops of 1 200 particles without viscosity or gravity, that start as half balls or flatter at
+/// the larger angles, come to rest at the angle.
 constexpr std::array<Adhesion, 11> measured_adhesions{{{-1, 0},
                                                        {-0.95, 0.1},
                                                        {-0.78, 0.15},

@@ -1,5 +1,5 @@
-// The passes over a group of sixteen slots in sixteen lanes, or over its slots one at a time: tension_lanes.cpp and tension_sequential.cpp
-// say how lanes are loaded.
+// The passes over a group of sixteen slots in sixteen lanes, or over its slots one at a time: tension_lanes.cpp and
+// tension_sequential.cpp say how lanes are loaded.
 #pragma once
 
 #include "math/vector.h"

@@ -15,7 +15,8 @@ namespace pliant {
 namespace {
 
 constexpr int most_iterations = 200;
-/// A solve ends when the residual is this share of what it was, as root mean square over all masses, or so many spacings.
+/// A solve ends when the residual is this share of what it was, as root mean square over all masses, or so many
+/// spacings.
 constexpr double residual_share = 1e-4, least_residual = 1e-7;
 
 }  // namespace
@@ -76,8 +77,8 @@ void FluidViscosity::gather_bodies(Substep& s, bool is_first) {
     Body& body = bodies_[i];
     body = {{}, body.impulse, {}, {}, {}, {}, false};
     body.motion.linear = xyz(s.work.displacements[at(of.particle)]);
-    body.motion.angular =
-        turn_between(quaternion(s.work.frames.starts[at(of.frame)]), quaternion(s.state.frames.orientations[at(of.frame)]));
+    body.motion.angular = turn_between(quaternion(s.work.frames.starts[at(of.frame)]),
+                                       quaternion(s.state.frames.orientations[at(of.frame)]));
     bodies_before_[i] = body.motion;
   }
 }

@@ -1,10 +1,11 @@
-// Viscosity of the liquids of a pool: backward Euler in the displacements of a substep, u = u0 - M^-1 h L u, in which L is the symmetric
-// operator of pairs of neighbours, walls and bodies. So it is stable for any viscosity and any substep.
+// Viscosity of the liquids of a pool: backward Euler in the displacements of a substep, u = u0 - M^-1 h L u, in which L
+// is the symmetric operator of pairs of neighbours, walls and bodies. So it is stable for any viscosity and any
+// substep.
 //
-// It acts on displacements within the iterations, before contacts, and not on velocities after them: positions then move by the velocities
-// that viscosity leaves, and contact has the last word. Pairs push along their line, so that linear and angular momentum are kept, and
-// a liquid turns as a rigid body without resistance. With conjugate gradients that are preconditioned by the masses this holds for any
-// number of iterations. Sums have a fixed order.
+// It acts on displacements within the iterations, before contacts, and not on velocities after them: positions then
+// move by the velocities that viscosity leaves, and contact has the last word. Pairs push along their line, so that
+// linear and angular momentum are kept, and a liquid turns as a rigid body without resistance. With conjugate gradients
+// that are preconditioned by the masses this holds for any number of iterations. Sums have a fixed order.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +29,8 @@ class FluidViscosity {
   bool has_any() const { return has_any_; }
 
   void begin_frame() { solves_ = {}; }
-  /// After the density of an iteration: solves for the displacements of its particles and of the bodies that they touch. Later iterations of
-  /// a substep solve again for what they have changed.
+  /// After the density of an iteration: solves for the displacements of its particles and of the bodies that they
+  /// touch. Later iterations of a substep solve again for what they have changed.
   void solve(Substep& s, FluidPool& pool, bool is_first);
   const ViscositySolves& solves() const { return solves_; }
 

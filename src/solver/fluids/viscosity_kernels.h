@@ -1,5 +1,5 @@
-// The passes of viscosity over pairs of neighbours, one table for each instruction set level as in solver/kernels.h. All tables give the
-// same bits: a particle adds its neighbours one after another.
+// The passes of viscosity over pairs of neighbours, one table for each instruction set level as in solver/kernels.h.
+// All tables give the same bits: a particle adds its neighbours one after another.
 #pragma once
 
 #include <cstdint>

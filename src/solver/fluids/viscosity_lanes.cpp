@@ -1,4 +1,5 @@
-// The passes of viscosity in sixteen SIMD lanes, compiled per instruction set level under the rules of solver/lanes.cpp.
+// The passes of viscosity in sixteen SIMD lanes, compiled per instruction set level under the rules of
+// solver/lanes.cpp.
 #include "solver/fluids/wide_inverse_root.h"
 #include "solver/fluids/wide_slots.h"
 

@@ -20,8 +20,8 @@ Shells shells(double far) {
   return {w(1), w(diagonal), w(space_diagonal)};
 }
 
-/// A lattice whose pairs are springs is isotropic if its sums of w r^2 n_x^4 are three times those of w r^2 n_x^2 n_y^2, which are
-/// 2 w_1 + 4 w_2 + 8/3 w_3 and 2 w_2 + 8/3 w_3: w_1 = w_2 + 8/3 w_3.
+/// A lattice whose pairs are springs is isotropic if its sums of w r^2 n_x^4 are three times those of w r^2 n_x^2
+/// n_y^2, which are 2 w_1 + 4 w_2 + 8/3 w_3 and 2 w_2 + 8/3 w_3: w_1 = w_2 + 8/3 w_3.
 double isotropic_far() {
   const auto lack = [](double far) {
     const Shells w = shells(far);

@@ -3,8 +3,9 @@
 
 namespace pliant {
 
-/// A pair of particles at a distance r resists its rate of extension v: force mu scale w(q) v along the pair, with q = reach - r and
-/// w = q (near + far q). The sum over a lattice or over neighbours in all directions is the stress of a Newtonian liquid of viscosity mu.
+/// A pair of particles at a distance r resists its rate of extension v: force mu scale w(q) v along the pair, with q =
+/// reach - r and w = q (near + far q). The sum over a lattice or over neighbours in all directions is the stress of a
+/// Newtonian liquid of viscosity mu.
 struct ViscosityLaw {
   float reach = 0;  ///< twice the spacing [m]
   float near = 0;   ///< [m]

@@ -42,7 +42,8 @@ struct Loops {
   static void resist(const ViscosityArrays& a, const NeighbourGroup& group, int number) {
     for (int lane = 0; lane < neighbour_lanes; lane += Lanes::count) {
       const int slot = number * neighbour_lanes + lane;
-      const Vec3<R> place = Lanes::load_own(a.places + slot).position, motion = Lanes::load_own(a.motions + slot).position;
+      const Vec3<R> place = Lanes::load_own(a.places + slot).position,
+                    motion = Lanes::load_own(a.motions + slot).position;
       const R zero(0.f);
       Vec3<R> sum{zero, zero, zero};
       for (int k = 0; k < group.rows; ++k) {

@@ -12,6 +12,8 @@ struct OneViscositySlot : OneSlot {
 
 }  // namespace
 
-const ViscosityKernels& viscosity_kernels_sequential() { return viscosity_formulas::Loops<OneViscositySlot, void>::table; }
+const ViscosityKernels& viscosity_kernels_sequential() {
+  return viscosity_formulas::Loops<OneViscositySlot, void>::table;
+}
 
 }  // namespace pliant

@@ -20,7 +20,8 @@ void ViscosityWalls::find(Substep& s, const ViscosityLaw& law, const FluidWalls&
                           const Records& places, const std::vector<float>& viscosities, int slots) {
   grips_.clear();
   begin_.assign(1, 0);
-  const int groups = (slots + NeighbourLists::lanes - 1) / NeighbourLists::lanes, colliders = bounds.number_of_colliders();
+  const int groups = (slots + NeighbourLists::lanes - 1) / NeighbourLists::lanes,
+            colliders = bounds.number_of_colliders();
   const auto add = [&](int slot, std::int32_t which) {
     const Vec3f place = xyz(places[at(slot)]);
     const MovingCollider& wall = bounds.at(which);

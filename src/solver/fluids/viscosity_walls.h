@@ -35,8 +35,8 @@ struct GripRange {
 class ViscosityWalls {
  public:
   /// Finds the grips on all particles at their places. Viscosities are by slot, of slots behind the last one too.
-  void find(Substep& s, const ViscosityLaw& law, const FluidWalls& walls, const FluidBounds& bounds, const Records& places,
-            const std::vector<float>& viscosities, int slots);
+  void find(Substep& s, const ViscosityLaw& law, const FluidWalls& walls, const FluidBounds& bounds,
+            const Records& places, const std::vector<float>& viscosities, int slots);
 
   GripRange of_group(int group) const;
   /// Those by bodies, which are in this order in all groups.

@@ -1,8 +1,10 @@
-// Vorticity confinement of the liquids of a pool (Macklin and Mueller 2013, eq. 15 and 16): an acceleration that gives swirls back what the
-// density constraint damps. It changes slowly, so it acts every few substeps and at the end of a frame, as that of gases does.
+// Vorticity confinement of the liquids of a pool (Macklin and Mueller 2013, eq. 15 and 16): an acceleration that gives
+// swirls back what the density constraint damps. It changes slowly, so it acts every few substeps and at the end of a
+// frame, as that of gases does.
 //
-// The accelerations of a swirl's sides differ a little, so their sum would push the liquid. Each particle gives back its share of that sum, in
-// proportion to its own acceleration, so that the pool keeps its momentum, and liquid without swirls is not moved.
+// The accelerations of a swirl's sides differ a little, so their sum would push the liquid. Each particle gives back
+// its share of that sum, in proportion to its own acceleration, so that the pool keeps its momentum, and liquid without
+// swirls is not moved.
 #pragma once
 
 #include <vector>

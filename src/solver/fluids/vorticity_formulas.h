@@ -14,10 +14,12 @@ inline float gradient_factor(const FluidLaw& law, const Vec3f& d) {
   return law.gradient_scale * (q * q) * inverse;
 }
 
-/// The acceleration for a coefficient of 1 m/s: N x omega (Macklin and Mueller 2013, eq. 16), with N the direction of `slope`, the gradient of
+/// The acceleration for a coefficient of 1 m/s: N x omega (Macklin and Mueller 2013, eq. 16), with N the direction of
+/// `slope`, the gradient of
 /// |omega|.
 inline Vec3f confinement(const FluidLaw& law, const Vec3f& slope, const Vec3f& vorticity, float vorticity_size) {
-  constexpr float small = 0.1f;  // where vorticity varies less than this over the kernel's reach, no direction is preferred
+  constexpr float small =
+      0.1f;  // where vorticity varies less than this over the kernel's reach, no direction is preferred
   const float size = length(slope) + small * vorticity_size / law.reach;
   return size > 0 ? cross(slope, vorticity) * (1 / size) : Vec3f{};
 }

@@ -28,7 +28,8 @@ void for_groups_of(const NeighbourLists& lists, int task, const Body& body) {
 void FluidWetting::add(const Fluid& fluid, int particles) {
   const bool wets = fluid.surface_tension > 0 && fluid.contact_angle < 180;
   has_any_ = has_any_ || wets;
-  of_point_.resize(of_point_.size() + at(particles), wets ? wetting_law(fluid.spacing, fluid.contact_angle) : WettingLaw{});
+  of_point_.resize(of_point_.size() + at(particles),
+                   wets ? wetting_law(fluid.spacing, fluid.contact_angle) : WettingLaw{});
 }
 
 void FluidWetting::clear() {
@@ -87,8 +88,8 @@ void FluidWetting::measure_slot(const FluidBounds& bounds, const NearWalls& near
   counts_[at(slot)] = of_slot_[at(slot)].count * (1 - left);
 }
 
-void FluidWetting::pull(Substep& s, const NeighbourLists& lists, const Records& lacking, const std::vector<float>& tensions,
-                        Records& forces) {
+void FluidWetting::pull(Substep& s, const NeighbourLists& lists, const Records& lacking,
+                        const std::vector<float>& tensions, Records& forces) {
   s.context.executor.parallel_for("surface tension: walls", lists.tasks(), [&](int task) {
     for (WallPull& pull : pulls_[at(task)]) {
       const WettingLaw& law = of_slot_[at(pull.slot)];

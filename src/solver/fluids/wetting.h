@@ -1,7 +1,9 @@
-// Adhesion of the liquids of a pool to colliders and rigid bodies, by which they meet these at a contact angle (WettingLaw of tension_law.h).
+// Adhesion of the liquids of a pool to colliders and rigid bodies, by which they meet these at a contact angle
+// (WettingLaw of tension_law.h).
 //
-// A wall counts as a half-space at its nearest point, and several by 1 - product of (1 - W), as in fluid_walls.h. A force is minus the gradient
-// of a particle's energy, along the wall's normal; a body gets the opposite at the particle's place, so that momentum is kept.
+// A wall counts as a half-space at its nearest point, and several by 1 - product of (1 - W), as in fluid_walls.h. A
+// force is minus the gradient of a particle's energy, along the wall's normal; a body gets the opposite at the
+// particle's place, so that momentum is kept.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +37,8 @@ class FluidWetting {
   /// Finds what walls add to the counts of particles at their places.
   void measure(Substep& s, const NeighbourLists& lists, const Records& places);
   const std::vector<float>& counts() const { return counts_; }  ///< by slot [-]
-  /// Adds the pull of walls to the forces on particles, and moves bodies by the opposite. `lacking` is TensionArrays::lacking.
+  /// Adds the pull of walls to the forces on particles, and moves bodies by the opposite. `lacking` is
+  /// TensionArrays::lacking.
   void pull(Substep& s, const NeighbourLists& lists, const Records& lacking, const std::vector<float>& tensions,
             Records& forces);
 

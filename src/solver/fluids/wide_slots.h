@@ -1,4 +1,5 @@
-// How the passes over sixteen slots load and store them, compiled per instruction set level under the rules of solver/lanes.cpp.
+// How the passes over sixteen slots load and store them, compiled per instruction set level under the rules of
+// solver/lanes.cpp.
 #pragma once
 
 #include <cstdint>

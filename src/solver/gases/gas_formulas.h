@@ -38,7 +38,8 @@ inline float exchanged(const Gas& gas, const Vec3f& place, float temperature, fl
   return temperature;
 }
 
-/// The velocity after drag of the air, which acts where neighbours are missing. Implicit, so that the terminal velocity is exact.
+/// The velocity after drag of the air, which acts where neighbours are missing. Implicit, so that the terminal velocity
+/// is exact.
 inline Vec3f braked(const Gas& gas, const Vec3f& velocity, const Vec3f& air, float density, float seconds) {
   const float missing = max(1 - density, 0.f), rate = gas.drag * missing * seconds;
   return velocity + (air - velocity) * (rate / (1 + rate));

@@ -21,7 +21,8 @@ constexpr int substeps_of_gas = 4;
 constexpr float largest_exchange = 0.5f;
 
 bool has_gas(const Model& model, const FluidPool& pool) {
-  return std::any_of(pool.objects.begin(), pool.objects.end(), [&](int o) { return model.objects[at(o)].gas.has_value(); });
+  return std::any_of(pool.objects.begin(), pool.objects.end(),
+                     [&](int o) { return model.objects[at(o)].gas.has_value(); });
 }
 
 /// Calls body(object, particle, slot) for all slots of a pool.
@@ -77,7 +78,8 @@ Vec3f confinement(const GasPass& pass, int slot) {
   Vec3f slope{};
   for_neighbours(pass, slot, [&](std::int32_t other) {
     const Vec3f d = own.place - pass.points[at(other)].place;
-    slope += d * (gas_formulas::gradient_factor(law, d) * (change.vorticity_size - pass.changes[at(other)].vorticity_size));
+    slope +=
+        d * (gas_formulas::gradient_factor(law, d) * (change.vorticity_size - pass.changes[at(other)].vorticity_size));
   });
   return vorticity_formulas::confinement(law, slope, change.vorticity, change.vorticity_size);
 }
@@ -85,7 +87,8 @@ Vec3f confinement(const GasPass& pass, int slot) {
 }  // namespace
 
 std::vector<float>& channel_of(State& state, std::string_view name) {
-  return std::find_if(state.channels.begin(), state.channels.end(), [&](const Channel& one) { return one.name == name; })
+  return std::find_if(state.channels.begin(), state.channels.end(),
+                      [&](const Channel& one) { return one.name == name; })
       ->values;
 }
 
@@ -111,7 +114,8 @@ void GasSolver::bear_up(Substep& s) const {
   const Vec3f gravity = s.model.gravity * s.h;
   const auto accelerate = [&](int particle, float by) {
     Record& v = s.state.velocities[at(particle)];
-    if (s.state.positions[at(particle)].w > 0) v = {v.x - by * gravity.x, v.y - by * gravity.y, v.z - by * gravity.z, 0};
+    if (s.state.positions[at(particle)].w > 0)
+      v = {v.x - by * gravity.x, v.y - by * gravity.y, v.z - by * gravity.z, 0};
   };
   for (const int o : gases_) {
     const CompiledObject& object = s.model.objects[at(o)];
@@ -168,7 +172,8 @@ void GasSolver::store(Substep& s, const GasPass& pass, FunctionRef<Vec3f(int)> g
 
 void GasSolver::respond(Substep& s, FunctionRef<Vec3f(int)> gravity) {
   seconds_ += s.h;
-  if (++substeps_ < substeps_of_gas && !s.is_last() && !ends_quarter(s)) return;  // a frame may stop where a quarter ends
+  if (++substeps_ < substeps_of_gas && !s.is_last() && !ends_quarter(s))
+    return;  // a frame may stop where a quarter ends
   std::size_t used = 0;
   if (s.fluids != nullptr)
     for (const auto& pool : s.fluids->pools()) {

@@ -1,5 +1,6 @@
-// What gases do beyond liquids, as stages of a frame: the air around bears them up and brakes them, heat diffuses and is lost, vorticity
-// is confined, and tracers go along (Macklin, Mueller, Chentanez and Kim 2014, section 7). Density is that of FluidSolver.
+// What gases do beyond liquids, as stages of a frame: the air around bears them up and brakes them, heat diffuses and
+// is lost, vorticity is confined, and tracers go along (Macklin, Mueller, Chentanez and Kim 2014, section 7). Density
+// is that of FluidSolver.
 //
 // Buoyancy acts in each substep. All else changes slowly, and acts every few substeps and at the end of a frame.
 #pragma once

@@ -23,7 +23,8 @@ std::uint64_t mixed(std::uint64_t x) {
 /// A number in [-1, 1), a multiple of 2^-23.
 float symmetric(std::uint64_t bits) { return static_cast<float>(bits >> 40) / static_cast<float>(1 << 23) - 1; }
 
-/// The velocity of the gases at a place: the mean of the particles around, weighted by the kernel. That of the air where there is none.
+/// The velocity of the gases at a place: the mean of the particles around, weighted by the kernel. That of the air
+/// where there is none.
 Vec3f velocity_at(const std::vector<const GasPass*>& gases, const Vec3f& place, const Vec3f& air,
                   std::vector<SlotRange>& ranges) {
   Vec3f sum{};
@@ -69,7 +70,8 @@ void emit(Substep& s, const TracerPass& pass, std::vector<float>& ages) {
     Record& x = s.state.positions[at(i)];
     x = {place.x, place.y, place.z, x.w};
     s.state.remainders[at(i)] = {};
-    const double born = static_cast<double>(tracers.start) + static_cast<double>(n + 1) / static_cast<double>(tracers.rate);
+    const double born =
+        static_cast<double>(tracers.start) + static_cast<double>(n + 1) / static_cast<double>(tracers.rate);
     ages[at(i)] = std::max(static_cast<float>(now - born), 0.f);
   }
 }

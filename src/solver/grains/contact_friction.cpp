@@ -10,8 +10,9 @@ struct MeasuredFriction {
   float bulk, contact;
 };
 
-/// Spheres that do not turn lock: heaps of them are steeper than the friction of their contacts. Each is the coefficient of contacts with
-/// which blocks of 3 120 spheres that a gate lets go come to rest at the slope of the bulk, between 20 and 80 % of the height.
+/// Spheres that do not turn lock: heaps of them are steeper than the friction of their contacts. Each is the
+/// coefficient of contacts with which blocks of 3 120 spheres that a gate lets go come to rest at the slope of the
+/// bulk, between 20 and 80 % of the height.
 constexpr std::array<MeasuredFriction, 5> measured_frictions{
     {{0, 0}, {0.3f, 0.061f}, {0.5f, 0.153f}, {0.7f, 0.257f}, {1, 0.475f}}};
 

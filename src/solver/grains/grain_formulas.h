@@ -1,4 +1,5 @@
-// The formulas of a contact of two grains. All are odd in the direction from one to the other, so both get opposite corrections.
+// The formulas of a contact of two grains. All are odd in the direction from one to the other, so both get opposite
+// corrections.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +13,17 @@
 
 namespace pliant::grain_formulas {
 
-/// Shares of overlap and of slip that a correction removes, and what it removes beyond of their change in the substep, which damps. For
-/// grains with k contacts, A being the sum of the first and B of both over these, a Jacobi iteration a substep is stable for A + 2 B < 4:
-/// in the densest packing, where neighbours cannot all move against one another, A = 0.96 and B = 1.31.
+/// Shares of overlap and of slip that a correction removes, and what it removes beyond of their change in the substep,
+/// which damps. For grains with k contacts, A being the sum of the first and B of both over these, a Jacobi iteration a
+/// substep is stable for A + 2 B < 4: in the densest packing, where neighbours cannot all move against one another, A =
+/// 0.96 and B = 1.31.
 inline constexpr float stiffness = stiffness_of_grains, damping = 0.05f, slip_stiffness = 0.08f, slip_damping = 0.04f;
 
 /// Of two kinds of grains, those with less friction decide.
 inline float common_friction(float a, float b) { return std::min(a, b); }
 
-/// The most that cohesion pulls two grains together in a substep of `h` seconds, in all [m]. Of two kinds, those with less cohesion decide, and
-/// the diameter is the harmonic mean.
+/// The most that cohesion pulls two grains together in a substep of `h` seconds, in all [m]. Of two kinds, those with
+/// less cohesion decide, and the diameter is the harmonic mean.
 inline float most_pull(const GrainTraits& a, const GrainTraits& b, float h) {
   const float cohesion = std::min(a.cohesion, b.cohesion), reach = a.radius + b.radius;
   if (!(cohesion > 0)) return 0;
@@ -29,8 +31,9 @@ inline float most_pull(const GrainTraits& a, const GrainTraits& b, float h) {
   return std::min(force * (h * h) * (a.inverse_mass + b.inverse_mass), stiffness * longest_bond * reach);
 }
 
-/// The share of a correction that a grain makes, where higher ones count as lighter (Macklin et al. 2014, section 5.2). `falls`: how far it
-/// lies below its neighbour, times `gravity` [m^2/s^2]. Of two kinds, those with less mass scaling decide.
+/// The share of a correction that a grain makes, where higher ones count as lighter (Macklin et al. 2014, section 5.2).
+/// `falls`: how far it lies below its neighbour, times `gravity` [m^2/s^2]. Of two kinds, those with less mass scaling
+/// decide.
 inline float scaled_share(const GrainTraits& own, const GrainTraits& other, float falls, float gravity) {
   const float scaling = std::min(own.mass_scaling, other.mass_scaling);
   const float heavier = gravity > 0 ? pliant::exp(std::clamp(scaling * falls / gravity, -20.f, 20.f)) : 1.f;
@@ -52,8 +55,8 @@ inline Vec3f at_most(const Vec3f& v, float most) {
   return squared > most * most ? (most / std::sqrt(squared)) * v : v;
 }
 
-/// How far a grain and its neighbour move apart, in all. `gap` is negative without cohesion [m]; `move` is that of the grain, over that of its neighbour, in the
-/// substep [m].
+/// How far a grain and its neighbour move apart, in all. `gap` is negative without cohesion [m]; `move` is that of the
+/// grain, over that of its neighbour, in the substep [m].
 inline Vec3f project(float gap, const Vec3f& normal, const Vec3f& move, float friction, GrainNeighbour& n) {
   const float along = dot(move, normal);
   const float push = std::max(n.push - stiffness * gap - damping * along, 0.f - n.pull);

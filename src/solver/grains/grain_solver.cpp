@@ -13,7 +13,8 @@ namespace pliant {
 
 namespace {
 
-/// Neighbours are found within this distance beyond contact, and again once a grain has moved by half of it; over the radius.
+/// Neighbours are found within this distance beyond contact, and again once a grain has moved by half of it; over the
+/// radius.
 constexpr float skin = 0.5f;
 
 /// Calls body(slot) for all slots of a task.
@@ -126,8 +127,9 @@ void GrainSolver::list_neighbours(int slot, const std::vector<GrainContact>& kno
   GrainNeighbour* const first = neighbours_.data() + first_[at(slot)];
   const int count = first_[at(slot) + 1] - first_[at(slot)];
   for (int k = 0; k < count; ++k) first[k].slot = group.slots[k * lanes + slot % lanes];
-  std::sort(first, first + count,
-            [&](const GrainNeighbour& a, const GrainNeighbour& b) { return of_slot_[at(a.slot)] < of_slot_[at(b.slot)]; });
+  std::sort(first, first + count, [&](const GrainNeighbour& a, const GrainNeighbour& b) {
+    return of_slot_[at(a.slot)] < of_slot_[at(b.slot)];
+  });
   for (int k = 0; k < count; ++k) first[k].slip = known_slip(known, of_slot_[at(slot)], of_slot_[at(first[k].slot)]);
 }
 
@@ -148,7 +150,8 @@ bool GrainSolver::are_neighbours_known(Substep& s) {
   return largest < most * most;
 }
 
-/// Adds the last substep's motion to the slip of a slot's contacts. What is not pressed together, or exceeds the friction, slides.
+/// Adds the last substep's motion to the slip of a slot's contacts. What is not pressed together, or exceeds the
+/// friction, slides.
 void GrainSolver::slide(const State& state, int slot) {
   const auto move = [&](std::int32_t of) {
     const Record &x = state.positions[at(of_slot_[at(of)])], &r = state.remainders[at(of_slot_[at(of)])];
@@ -162,7 +165,8 @@ void GrainSolver::slide(const State& state, int slot) {
       n.slip = {};
       continue;
     }
-    const float friction = grain_formulas::common_friction(of_grain_[at(slot)].friction, of_grain_[at(n.slot)].friction);
+    const float friction =
+        grain_formulas::common_friction(of_grain_[at(slot)].friction, of_grain_[at(n.slot)].friction);
     const Vec3f normal = grain_formulas::normal_of(own - place(n.slot), of_slot_[at(slot)] < of_slot_[at(n.slot)]);
     n.slip = grain_formulas::after_motion(n.slip, own_move - move(n.slot), normal, friction * (n.push + n.pull));
   }
@@ -221,8 +225,9 @@ void GrainSolver::project_grain(Substep& s, int slot, bool is_first) {
     const float gap = dot(between, normal) - reach;
     const float friction = grain_formulas::common_friction(own.friction, other.friction);
     const Vec3f by = grain_formulas::project(gap, normal, move - xyz(moves_[at(n.slot)]), friction, n);
-    const float share = scales_masses_ ? grain_formulas::scaled_share(own, other, dot(between, s.model.gravity), gravity)
-                                       : own.inverse_mass / inverse_mass;
+    const float share = scales_masses_
+                            ? grain_formulas::scaled_share(own, other, dot(between, s.model.gravity), gravity)
+                            : own.inverse_mass / inverse_mass;
     sum = sum + share * by;
   }
   Record& d = s.work.displacements[at(of_slot_[at(slot)])];

@@ -1,11 +1,14 @@
-// The grains of a substep group, as stages of a frame: contacts of spheres with Coulomb friction, projected by a Jacobi iteration.
+// The grains of a substep group, as stages of a frame: contacts of spheres with Coulomb friction, projected by a Jacobi
+// iteration.
 //
-// A contact yields: an iteration removes a fixed share of its overlap, and a fixed share of the slip since the two grains stuck, up to the
-// Coulomb bound (the tangential spring of Cundall and Strack 1979). Force is thus a function of overlap and slip, which last over substeps,
-// and not of how far an iteration has converged. Slip is kept in State::grain_contacts.
+// A contact yields: an iteration removes a fixed share of its overlap, and a fixed share of the slip since the two
+// grains stuck, up to the Coulomb bound (the tangential spring of Cundall and Strack 1979). Force is thus a function of
+// overlap and slip, which last over substeps, and not of how far an iteration has converged. Slip is kept in
+// State::grain_contacts.
 //
-// With cohesion the spring of the overlap goes on beyond contact and pulls, up to the pull that a contact bears (model/cohesion.h). Friction is
-// then that of the push plus this pull, which presses the grains together (Derjaguin, Muller and Toporov 1975).
+// With cohesion the spring of the overlap goes on beyond contact and pulls, up to the pull that a contact bears
+// (model/cohesion.h). Friction is then that of the push plus this pull, which presses the grains together (Derjaguin,
+// Muller and Toporov 1975).
 #pragma once
 
 #include <cstdint>
@@ -43,7 +46,8 @@ inline bool in_order_of_particles(const GrainContact& a, const GrainContact& b) 
   return a.a != b.a ? a.a < b.a : a.b < b.b;
 }
 
-/// Coefficient of friction of contacts with which a heap of spheres that do not turn has the given one: the tangent of its angle.
+/// Coefficient of friction of contacts with which a heap of spheres that do not turn has the given one: the tangent of
+/// its angle.
 float contact_friction(float of_bulk);
 
 /// Grains are numbered by slots, in the order of cells.

@@ -142,7 +142,8 @@ void cycle(const SheetBending& sheet, std::size_t l, BlockLoop loop, SheetScratc
 }
 
 /// The scalar product of two arrays: by blocks, then over blocks in order, so threads change no bit.
-double product_of(const SheetLevel& level, const Records& a, const Records& b, BlockLoop loop, std::vector<double>& sums) {
+double product_of(const SheetLevel& level, const Records& a, const Records& b, BlockLoop loop,
+                  std::vector<double>& sums) {
   sums.assign(at(level.blocks()), 0);
   loop(level.blocks(), [&](int block) {
     double sum = 0;

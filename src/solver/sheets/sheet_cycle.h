@@ -1,15 +1,15 @@
-// What a sheet's bending is solved with (solver/sheets/sheet_solver.h): polynomials where a substep bends over less than
-// an edge, multigrid cycles where it bends over more.
+// What a sheet's bending is solved with (solver/sheets/sheet_solver.h): polynomials where a substep bends over less
+// than an edge, multigrid cycles where it bends over more.
 //
 // With G = D^-1 h^2 K, D being the masses, the polynomials are D^-1, and D^-1 (1 - G / 4). With the first a step adds
 // G to each mode, with the second G (1 - G / 4): a step neither overshoots nor adds energy as long as that is between 0
 // and 1, so for G up to 1 and 4. The sums of |K_ij| in a row bound G; where they are too large for a mass, D has more
 // than it. Both keep momentum and let a sheet fall freely, as K resists neither translation nor rotation.
 //
-// A level of a cycle is smoothed by Gauss-Seidel over the rows of a block, upwards before the coarser level and downwards after
-// it; between blocks as by Jacobi, with the sum of the absolute values outside a block added to the diagonal, so the
-// cycle is symmetric and never softer than the matrix (Baker, Falgout, Kolev and Yang 2011, section 3). Blocks depend
-// on the object alone, so threads change no bit.
+// A level of a cycle is smoothed by Gauss-Seidel over the rows of a block, upwards before the coarser level and
+// downwards after it; between blocks as by Jacobi, with the sum of the absolute values outside a block added to the
+// diagonal, so the cycle is symmetric and never softer than the matrix (Baker, Falgout, Kolev and Yang 2011, section
+// 3). Blocks depend on the object alone, so threads change no bit.
 #pragma once
 
 #include "parallel/executor.h"

@@ -86,7 +86,8 @@ void add_term(const SheetBending& sheet, BlockLoop loop, SheetScratch& scratch) 
       for (int row = 0; row < n; ++row) {
         const std::size_t i = at(first + row);
         const Four x = load(own.x[i]);
-        store(x - (others[at(row)] + x * level.diagonal[p]) * (own.inverse[i] * scratch.h2 / 4), scratch.corrections[i]);
+        store(x - (others[at(row)] + x * level.diagonal[p]) * (own.inverse[i] * scratch.h2 / 4),
+              scratch.corrections[i]);
       }
     });
   });
@@ -121,8 +122,9 @@ void find_right_hand_side(const SheetBending& sheet, const SheetForces& forces, 
       constexpr int n = decltype(count)::value;
       const Record* y = scratch.moved.data() + first;
       const std::int32_t end_inside = scratch.is_wide[at(block)] != 0 ? level.begin[p] : level.outside[p];
-      const auto inside = sums_over<n>(a, level.begin[p], end_inside,
-                                       [&](std::int32_t offset, int row) { return load(y[offset + row]) - load(y[row]); });
+      const auto inside = sums_over<n>(a, level.begin[p], end_inside, [&](std::int32_t offset, int row) {
+        return load(y[offset + row]) - load(y[row]);
+      });
       const auto outside = sums_over<n>(a, end_inside, level.begin[p + 1], [&](std::int32_t offset, int row) {
         const std::int32_t i = first + row, j = i + offset;
         return (load(x[j]) - load(x[i])) + (motion(j) - motion(i));

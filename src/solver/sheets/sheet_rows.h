@@ -39,8 +39,8 @@ inline Matrix matrix_of(const SheetBending& sheet, const SheetScratch& scratch, 
   return {sheet.levels[l], scratch.levels[l].entries.data(), 1};
 }
 
-/// The sums of a_ij term(j - i, row) over entries [first, last) of a pattern, less the scale, for `n` rows that share it:
-/// of two sums each, since an addition waits for the one before. Rows side by side change no bit.
+/// The sums of a_ij term(j - i, row) over entries [first, last) of a pattern, less the scale, for `n` rows that share
+/// it: of two sums each, since an addition waits for the one before. Rows side by side change no bit.
 template <int n, class Term>
 [[gnu::always_inline]] inline std::array<Four, n> sums_over(const Matrix& a, std::int32_t first, std::int32_t last,
                                                             const Term& term) {
@@ -70,8 +70,8 @@ template <int n>
 inline int first_of(int block) { return block * sheet_block; }
 inline int last_of(int block, int rows) { return std::min(rows, (block + 1) * sheet_block); }
 
-/// So many rows of one pattern are processed at a time, which loads each entry once. Gauss-Seidel handles entries between
-/// these rows last, one row after another; storage seldom puts neighbours so near (topology/numbering.h).
+/// So many rows of one pattern are processed at a time, which loads each entry once. Gauss-Seidel handles entries
+/// between these rows last, one row after another; storage seldom puts neighbours so near (topology/numbering.h).
 inline constexpr int abreast = 4;
 
 /// True if `abreast` rows from `i` on share a pattern.

@@ -27,9 +27,9 @@ int sweeps_for(float edges4) {
   return 4 + static_cast<int>(std::min(most, std::sqrt(sheets::largest_of_grid * edges4) / 2));
 }
 
-/// One bending is for as many substeps as keep (l / e)^4 below this, so that it bends over few edges, and for so many at
-/// most: sheets that hang have many substeps for their stretch. For 9 to 40 substeps sheets of two to four edges crumpled.
-/// Where something may be touched, each substep has a bending: fine cotton slid off a ball else.
+/// One bending is for as many substeps as keep (l / e)^4 below this, so that it bends over few edges, and for so many
+/// at most: sheets that hang have many substeps for their stretch. For 9 to 40 substeps sheets of two to four edges
+/// crumpled. Where something may be touched, each substep has a bending: fine cotton slid off a ball else.
 constexpr float most_edges4 = 4;
 constexpr int most_together = 4;
 
@@ -110,7 +110,8 @@ void leave_out_gravity(const SheetBending& sheet, const Vec3f& gravity, SheetScr
 
 /// Adds gravity to the corrections of loose pieces, and takes the rigid motion from them, which no force of bending has
 /// caused.
-void move_loose_pieces(const SheetBending& sheet, const Record* positions, const Vec3f& gravity, SheetScratch& scratch) {
+void move_loose_pieces(const SheetBending& sheet, const Record* positions, const Vec3f& gravity,
+                       SheetScratch& scratch) {
   const std::vector<float>& mass = scratch.levels.front().mass;
   const auto place = [&](std::size_t i) {
     const Record &x = positions[i], &o = positions[0];
@@ -134,7 +135,8 @@ void move_loose_pieces(const SheetBending& sheet, const Record* positions, const
 }
 
 /// d += corrections / n^2 - h^2 g, where bending is for n substeps: in each of them velocities change by the same.
-void apply(Substep& s, int object, const sheets::SheetForces& forces, sheets::BlockLoop loop, const SheetScratch& scratch) {
+void apply(Substep& s, int object, const sheets::SheetForces& forces, sheets::BlockLoop loop,
+           const SheetScratch& scratch) {
   const SheetBending& sheet = s.model.objects[at(object)].sheet;
   const Vec3f g = forces.gravity;
   const float share = 1 / (forces.substeps * forces.substeps);
@@ -159,9 +161,11 @@ void find_corrections(Substep& s, int object, const sheets::SheetForces& forces,
   sheets::find_right_hand_side(sheet, forces, loop, scratch);
   const Vec3f load = forces.gravity * (forces.substeps * forces.substeps);
   const int terms = sheets::terms_for(sheet, scratch.h2);
-  // K resists no motion of a piece as a whole, but it acts on positions ahead of these with damping and several substeps.
+  // K resists no motion of a piece as a whole, but it acts on positions ahead of these with damping and several
+  // substeps.
   const bool is_rigid_free = sheet.damping_time == 0 && forces.substeps == 1;
-  const bool any_moves = !(terms > 0 && is_rigid_free && sheets::keeps_momentum(scratch)) && !find_pinned(sheet, scratch);
+  const bool any_moves =
+      !(terms > 0 && is_rigid_free && sheets::keeps_momentum(scratch)) && !find_pinned(sheet, scratch);
   if (any_moves) leave_out_gravity(sheet, load, scratch);
   if (terms > 1) sheets::add_term(sheet, loop, scratch);
   const float edges4 = scratch.h2 * sheet.stiffness;

@@ -48,8 +48,8 @@ void collide(Substep& s) {
   if (!s.has_pairs()) return;
   s.pairs->detect(s.context.executor, all_particles(s));
   add_slides_of_meshes(s);
-  s.own->contact_solver.begin(s.kernels.contacts, s.pairs->contacts(), s.pairs->static_contacts(), s.state.positions.data(),
-                              s.state.positions.size());
+  s.own->contact_solver.begin(s.kernels.contacts, s.pairs->contacts(), s.pairs->static_contacts(),
+                              s.state.positions.data(), s.state.positions.size());
 }
 
 }  // namespace pliant

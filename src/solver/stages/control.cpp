@@ -7,8 +7,9 @@ void control(Substep& s) {
   s.time_after = time_of(s, s.number + 1);
   move_colliders(s.model, s.work.control, time_of(s, s.number), s.time_after, s.own->colliders);
   if (s.context.changing == nullptr) return;
-  for_objects(
-      s, [&](int o) { follow_keyframes((*s.context.changing)[static_cast<std::size_t>(o)], s.state, o, s.time_after); });
+  for_objects(s, [&](int o) {
+    follow_keyframes((*s.context.changing)[static_cast<std::size_t>(o)], s.state, o, s.time_after);
+  });
 }
 
 }  // namespace pliant

@@ -22,7 +22,8 @@ CorrectionEnergy correction_energy(const Substep& s, int task);
 
 void add(const CorrectionEnergy& of, CorrectionEnergy& sum);
 
-/// The largest share in [0, 1] with which energy does not increase; if there is none, the share with which it increases least.
+/// The largest share in [0, 1] with which energy does not increase; if there is none, the share with which it increases
+/// least.
 double largest_share(const CorrectionEnergy& e);
 
 }  // namespace pliant

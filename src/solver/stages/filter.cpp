@@ -19,8 +19,8 @@ void filter(Substep& s) {
   hold_at_surfaces(s);
   if (!s.has_pairs()) return;
   SurfaceContact& pairs = *s.pairs;
-  // The filter cannot limit kinematic colliders, so contacts must first move whatever they meet out of their way. Objects
-  // that touch none of these keep the bits that they have alone.
+  // The filter cannot limit kinematic colliders, so contacts must first move whatever they meet out of their way.
+  // Objects that touch none of these keep the bits that they have alone.
   std::vector<char> is_overrun;
   for (int round = 0; round < most_rounds_of_contacts && pairs.find_overrun(all_particles(s), is_overrun); ++round)
     project_contacts_of(s, "solve: contacts among surfaces", is_overrun, 0);

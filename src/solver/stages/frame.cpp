@@ -25,7 +25,8 @@ bool may_sweep_on_entry(const Substep& s) {
 }
 
 Substep begin_group(const StepContext& context, const GroupFrame& of, double dt) {
-  Substep s{context, context.model, context.state, context.workspace, context.kernels, context.workspace.of_thread.data()};
+  Substep s{context,           context.model,   context.state,
+            context.workspace, context.kernels, context.workspace.of_thread.data()};
   const bool has_all = of.group == nullptr || of.group->has_all;
   s.part = has_all ? nullptr : of.group;
   s.pairs = has_all ? s.work.pairs.get() : of.group->pairs.get();

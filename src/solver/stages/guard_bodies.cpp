@@ -1,11 +1,12 @@
 // Keeps contact of rigid bodies with cloth and rope from increasing energy.
 //
-// A body that falls on cloth stretches it further than a substep's solve can take back. What is left is corrected in the next
-// substeps, with a velocity of strain / h, so inextensible cloth acts as a trampoline. So if energy of an island of bodies and cloth
-// (bodies/body_islands.h) would increase, only a share of its corrections becomes velocity, as in guard_energy.cpp. Positions are
-// corrected wholly. Elastic energy of stretched edges may become kinetic energy.
+// A body that falls on cloth stretches it further than a substep's solve can take back. What is left is corrected in
+// the next substeps, with a velocity of strain / h, so inextensible cloth acts as a trampoline. So if energy of an
+// island of bodies and cloth (bodies/body_islands.h) would increase, only a share of its corrections becomes velocity,
+// as in guard_energy.cpp. Positions are corrected wholly. Elastic energy of stretched edges may become kinetic energy.
 //
-// An island on which work is done from outside is left alone: BodyIslands::is_driven, and kinematic particles that move.
+// An island on which work is done from outside is left alone: BodyIslands::is_driven, and kinematic particles that
+// move.
 //
 // All sums are made in one pass over nodes, so the cost is linear in bodies, particles and contacts.
 #include <algorithm>
@@ -23,7 +24,8 @@ namespace pliant {
 
 namespace {
 
-/// Energy may increase up to that of the lightest body at this speed, so that stretched cloth recovers: a rise of 3 mm [m^2/s^2].
+/// Energy may increase up to that of the lightest body at this speed, so that stretched cloth recovers: a rise of 3 mm
+/// [m^2/s^2].
 constexpr double slow_squared = 0.25 * 0.25;
 
 /// Adds the energy of a body's rotation.
@@ -34,7 +36,8 @@ void add_rotation(const Substep& s, int frame, CorrectionEnergy& sum) {
   const Quatf back = conjugate(quaternion(s.state.frames.orientations[at(frame)]));
   const auto spin = [&](const Record& turned) { return convert<double>(rotate(back, xyz(turned))) * inverse_h; };
   const auto momentum = [&](const Vec3d& w) { return Vec3d{w.x / inverse.x, w.y / inverse.y, w.z / inverse.z}; };
-  const Vec3d predicted = spin(s.work.frames.predicted[at(frame)]), correction = spin(s.work.frames.corrections[at(frame)]);
+  const Vec3d predicted = spin(s.work.frames.predicted[at(frame)]),
+              correction = spin(s.work.frames.corrections[at(frame)]);
   sum.kinetic += 0.5 * dot(predicted, momentum(predicted));
   sum.linear += dot(predicted, momentum(correction));
   sum.quadratic += 0.5 * dot(correction, momentum(correction));
@@ -59,7 +62,8 @@ double elastic_gain(const Substep& s, int object) {
         const int a = points[0], b = points[batch_width];
         const Vec3f start = xyz(positions[b]) - xyz(positions[a]);
         const Vec3f end = start + (xyz(displacements[b]) - xyz(displacements[a]));
-        const float rest = pool.row(0, link.first_batch)[lane], before = length(start) - rest, after = length(end) - rest;
+        const float rest = pool.row(0, link.first_batch)[lane], before = length(start) - rest,
+                    after = length(end) - rest;
         gain += 0.5 * static_cast<double>((after - before) * (after + before)) / static_cast<double>(compliance);
       }
     }
@@ -151,8 +155,8 @@ void add_points(const Substep& s, GuardedIslands& islands) {
   });
 }
 
-/// Only the energy of bodies is limited: that of light particles between stiff edges is noise, and would leave bodies no share.
-/// What the particles lose may go to the bodies.
+/// Only the energy of bodies is limited: that of light particles between stiff edges is noise, and would leave bodies
+/// no share. What the particles lose may go to the bodies.
 float share_of(const IslandEnergy& island) {
   if (!(island.excess > 0) || island.points.has_outside_work || island.centres.has_outside_work) return 1;
   CorrectionEnergy bodies = island.rotations;  // and centres: add_bodies

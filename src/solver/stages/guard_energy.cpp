@@ -1,9 +1,10 @@
 // Keeps substeps that become shorter from increasing energy.
 //
 // An unfinished solve acts like a spring: strain that it leaves is corrected in the next substep, with a velocity of
-// strain / h, so the energy stored in it goes with the square of strain / h. If the State demands more substeps in the middle of an impact,
-// h decreases while the strain stays, and that energy multiplies (docs/internals/default_settings_tried.md). So in a quarter that has more
-// substeps than the last one only a share of the corrections becomes velocity. Positions are corrected wholly.
+// strain / h, so the energy stored in it goes with the square of strain / h. If the State demands more substeps in the
+// middle of an impact, h decreases while the strain stays, and that energy multiplies
+// (docs/internals/default_settings_tried.md). So in a quarter that has more substeps than the last one only a share of
+// the corrections becomes velocity. Positions are corrected wholly.
 //
 // The share is the same for all particles of a group, so corrections still conserve momentum. Without corrections a
 // substep conserves energy but for -m g^2 h^2 / 2, so a share exists unless corrections lift particles by more.

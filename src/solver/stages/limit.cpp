@@ -1,7 +1,9 @@
-// The limit of overstretch: what an iteration of chains or multigrid leaves too long is shortened constraint by constraint.
+// The limit of overstretch: what an iteration of chains or multigrid leaves too long is shortened constraint by
+// constraint.
 //
-// Contacts move particles after the springs were solved, so single edges end far too long where cloth meets an obstacle.
-// They are few. These sweeps leave the rest within a few percent, so a sequential pass over those few is enough.
+// Contacts move particles after the springs were solved, so single edges end far too long where cloth meets an
+// obstacle. They are few. These sweeps leave the rest within a few percent, so a sequential pass over those few is
+// enough.
 #include <algorithm>
 
 #include "solver/drivers/contacts.h"
@@ -14,8 +16,8 @@ namespace pliant {
 namespace {
 
 constexpr int first_rounds = 2;  ///< of search, passes and contacts
-/// An object has further rounds, up to these, while a shortened constraint exceeds the limit by half. A point that bears
-/// much of a sheet, such as the corner of a box, needs them: its contact undoes much of each round.
+/// An object has further rounds, up to these, while a shortened constraint exceeds the limit by half. A point that
+/// bears much of a sheet, such as the corner of a box, needs them: its contact undoes much of each round.
 constexpr int most_limit_rounds = 8;
 constexpr float tolerated = 1.5f;
 /// If more constraints of an object are too long than these, and than this share, the cloth is pulled as a whole.
@@ -29,7 +31,8 @@ Vec3f across(const LimitedLength& pair, const Record* positions, const Record* d
   return {(q.x - p.x) + (e.x - d.x), (q.y - p.y) + (e.y - d.y), (q.z - p.z) + (e.z - d.z)};
 }
 
-/// Finds the constraints that are too long in the objects with is_searched. False if there are none, or too many in each.
+/// Finds the constraints that are too long in the objects with is_searched. False if there are none, or too many in
+/// each.
 bool find_all(Substep& s, LimitScratch& scratch) {
   const std::vector<Task>& tasks = s.lengths();
   if (scratch.found.size() < tasks.size()) scratch.found.resize(tasks.size());
@@ -104,8 +107,8 @@ void shorten_all(Substep& s, const std::vector<LimitedLength>& limited) {
   }
 }
 
-/// Decides which objects a round searches: all in the first rounds, then those whose shortened pairs are still longer than
-/// tolerated. Others are not searched again, which would cost more than the passes. False if there are none.
+/// Decides which objects a round searches: all in the first rounds, then those whose shortened pairs are still longer
+/// than tolerated. Others are not searched again, which would cost more than the passes. False if there are none.
 bool choose_searched(const Substep& s, int round, LimitScratch& scratch) {
   scratch.is_searched.assign(s.model.objects.size(), round < first_rounds ? 1 : 0);
   if (round < first_rounds) return true;
@@ -123,7 +126,8 @@ bool choose_searched(const Substep& s, int round, LimitScratch& scratch) {
 void limit(Substep& s) {
   LimitScratch& scratch = s.own->limit;
   if (s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
-  for (int round = 0; round < most_limit_rounds && choose_searched(s, round, scratch) && find_all(s, scratch); ++round) {
+  for (int round = 0; round < most_limit_rounds && choose_searched(s, round, scratch) && find_all(s, scratch);
+       ++round) {
     list_all(s, scratch);
     note_momentum(s, Since::note, &scratch.is_moved);
     shorten_all(s, scratch.limited);

@@ -11,8 +11,8 @@ namespace pliant {
 
 namespace {
 
-/// Several threads may set one flag at the same time. By the compilers' own function, because not all supported libraries have
-/// std::atomic_ref.
+/// Several threads may set one flag at the same time. By the compilers' own function, because not all supported
+/// libraries have std::atomic_ref.
 void set_flag(char& flag) { __atomic_store_n(&flag, 1, __ATOMIC_RELAXED); }
 
 /// Upper limit of passes that end impacts. Each propagates velocity changes from one contact of a vertex to its other
@@ -28,7 +28,8 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
   SurfaceContact& pairs = *s.pairs;
   const Record* positions = s.state.positions.data();
   Record* velocities = s.state.velocities.data();
-  const ContactSolver impacts = s.own->contact_solver.only(pairs.contacts(), [](const Contact& c) { return is_impact(c); });
+  const ContactSolver impacts =
+      s.own->contact_solver.only(pairs.contacts(), [](const Contact& c) { return is_impact(c); });
   const auto for_impacts = [&](FunctionRef<void(const Contact&)> answer) {
     impacts.for_each(s.context.executor, "respond", pairs.contacts(), answer);
   };
@@ -53,12 +54,13 @@ void end_impacts(Substep& s, FunctionRef<Vec3f(int)> gravity, float slow) {
 /// Applies restitution to contacts of edges and triangles with primitive colliders.
 void respond_to_shapes(Substep& s, float slow, FunctionRef<Vec3f(int object)> gravity) {
   const Record* positions = s.state.positions.data();
-  s.own->shape_contact_solver.for_each(s.context.executor, "respond", s.own->shape_contacts, [&](const Contact& contact) {
-    float free = 0;  // total weight of the contact's dynamic points
-    for (int i = 0; i < 4; ++i) free += positions[contact.point[i]].w > 0 ? contact.weight[i] : 0.f;
-    const Vec3f missing = gravity(s.model.object_of(contact.point[0])) * free;
-    respond_to_shape_contact(contact, s.state.velocities.data(), missing, slow, 1 / s.h);
-  });
+  s.own->shape_contact_solver.for_each(
+      s.context.executor, "respond", s.own->shape_contacts, [&](const Contact& contact) {
+        float free = 0;  // total weight of the contact's dynamic points
+        for (int i = 0; i < 4; ++i) free += positions[contact.point[i]].w > 0 ? contact.weight[i] : 0.f;
+        const Vec3f missing = gravity(s.model.object_of(contact.point[0])) * free;
+        respond_to_shape_contact(contact, s.state.velocities.data(), missing, slow, 1 / s.h);
+      });
 }
 
 }  // namespace
@@ -66,7 +68,9 @@ void respond_to_shapes(Substep& s, float slow, FunctionRef<Vec3f(int object)> gr
 void respond(Substep& s) {
   const float slow = 2 * length(s.model.gravity) * s.h;
   const bool is_settled = s.is_last() || ends_quarter(s);
-  const auto gravity = [&](int object) { return is_settled ? Vec3f{} : gravity_for(s, s.work.gravity[object].settled); };
+  const auto gravity = [&](int object) {
+    return is_settled ? Vec3f{} : gravity_for(s, s.work.gravity[object].settled);
+  };
   if (s.bodies != nullptr) s.bodies->respond(s, gravity);
   if (s.bodies != nullptr && s.work.contact_log != nullptr) s.bodies->log_contacts(s, *s.work.contact_log);
   respond_to_shapes(s, slow, gravity);

@@ -26,8 +26,8 @@ bool uses(const Substep& s, Sweep sweep) {
   return s.part == nullptr || std::find(s.part->sweeps.begin(), s.part->sweeps.end(), sweep) != s.part->sweeps.end();
 }
 
-/// Projects stencil constraints as often as the sweep of their object projects the other constraints. Ties of the objects with 1 in `tied`
-/// have begun.
+/// Projects stencil constraints as often as the sweep of their object projects the other constraints. Ties of the
+/// objects with 1 in `tied` have begun.
 void walk_stencils(Substep& s, bool first, const std::vector<char>& tied) {
   int passes = 0;
   for (const auto& [sweep, group] : s.work.sweeps)
@@ -40,7 +40,8 @@ void walk_stencils(Substep& s, bool first, const std::vector<char>& tied) {
 
 using MomentumFunction = void (*)(Substep& s, Since since, const std::vector<char>* only);
 
-/// Notes or conserves the momentum of what a sweep does. Objects with 1 in `pressed` have been moved since their prediction.
+/// Notes or conserves the momentum of what a sweep does. Objects with 1 in `pressed` have been moved since their
+/// prediction.
 void treat_momentum(Substep& s, bool is_first, const std::vector<char>& pressed, MomentumFunction treat) {
   if (!is_first || pressed.empty()) return treat(s, is_first ? Since::prediction : Since::note, nullptr);
   std::vector<char> others(pressed.size());

@@ -3,8 +3,8 @@
 // Contacts are projected after the chains, so where they conflict contacts win, and edges end too long: in jammed or
 // pinched cloth one in a hundred by 3 %, however many iterations follow, because both cannot be met exactly. So chains
 // and contacts take turns once more, and contacts yield: they may overlap by a share of their thickness, which nobody
-// sees, while an edge that is too long is seen. The filter still keeps surfaces from crossing. What is far heavier than the
-// cloth that it lies on, such as stones, would be overrun by it in this way, so its contacts do not yield.
+// sees, while an edge that is too long is seen. The filter still keeps surfaces from crossing. What is far heavier than
+// the cloth that it lies on, such as stones, would be overrun by it in this way, so its contacts do not yield.
 //
 // Rigid stitches are projected before the chains, too, which then pull sewn particles apart: in a substep by T h^2 / m,
 // T being the tension beside the seam, so cloth that is too tight round a body gapes. Closing a stitch alone would
@@ -67,7 +67,8 @@ void solve_chains(Substep& s, const std::vector<char>& of) {
 }  // namespace
 
 void solve_again(Substep& s) {
-  if ((!s.has_pairs() && s.bodies == nullptr) || s.lengths().empty() || !(s.context.options.most_overstretch > 0)) return;
+  if ((!s.has_pairs() && s.bodies == nullptr) || s.lengths().empty() || !(s.context.options.most_overstretch > 0))
+    return;
   std::vector<char>& is_pressed = s.own->limit.is_moved;
   if (!find_pressed(s, is_pressed)) return;
   constexpr int rounds = 2;  // of chains and contacts
@@ -98,7 +99,8 @@ struct Stitch {
 /// with itself, contact keeps both sides apart by two thicknesses.
 void append_stitches(const CompiledObject& object, const ScaledGroup& group, std::vector<Stitch>& out) {
   static const int limit_type = find_constraint_type(DistanceLimit::name);
-  if (group.places.empty() || object.pools[at(group.places.front().pool)].type != limit_type) return;  // all are of a type
+  if (group.places.empty() || object.pools[at(group.places.front().pool)].type != limit_type)
+    return;  // all are of a type
   const float least = object.self_collision ? 2 * object.thickness : 0;
   std::size_t s = 0;  // places and segments are in the same order within a pool
   for (const ScaledGroup::Place& place : group.places) {
@@ -111,8 +113,8 @@ void append_stitches(const CompiledObject& object, const ScaledGroup& group, std
     for (std::size_t tried = 0; tried < object.segments.size() && !has(object.segments[s]); ++tried)
       s = (s + 1) % object.segments.size();
     const Segment& segment = object.segments[s];
-    const std::int32_t* index =
-        pool.indices.data() + segment.index_offset + (place.batch - segment.first_batch) * indices_per_batch(pool, segment);
+    const std::int32_t* index = pool.indices.data() + segment.index_offset +
+                                (place.batch - segment.first_batch) * indices_per_batch(pool, segment);
     out.push_back({particle_of(segment, index, 0, place.lane), particle_of(segment, index, 1, place.lane),
                    std::max(pool.row(0, place.batch)[place.lane], least)});
   }

@@ -8,8 +8,8 @@ namespace pliant {
 /// Starts a frame of `dt` seconds. Returns the first substep of each group of objects.
 std::vector<Substep> begin_frame(const StepContext& context, double dt);
 
-/// True if each group can make its substeps without regard to the others: there are several, none uses memory that another
-/// one uses, and if the frame may be stopped, all reach the same time at each quarter.
+/// True if each group can make its substeps without regard to the others: there are several, none uses memory that
+/// another one uses, and if the frame may be stopped, all reach the same time at each quarter.
 bool may_run_side_by_side(const std::vector<Substep>& groups);
 
 /// Moves colliders to their poses at the substep's end, and lets rest data and pressures follow their keyframes.
@@ -37,12 +37,12 @@ void limit(Substep& s);
 /// Truncates displacements that would make surfaces cross.
 void filter(Substep& s);
 
-/// After the filter: holds bodies that its result leaves in the way, moves free groups by what their centre of mass lags
-/// (group_lag.h), and takes out of velocities what is not to become velocity.
+/// After the filter: holds bodies that its result leaves in the way, moves free groups by what their centre of mass
+/// lags (group_lag.h), and takes out of velocities what is not to become velocity.
 void end_filter(Substep& s);
 
-/// Where a quarter of a frame has more substeps than the last one, limits the share of corrections that becomes velocity so
-/// that the substep does not increase energy (stages/guard_energy.cpp).
+/// Where a quarter of a frame has more substeps than the last one, limits the share of corrections that becomes
+/// velocity so that the substep does not increase energy (stages/guard_energy.cpp).
 void guard_energy(Substep& s);
 
 /// The same for each set of objects that are in contact with rigid bodies (stages/guard_bodies.cpp).
@@ -54,8 +54,9 @@ void note_guards(Substep& s);
 /// Rest data of plastic constraints follow what is deformed too far.
 void yield(Substep& s);
 
-/// Updates velocities by the corrections, x += displacement, and applies restitution at colliders; joints of fast wheels hold velocities, too.
-/// Returns false if a displacement is not finite; then the report names it, and the State has been made finite.
+/// Updates velocities by the corrections, x += displacement, and applies restitution at colliders; joints of fast
+/// wheels hold velocities, too. Returns false if a displacement is not finite; then the report names it, and the State
+/// has been made finite.
 bool update(Substep& s);
 
 /// Applies restitution between surfaces.

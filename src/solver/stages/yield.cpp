@@ -58,7 +58,8 @@ class PoolFlow {
       if (origin < 0) origin = n;
       const Record &p = particles_.positions[n], &d = particles_.displacements[n];
       const Record &o = particles_.positions[origin], &first = particles_.displacements[origin];
-      arrays.set_slot(slot, ((p.x - o.x) + d.x) - first.x, ((p.y - o.y) + d.y) - first.y, ((p.z - o.z) + d.z) - first.z, 0);
+      arrays.set_slot(slot, ((p.x - o.x) + d.x) - first.x, ((p.y - o.y) + d.y) - first.y, ((p.z - o.z) + d.z) - first.z,
+                      0);
     }
   }
 

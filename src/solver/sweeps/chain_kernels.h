@@ -19,7 +19,8 @@ struct ChainKernels {
 
   /// Projects the particles [first, last) of an object onto their tethers. `first` and `last` are multiples of 16, or
   /// `last` is the object's end. `anchors` holds a position and a displacement for each anchor, in turn.
-  void (*hold_tethers)(const Tethers& tethers, const Record* anchors, int first, int last, const SweepArguments& arguments);
+  void (*hold_tethers)(const Tethers& tethers, const Record* anchors, int first, int last,
+                       const SweepArguments& arguments);
 };
 
 PLIANT_DECLARE_LEVELS(ChainKernels, chain_kernels)

@@ -38,7 +38,8 @@ struct ChainRows {
         compliance_step(pool.row_step(1)),
         softness(load_wide(soft)) {}
   PLIANT_HD ChainParams<Wide> at(const float* multiplier) const {
-    return {load_wide(rest), load_wide(compliance), softness, multiplier != nullptr ? load_wide(multiplier) : Wide(0.f)};
+    return {load_wide(rest), load_wide(compliance), softness,
+            multiplier != nullptr ? load_wide(multiplier) : Wide(0.f)};
   }
   PLIANT_HD void next() {
     rest += rest_step;
@@ -51,7 +52,8 @@ struct WideMotion {
   Vec3<Wide> motion{}, coast{};
 
   WideMotion() = default;
-  PLIANT_HD WideMotion(const SweepArguments& a, const std::int32_t* index, const Registers& displacements, const Wide& w)
+  PLIANT_HD WideMotion(const SweepArguments& a, const std::int32_t* index, const Registers& displacements,
+                       const Wide& w)
       : motion(from_registers(displacements - load_indexed(a.remainders, index)).position) {
     const Vec3<Wide> v = from_registers(load_indexed(a.velocities, index)).position;
     const auto falls = w > Wide(0.f);
@@ -63,7 +65,8 @@ struct WideMotion {
 
 /// Forward elimination over all links. Returns the displacements of the first particles.
 PLIANT_HD Registers eliminate_chain(const Pool& pool, const Segment* links, int steps, const float* softness,
-                                    const float* multipliers, const SweepArguments& a, float* scratch, Wide& first_weight) {
+                                    const float* multipliers, const SweepArguments& a, float* scratch,
+                                    Wide& first_weight) {
   const std::int32_t* index = pool.indices.data() + links->index_offset;
   ChainRows rows(pool, links->first_batch, softness);
   Registers from = load_indexed(a.positions, index);
@@ -94,8 +97,8 @@ PLIANT_HD Registers eliminate_chain(const Pool& pool, const Segment* links, int 
   return start;
 }
 
-PLIANT_HD void move_end(Record* displacements, const std::int32_t* index, const Registers& before, const Vec3<Wide>& push,
-                        const Wide& weight, int lanes) {
+PLIANT_HD void move_end(Record* displacements, const std::int32_t* index, const Registers& before,
+                        const Vec3<Wide>& push, const Wide& weight, int lanes) {
   const Registers after = before + to_registers({push * weight, Wide(0.f)});
   if (lanes == batch_width) return store_indexed(displacements, index, after);
   store_indexed_some(displacements, index, after, lanes);

@@ -1,8 +1,8 @@
 // One link of a chain and one tether, written once for a float and for sixteen lanes.
 //
-// A path of distance constraints is solved exactly: (J W J^T + alpha~) dlambda = -C - alpha~ lambda is tridiagonal, with
-// the diagonal w_k + w_{k+1} + alpha~ and the off-diagonal -w_k (n_{k-1} . n_k). The Thomas algorithm solves it (a direct
-// solver for the system of Macklin et al. 2016 along a path; Deul et al. 2018 do the same for rods).
+// A path of distance constraints is solved exactly: (J W J^T + alpha~) dlambda = -C - alpha~ lambda is tridiagonal,
+// with the diagonal w_k + w_{k+1} + alpha~ and the off-diagonal -w_k (n_{k-1} . n_k). The Thomas algorithm solves it (a
+// direct solver for the system of Macklin et al. 2016 along a path; Deul et al. 2018 do the same for rods).
 //
 // The pivot avoids a difference. q_k is the mobility of link k's first end while earlier links are satisfied:
 //   p_k = q_k + w_{k+1} + s_k,   q_k = w_k - (w_k n_{k-1}.n_k)^2 / p_{k-1} = w_k (q_{k-1} + s_{k-1} + w_k |n_{k-1} x

@@ -36,8 +36,8 @@ struct LoadedEnd {
 
 class LoadedLane {
  public:
-  LoadedLane(const Pool& pool, const Segment* links, int steps, int lane, const SweepArguments& a, const ChainLoads& loads,
-             float* multipliers)
+  LoadedLane(const Pool& pool, const Segment* links, int steps, int lane, const SweepArguments& a,
+             const ChainLoads& loads, float* multipliers)
       : pool_(pool), links_(links), lane_(lane), a_(a), loads_(loads), multipliers_(multipliers) {
     while (steps_ < steps && lane < links[steps_].last_count) ++steps_;  // longer paths come first
   }
@@ -59,8 +59,9 @@ class LoadedLane {
  private:
   static constexpr int most_attempts = 3, most_rounds = 8;
 
-  /// Applies the solution. A path that is tied to bodies is solved again with the inertia across that its tensions demand, until
-  /// these grow no more: light particles that zigzag yield at first, and hide how hard the rope is pulled.
+  /// Applies the solution. A path that is tied to bodies is solved again with the inertia across that its tensions
+  /// demand, until these grow no more: light particles that zigzag yield at first, and hide how hard the rope is
+  /// pulled.
   void finish(const Vec3f& first, float softness, bool is_tied, float* scratch) const {
     Vec3f moved = first;
     for (int round = 0; is_tied && round < most_rounds && keep_tensions(scratch); ++round) {
@@ -93,7 +94,8 @@ class LoadedLane {
   }
   static bool is_tie(const LoadedInertia& load) { return load.farthest == infinity; }
 
-  /// Keeps the greatest tensions of the solutions. True if they have grown and demand more inertia across of a particle.
+  /// Keeps the greatest tensions of the solutions. True if they have grown and demand more inertia across of a
+  /// particle.
   bool keep_tensions(float* scratch) const {
     bool any = false;
     float before = 0, old_before = 0;
@@ -181,8 +183,9 @@ class LoadedLane {
   /// The inertia of link k's second particle.
   ///
   /// A taut string of light particles has transverse waves that a substep cannot follow: forces along directions of the
-  /// prediction are stable up to (omega h)^2 = 4/3 (x' = x + h v', v' = v - h omega^2 (x + h v)). With tensions T and lengths L of
-  /// both links, omega^2 is at most 2 (T / L + T' / L') / m, so an inertia of 2 h^2 (T / L + T' / L') across them keeps it to 1 / h^2.
+  /// prediction are stable up to (omega h)^2 = 4/3 (x' = x + h v', v' = v - h omega^2 (x + h v)). With tensions T and
+  /// lengths L of both links, omega^2 is at most 2 (T / L + T' / L') / m, so an inertia of 2 h^2 (T / L + T' / L')
+  /// across them keeps it to 1 / h^2.
   RootInertia root_between(int k, const float* scratch) const {
     const int number = particle(k, 1);
     RootInertia root = root_of(number);
@@ -233,8 +236,8 @@ class LoadedLane {
   }
 
   int particle(int k, int slot) const {
-    return pool_
-        .indices[static_cast<std::size_t>(links_[k].index_offset) + static_cast<std::size_t>(slot * batch_width + lane_)];
+    return pool_.indices[static_cast<std::size_t>(links_[k].index_offset) +
+                         static_cast<std::size_t>(slot * batch_width + lane_)];
   }
   float* multiplier(int k) const {
     return multipliers_ + static_cast<std::int64_t>(links_[k].first_batch) * batch_width + lane_;

@@ -1,15 +1,15 @@
 // Chains whose particles carry bodies, one path at a time.
 //
-// A chain is solved before contacts and ties. Where a particle of a gram holds up a body of ten kilograms, the chain would lift
-// the particle alone, the contact would push it down again, and the body would rise by a ten-thousandth of what is missing. So
-// such a particle has the inertia of both in the chain's system, with W a tensor: along the contact normal that of particle and
-// body, across it that of the particle.
+// A chain is solved before contacts and ties. Where a particle of a gram holds up a body of ten kilograms, the chain
+// would lift the particle alone, the contact would push it down again, and the body would rise by a ten-thousandth of
+// what is missing. So such a particle has the inertia of both in the chain's system, with W a tensor: along the contact
+// normal that of particle and body, across it that of the particle.
 //   W = across (1 - a a^T) + along a a^T,   R = W^(1/2),   u = R n_{k-1},   v = R n_k at the particle between links k-1 and k
 //   p_k = q_k + |R' n_k|^2 + s_k,   q_k = (|v|^2 (q_{k-1} + s_{k-1}) + |u x v|^2) / p_{k-1}      R' at the link's second particle
 // This is the elimination of chain_link.h, which has W = w 1, and likewise without differences.
 //
-// A contact only pushes. Where the solution would pull a particle off its body, the path is solved again with the inertia of the
-// particle alone.
+// A contact only pushes. Where the solution would pull a particle off its body, the path is solved again with the
+// inertia of the particle alone.
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,8 @@ namespace pliant {
 
 namespace {
 
-/// One lane of a chain. As in the SIMD lanes, steps beyond the path's end are links of length zero, which have no effect.
+/// One lane of a chain. As in the SIMD lanes, steps beyond the path's end are links of length zero, which have no
+/// effect.
 class Lane {
  public:
   Lane(const Pool& pool, const Segment* links, int lane, const SweepArguments& a, float* multipliers)

@@ -76,7 +76,8 @@ double next_weight(const SweepOptions& options, int iteration, double norm, Cheb
   const double next = 2 / c.spectral_radius * c.polynomial - c.polynomial_before;
   c.polynomial_before = std::exchange(c.polynomial, min(next, 1e100));
   ++c.steps;
-  const bool idle = estimates && c.steps >= patience && is_power_of_two(c.steps) && !(norm < least_progress * c.start_norm);
+  const bool idle =
+      estimates && c.steps >= patience && is_power_of_two(c.steps) && !(norm < least_progress * c.start_norm);
   c.given_up = !(norm <= largest_growth * c.first_norm) || norm <= smallest_share * c.plain_norm || idle;
   if (c.given_up || (estimates && raise_radius(norm, c))) return 1;
   const double squared = c.spectral_radius * c.spectral_radius;
@@ -139,7 +140,8 @@ void extrapolate_everything(Substep& s, float weight) {
   ChebyshevScratch& c = chebyshev_of(s);
   c.touching_points.clear();
   for_touching_points(s, [&](int particle) {
-    if (is_swept(s, model.object_of(particle))) c.touching_points.emplace_back(particle, s.work.displacements[particle]);
+    if (is_swept(s, model.object_of(particle)))
+      c.touching_points.emplace_back(particle, s.work.displacements[particle]);
   });
   for_swept_tiles(s, "solve: chebyshev", [&](int task) {
     const int o = model.tiles()[task].object;

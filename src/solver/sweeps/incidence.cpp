@@ -31,7 +31,8 @@ Incidence make_incidence(const CompiledObject& object) {
   Incidence incidence;
   incidence.pool_begin.push_back(0);
   for (const Pool& pool : object.pools) {
-    incidence.pool_begin.push_back(incidence.pool_begin.back() + std::int64_t{pool.batches} * pool.stencil * batch_width);
+    incidence.pool_begin.push_back(incidence.pool_begin.back() +
+                                   std::int64_t{pool.batches} * pool.stencil * batch_width);
   }
   if (incidence.pool_begin.back() > std::numeric_limits<std::int32_t>::max()) {
     throw Error({.object = object.name}, "has too many constraints for a Jacobi sweep",

@@ -2,8 +2,9 @@
 //
 // If a particle applied the sum of the corrections of its n constraints, it would overshoot. There are two remedies.
 // Split: each constraint acts on an n-th of the particle's mass (n times its w), and the particle moves by the mean.
-// Corrections obey Newton's third law, so momentum is conserved (Tonge et al. 2012). Average: each acts on the whole mass
-// and corrections are averaged, which loses momentum where neighbours differ in n (Macklin et al. 2014, section 4.2).
+// Corrections obey Newton's third law, so momentum is conserved (Tonge et al. 2012). Average: each acts on the whole
+// mass and corrections are averaged, which loses momentum where neighbours differ in n (Macklin et al. 2014, section
+// 4.2).
 #pragma once
 
 #include <vector>

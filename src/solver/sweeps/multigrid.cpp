@@ -14,7 +14,8 @@ namespace {
 void move(Substep& s, int o, bool first) {
   const SweepArguments a = arguments(s, o, first);
   MultigridObject& work = multigrid_of(s).objects[o];
-  // If a correction is rejected, the sweeps alone solve the substep. If they diverge as well, that is diagnosed as usual.
+  // If a correction is rejected, the sweeps alone solve the substep. If they diverge as well, that is diagnosed as
+  // usual.
   work.is_made = is_multigrid_change_sound(s, o);
   if (!work.is_made) return std::fill(work.change.begin(), work.change.end(), Record{});
   for (int i = 0; i < s.model.objects[o].particles; ++i) {

@@ -24,8 +24,8 @@ struct MultigridObject {
   AlignedVector<float> extra;   ///< matrix terms of contacts: nine rows of sixteen per batch; empty before the first
   std::vector<char> has_extra;  ///< for each batch, 1 if one of its rows has contacts
   std::vector<double> sums;     ///< partial sums of reductions, one for each task
-  /// A connected component: its stiffness against pins and contacts (xx yy zz xy xz yz) [N/m], its residual force [N], its
-  /// mass [kg], the sum of mass times displacement [kg m], and a displacement of the whole [m].
+  /// A connected component: its stiffness against pins and contacts (xx yy zz xy xz yz) [N/m], its residual force [N],
+  /// its mass [kg], the sum of mass times displacement [kg m], and a displacement of the whole [m].
   struct Piece {
     double held[6], force[3];
     double mass = 0;
@@ -86,8 +86,8 @@ MultigridScratch& multigrid_of(const Substep& s);
 void correct_multigrid(Substep& s, bool first);
 
 // Parts of correct_multigrid, defined in multigrid_contacts.cpp: add contacts as springs to the rows of their
-// particles; then store the pushes and friction of the springs between particles and colliders, from which the projection
-// of these contacts continues.
+// particles; then store the pushes and friction of the springs between particles and colliders, from which the
+// projection of these contacts continues.
 void add_multigrid_contacts(Substep& s);
 void keep_multigrid_pushes(Substep& s);
 /// Adds the off-diagonal terms of a surface contact's spring to A p: the matrix rows treat the other side as fixed, but

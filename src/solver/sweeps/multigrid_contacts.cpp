@@ -2,10 +2,10 @@
 // friction. Without them the correction would move objects into what they rest on, and the projection of contacts would
 // push them back out.
 //
-// Springs only approximate friction. At particles that meet colliders, projection starts from the pushes and the friction
-// of the springs and corrects any excess. Contacts with several points start from zero instead: after few cycles their
-// springs still overlap and seem to push though the particles have not felt it, and with the cone of such pushes friction
-// tore cloth apart (docs/internals/multigrid.md).
+// Springs only approximate friction. At particles that meet colliders, projection starts from the pushes and the
+// friction of the springs and corrects any excess. Contacts with several points start from zero instead: after few
+// cycles their springs still overlap and seem to push though the particles have not felt it, and with the cone of such
+// pushes friction tore cloth apart (docs/internals/multigrid.md).
 //
 // A contact with a primitive adds to one matrix row. A contact between surfaces couples objects, or distant parts of
 // one, which the coarse levels do not represent: each row treats the other side as fixed at its prediction. Conjugate
@@ -28,7 +28,8 @@ constexpr float pair_stiffness = 0.2f;
 
 /// Makes the springs of a contact at the relative displacement `moved`; both stiffnesses are 0 if the contact is
 /// inactive. The tangential force is at most mu m depth / h^2, with the effective mass m = 1 / inverse_mass.
-ContactSpring spring_of(const Contact& contact, const Vec3f& moved, float inverse_mass, float inverse_h2, float stiffness) {
+ContactSpring spring_of(const Contact& contact, const Vec3f& moved, float inverse_mass, float inverse_h2,
+                        float stiffness) {
   ContactSpring s;
   s.depth = contact.gap + dot(contact.normal, moved);
   if (!(s.depth < 0) || !(inverse_mass > 0)) return s;
@@ -55,7 +56,8 @@ Vec3f force_of(const ContactSpring& s, const Vec3f& n) { return n * (-s.along * 
 
 /// Adds a spring to the matrix row of one of its particles: the diagonal block, as if the other side were fixed, and
 /// the force.
-void add_to_row(MultigridObject& work, int particle, float weight, const std::array<float, 6>& block, const Vec3f& force) {
+void add_to_row(MultigridObject& work, int particle, float weight, const std::array<float, 6>& block,
+                const Vec3f& force) {
   const int at = lane_place(particle), batch = at / batch_width;
   if (work.extra.empty()) work.extra.resize(work.has_extra.size() * 9 * batch_width);
   float* extra = work.extra.data() + static_cast<std::ptrdiff_t>(batch) * 9 * batch_width;
@@ -88,7 +90,8 @@ void for_contacts(Substep& s, const Visit& visit) {
     const int o = model.tiles()[task].object;
     if (model.objects[o].multigrid.levels.empty()) return;
     const std::vector<float>& limits = model.objects[o].multigrid.stiffness_limit;
-    for (Contact& contact : s.work.tiles[task].contacts) visit(contact, contact_stiffness * limits[contact.point[0]], o);
+    for (Contact& contact : s.work.tiles[task].contacts)
+      visit(contact, contact_stiffness * limits[contact.point[0]], o);
   });
 }
 
@@ -99,7 +102,8 @@ void add_point_contacts(Substep& s) {
     const SweepArguments a = arguments(s, o, false);
     const int i = contact.point[0];
     const ContactSpring spring = spring_of(contact, xyz(a.displacements[i]), a.positions[i].w, a.inverse_h2, stiffness);
-    if (spring.along > 0) add_to_row(objects[o], i, 1, block_of(spring, contact.normal), force_of(spring, contact.normal));
+    if (spring.along > 0)
+      add_to_row(objects[o], i, 1, block_of(spring, contact.normal), force_of(spring, contact.normal));
   });
 }
 
@@ -146,8 +150,9 @@ void add_pair_contacts(Substep& s) {
     PairSpring spring{};
     float stiffness = 0;
     if (!place(s.model, contact, all.positions, spring, stiffness)) continue;
-    static_cast<ContactSpring&>(spring) = spring_of(contact, relative(contact, all.displacements),
-                                                    inverse_mass_of(contact, all.positions), inverse_h2_of(all), stiffness);
+    static_cast<ContactSpring&>(spring) =
+        spring_of(contact, relative(contact, all.displacements), inverse_mass_of(contact, all.positions),
+                  inverse_h2_of(all), stiffness);
     if (!(spring.along > 0)) continue;
     spring.weight = contact.weight;
     spring.normal = contact.normal;

@@ -39,7 +39,8 @@ bool step(Substep& s, const MultigridGroup& group, double& before) {
   return true;
 }
 
-/// Subtracts a contact between objects of the group from the group's stiffness: it does not resist a common displacement.
+/// Subtracts a contact between objects of the group from the group's stiffness: it does not resist a common
+/// displacement.
 void release(const PairSpring& s, MultigridObject::Piece& sum) {
   const std::array<float, 6> block = block_of(s);
   float side[2] = {0, 0};  // weights of the group's particles on each side; matrix rows contain both
@@ -116,9 +117,9 @@ void solve_multigrid_group(Substep& s, const MultigridGroup& group, int cycles) 
 }
 
 // The substep ends as if an outside force -r acted; its
-// work is -r . d, d being the displacement since the substep's start. One minimisation along d makes r . d zero, and the
-// energy then does not rise, however few the cycles. It only shortens: lengthened motion did not come to rest. Of d it
-// takes the part that is not common to a piece, or what falls would be held up.
+// work is -r . d, d being the displacement since the substep's start. One minimisation along d makes r . d zero, and
+// the energy then does not rise, however few the cycles. It only shortens: lengthened motion did not come to rest. Of d
+// it takes the part that is not common to a piece, or what falls would be held up.
 void shorten_fed_motion(Substep& s, const MultigridGroup& group) {
   double along = 0;
   for (const int o : group.objects) {

@@ -10,7 +10,8 @@ namespace {
 
 /// Damping factor of Jacobi passes.
 constexpr float damping = 0.65f;
-/// Factor of coarse blocks. Summed springs are too stiff by the width of a group: two particles in each of two directions.
+/// Factor of coarse blocks. Summed springs are too stiff by the width of a group: two particles in each of two
+/// directions.
 constexpr float coarse_stiffness = 0.5f;
 /// Regularisation of a diagonal block's inverse against rounding, as a share of its trace.
 constexpr float least_share = 1e-6f;
@@ -27,7 +28,8 @@ PLIANT_HD Block operator+(const Block& a, const Block& b) {
 }
 
 PLIANT_HD Vec3<Wide> operator*(const Block& b, const Vec3<Wide>& v) {
-  return {b.xx * v.x + b.xy * v.y + b.xz * v.z, b.xy * v.x + b.yy * v.y + b.yz * v.z, b.xz * v.x + b.yz * v.y + b.zz * v.z};
+  return {b.xx * v.x + b.xy * v.y + b.xz * v.z, b.xy * v.x + b.yy * v.y + b.yz * v.z,
+          b.xz * v.x + b.yz * v.y + b.zz * v.z};
 }
 
 PLIANT_HD Block load_block(const float* from) {
@@ -63,7 +65,8 @@ PLIANT_HD Block damped_inverse(const Block& block, const WideMask& moves) {
   const WideMask regular = determinant > Wide(least_determinant);
   const Wide zero(0.f), inverse = Wide(damping) / max(determinant, Wide(least_determinant)) * scale;
   const Wide s = select(moves, select(regular, inverse, zero), zero);
-  return {c0 * s, (xx * zz - b.xz * b.xz) * s, (xx * yy - b.xy * b.xy) * s, c1 * s, c2 * s, (b.xy * b.xz - xx * b.yz) * s};
+  return {c0 * s, (xx * zz - b.xz * b.xz) * s,  (xx * yy - b.xy * b.xy) * s, c1 * s,
+          c2 * s, (b.xy * b.xz - xx * b.yz) * s};
 }
 
 PLIANT_HD Registers load_rows(const Record* from, int batch) {
@@ -75,7 +78,9 @@ PLIANT_HD void store_records(Record* to, int batch, const WideRecords& v) {
   store_runs(to, runs, to_registers(v), 4);
 }
 PLIANT_HD void store_rows(Record* to, int batch, const Vec3<Wide>& v) { store_records(to, batch, {v, Wide(0.f)}); }
-PLIANT_HD Vec3<Wide> load_vectors(const Record* from, int batch) { return from_registers(load_rows(from, batch)).position; }
+PLIANT_HD Vec3<Wide> load_vectors(const Record* from, int batch) {
+  return from_registers(load_rows(from, batch)).position;
+}
 
 // ---------------------------------------------------------------- the matrix
 
@@ -107,8 +112,8 @@ PLIANT_HD Vec3<Wide> image(const MultigridLevel& level, const MultigridValues& v
 }
 
 template <bool springs>
-PLIANT_HD void residuals(const MultigridLevel& level, const MultigridValues& values, const Record* right, const Record* x,
-                         Record* out, int first, int last) {
+PLIANT_HD void residuals(const MultigridLevel& level, const MultigridValues& values, const Record* right,
+                         const Record* x, Record* out, int first, int last) {
   for (int b = first; b < last; ++b) store_rows(out, b, load_vectors(right, b) - image<springs>(level, values, b, x));
 }
 
@@ -130,8 +135,8 @@ PLIANT_HD float sum_lanes(const Wide& a) {
 }
 
 template <bool springs>
-PLIANT_HD float applies(const MultigridLevel& level, const MultigridValues& values, const Record* x, Record* out, int first,
-                        int last) {
+PLIANT_HD float applies(const MultigridLevel& level, const MultigridValues& values, const Record* x, Record* out,
+                        int first, int last) {
   Wide sum(0.f);
   for (int b = first; b < last; ++b) {
     const Vec3<Wide> y = image<springs>(level, values, b, x);
@@ -147,15 +152,16 @@ void residual(const MultigridLevel& level, const MultigridValues& values, bool s
           : residuals<false>(level, values, right, x, out, first, last);
 }
 
-void smooth(const MultigridLevel& level, const MultigridValues& values, bool springs, const Record* right, const Record* x,
-            Record* out, int first, int last) {
+void smooth(const MultigridLevel& level, const MultigridValues& values, bool springs, const Record* right,
+            const Record* x, Record* out, int first, int last) {
   springs ? smooths<true>(level, values, right, x, out, first, last)
           : smooths<false>(level, values, right, x, out, first, last);
 }
 
 float apply(const MultigridLevel& level, const MultigridValues& values, bool springs, const Record* x, Record* out,
             int first, int last) {
-  return springs ? applies<true>(level, values, x, out, first, last) : applies<false>(level, values, x, out, first, last);
+  return springs ? applies<true>(level, values, x, out, first, last)
+                 : applies<false>(level, values, x, out, first, last);
 }
 
 void apply_diagonal(const MultigridValues& values, const Record* x, Record* out, int first, int last) {
@@ -191,8 +197,9 @@ PLIANT_HD Linearised begin_rows(const WideRecords& position, int batch, const Li
   return row;
 }
 
-/// Adds a spring of energy K C^2 / 2, and returns its g and k: its stiffness matrix is (K - k) n n^T + k I, with k = K C / length if stretched,
-/// else 0. k is the geometric stiffness, without which a taut sheet has no resistance normal to its plane.
+/// Adds a spring of energy K C^2 / 2, and returns its g and k: its stiffness matrix is (K - k) n n^T + k I, with k = K
+/// C / length if stretched, else 0. k is the geometric stiffness, without which a taut sheet has no resistance normal
+/// to its plane.
 PLIANT_HD WideRecords add_spring(const Vec3<Wide>& u, const Wide& stiffness, const Wide& rest, float* block,
                                  Linearised& row) {
   const Wide zero(0.f), length = sqrt(dot(u, u)), inverse = Wide(1.f) / max(length, Wide(1e-20f));
@@ -223,18 +230,18 @@ void linearise(const MultigridLevel& level, const LinearisedAt& at, MultigridVal
       const std::int32_t* column = level.column.data() + s * batch_width;
       const Registers across =
           without_w(own - load_indexed(at.positions, column)) + (moved - load_indexed(at.displacements, column));
-      const WideRecords spring =
-          add_spring(from_registers(across).position, load_wide(level.stiffness.data() + s * batch_width),
-                     load_wide(level.rest_length.data() + s * batch_width), values.blocks.data() + s * spring_floats, row);
+      const WideRecords spring = add_spring(
+          from_registers(across).position, load_wide(level.stiffness.data() + s * batch_width),
+          load_wide(level.rest_length.data() + s * batch_width), values.blocks.data() + s * spring_floats, row);
       if (!values.terms.empty()) store_records(values.terms.data(), static_cast<int>(s), spring);
     }
     // Lanes beyond the last row repeat its position and have no springs, so their force is zero.
     const Wide zero(0.f);
     store_block(values.diagonal.data() + batch * block_floats, row.diagonal);
     store_block(values.inverse.data() + batch * block_floats, damped_inverse(row.whole, row.moves));
-    store_rows(
-        values.right.data(), b,
-        {select(row.moves, row.force.x, zero), select(row.moves, row.force.y, zero), select(row.moves, row.force.z, zero)});
+    store_rows(values.right.data(), b,
+               {select(row.moves, row.force.x, zero), select(row.moves, row.force.y, zero),
+                select(row.moves, row.force.z, zero)});
   }
 }
 
@@ -381,8 +388,9 @@ void advance(float alpha, const Record* direction, const Record* image, Record* 
 }  // namespace PLIANT_ISA
 
 const MultigridKernels& PLIANT_OF_LEVEL(multigrid_kernels)() {
-  static constexpr MultigridKernels table{&linearise,      &coarsen,     &precondition, &residual,    &smooth, &apply,
-                                          &apply_diagonal, &restrict_to, &prolong,      &dot_records, &turn,   &advance};
+  static constexpr MultigridKernels table{&linearise, &coarsen,     &precondition,   &residual,
+                                          &smooth,    &apply,       &apply_diagonal, &restrict_to,
+                                          &prolong,   &dot_records, &turn,           &advance};
   return table;
 }
 

@@ -10,7 +10,8 @@ namespace {
 /// Sets lambda = -K C h^2 after the first correction of a substep, and adds -K h^2 times the change of C after later
 /// ones. C is linearised, because lengthening by rotation is no force; sweeps correct it. Rigid constraints need no
 /// multiplier.
-void add_multipliers(const CompiledObject& object, const Segment& segment, const SweepArguments& a, const Record* change) {
+void add_multipliers(const CompiledObject& object, const Segment& segment, const SweepArguments& a,
+                     const Record* change) {
   const Pool& pool = object.pools[segment.pool];
   float* multipliers = a.multipliers != nullptr ? a.multipliers[segment.pool] : nullptr;
   if (multipliers == nullptr || pool.law == Law::pbd || !is_length(pool.type)) return;

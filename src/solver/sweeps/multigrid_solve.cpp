@@ -18,7 +18,8 @@ constexpr int visits = 2;
 Record shift_of(const MultigridObject::Piece& piece) {
   const double *a = piece.held, *b = piece.force;
   const double d0 = a[0], l1 = d0 > 0 ? a[3] / d0 : 0, l2 = d0 > 0 ? a[4] / d0 : 0;
-  const double d1 = a[1] - l1 * a[3], l12 = d1 > 0 ? (a[5] - l2 * a[3]) / d1 : 0, d2 = a[2] - l2 * a[4] - l12 * l12 * d1;
+  const double d1 = a[1] - l1 * a[3], l12 = d1 > 0 ? (a[5] - l2 * a[3]) / d1 : 0,
+               d2 = a[2] - l2 * a[4] - l12 * l12 * d1;
   if (!(d0 > 0 && d1 > 0 && d2 > 0)) return {};
   const double y1 = b[1] - l1 * b[0], z = (b[2] - l2 * b[0] - l12 * y1) / d2, y = y1 / d1 - l12 * z;
   return {static_cast<float>(b[0] / d0 - l1 * y - l2 * z), static_cast<float>(y), static_cast<float>(z), 0};
@@ -35,8 +36,8 @@ void MultigridSolve::for_batches(int l, Body body) {
 template <class Body>
 double MultigridSolve::sum(int l, Body body) {
   const int tasks = (level(l).batches() + batches_per_task - 1) / batches_per_task;
-  for_batches(l,
-              [&](int first, int last) { work_.sums[first / batches_per_task] = static_cast<double>(body(first, last)); });
+  for_batches(
+      l, [&](int first, int last) { work_.sums[first / batches_per_task] = static_cast<double>(body(first, last)); });
   double total = 0;
   for (int task = 0; task < tasks; ++task) total += work_.sums[task];
   return total;
@@ -68,8 +69,8 @@ double MultigridSolve::apply() {
   });
 }
 
-/// Batches at borders overwrite what the parallel loop wrote for them. They follow it on one thread, so where pieces are so
-/// small that most batches have a border this does not scale with threads.
+/// Batches at borders overwrite what the parallel loop wrote for them. They follow it on one thread, so where pieces
+/// are so small that most batches have a border this does not scale with threads.
 void MultigridSolve::apply_to_shifts() {
   const Record* direction = work_.direction.data();
   Record* image = work_.image().data();
@@ -79,8 +80,8 @@ void MultigridSolve::apply_to_shifts() {
 
 void MultigridSolve::advance(float alpha) {
   for_batches(0, [&](int f, int t) {
-    kernels_.advance(alpha, work_.direction.data(), work_.image().data(), work_.change.data(), values(0).right.data(), f,
-                     t);
+    kernels_.advance(alpha, work_.direction.data(), work_.image().data(), work_.change.data(), values(0).right.data(),
+                     f, t);
   });
 }
 
@@ -156,7 +157,8 @@ void MultigridSolve::release(const PairSpring& s) {
     piece = of;
   }
   const std::array<float, 6> block = block_of(s);
-  for (int c = 0; c < 6; ++c) work_.pieces[piece].held[c] -= 2 * static_cast<double>(block[c]);  // weights sum to 1 a side
+  for (int c = 0; c < 6; ++c)
+    work_.pieces[piece].held[c] -= 2 * static_cast<double>(block[c]);  // weights sum to 1 a side
 }
 
 // Sums stiffness and residual of each piece. Returns false if undefined: the only level has no anchors in its diagonal.
@@ -171,7 +173,8 @@ bool MultigridSolve::sum_pieces() {
     if (model_.coarsest_piece[row] < 0) continue;
     MultigridObject::Piece& piece = work_.pieces[model_.coarsest_piece[row]];
     const int at = lane_place(static_cast<int>(row)), batch = at / batch_width;
-    const float* block = coarsest.diagonal.data() + static_cast<std::ptrdiff_t>(batch) * block_floats + at % batch_width;
+    const float* block =
+        coarsest.diagonal.data() + static_cast<std::ptrdiff_t>(batch) * block_floats + at % batch_width;
     for (int c = 0; c < 6; ++c) piece.held[c] += static_cast<double>(block[c * batch_width]);
     const Record& force = coarsest.right[row];
     piece.force[0] += static_cast<double>(force.x);
@@ -188,7 +191,8 @@ void MultigridSolve::precondition(int l) {
 
 void MultigridSolve::smooth(int l) {
   MultigridValues& v = values(l);
-  for_batches(l, [&](int f, int t) { kernels_.smooth(level(l), v, l == 0, v.right.data(), v.x.data(), v.y.data(), f, t); });
+  for_batches(
+      l, [&](int f, int t) { kernels_.smooth(level(l), v, l == 0, v.right.data(), v.x.data(), v.y.data(), f, t); });
   std::swap(v.x, v.y);
 }
 
@@ -200,8 +204,8 @@ void MultigridSolve::cycle(int l) {
     for (int pass = 0; pass < coarsest_passes; ++pass) smooth(l);
     return;
   }
-  for_batches(l,
-              [&](int f, int t) { kernels_.residual(level(l), v, l == 0, v.right.data(), v.x.data(), v.y.data(), f, t); });
+  for_batches(
+      l, [&](int f, int t) { kernels_.residual(level(l), v, l == 0, v.right.data(), v.x.data(), v.y.data(), f, t); });
   for_batches(l + 1, [&](int f, int t) { kernels_.restrict_to(level(l + 1), values(l + 1), v.y.data(), f, t); });
   cycle(l + 1);
   const bool again = l + 2 < levels() && visits * level(l + 1).rows <= level(l).rows;

@@ -40,8 +40,8 @@ class MultigridSolve {
   /// Sets p to a displacement of each piece that makes the total force on it zero: free pieces then conserve momentum
   /// for any number of cycles. `springs` are contacts; those within one piece do not resist its displacement.
   void turn_to_shifts(const std::vector<const PairSpring*>& springs);
-  /// Sets p to the displacement since the substep's start, correction included, less its mean over each piece weighted by
-  /// mass. `displacements`: before the correction.
+  /// Sets p to the displacement since the substep's start, correction included, less its mean over each piece weighted
+  /// by mass. `displacements`: before the correction.
   void turn_to_motion(const Record* displacements);
   /// Returns the dot product of the residual and p.
   double residual_along();

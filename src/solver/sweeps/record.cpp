@@ -20,11 +20,12 @@ struct IterationView {
   const Record* orientations;                            ///< orientations of the object's frames
   const std::vector<AlignedVector<float>>* multipliers;  ///< multipliers of each pool; null: all are still zero
   std::vector<Vec3d>& explained;                         ///< for each particle, the sum of w grad C^T lambda [m]
-  std::vector<char>& left_out;                           ///< 1 if a constraint without a multiplier acts on the particle
+  std::vector<char>& left_out;  ///< 1 if a constraint without a multiplier acts on the particle
 };
 
 /// Loads a constraint's slots in double precision; points are relative to its first point.
-void load_slots(const IterationView& view, const Pool& pool, const std::int32_t* particle, StencilArrays<double>& arrays) {
+void load_slots(const IterationView& view, const Pool& pool, const std::int32_t* particle,
+                StencilArrays<double>& arrays) {
   const Record* origin = nullptr;
   for (int slot = 0; slot < pool.stencil; ++slot) {
     if (particle[slot] >= view.object.particles) {

@@ -44,8 +44,8 @@ int main() {
     if (!report.ok() || !report.warnings.empty()) return std::cerr << report.explain() << "\n", 1;
   }
   const pliant::RigidPose top = world.object(pile).pose("box 4"), hung = world.object(lamp).pose("lamp");
-  std::cout << "the top box is at " << top.position.y << " m, the lamp at " << hung.position.x << ", " << hung.position.y
-            << " m\n";
+  std::cout << "the top box is at " << top.position.y << " m, the lamp at " << hung.position.x << ", "
+            << hung.position.y << " m\n";
   const float x = hung.position.x, y = hung.position.y - 3, length = std::sqrt(x * x + y * y);
   return std::fabs(top.position.y - 4.5f) < 0.05f && std::fabs(length - 1.1f) < 0.02f ? 0 : 1;
 }
