@@ -280,7 +280,9 @@ const Record& sweep_options_record() {
        field("acceleration", choice({"none", "chebyshev"}), "none",
              "Chebyshev semi-iteration, useful from about 20 iterations per substep; rejected with `natural`."),
        field("plain_iterations", integer(1, 10000), SweepOptions{}.plain_iterations,
-             "Iterations of a substep before acceleration starts; at least 2 if the spectral radius is estimated."),
+             "Iterations of a substep before acceleration starts; at least 2 if the spectral radius is estimated. A "
+             "substep with no "
+             "more iterations than these is not accelerated."),
        field("spectral_radius", number("-", 0, 1), SweepOptions{}.spectral_radius,
              "Spectral radius of the sweep, below 1; 0: estimated in every substep."),
        field("tethers", boolean(), SweepOptions{}.tethers,

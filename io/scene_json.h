@@ -47,8 +47,8 @@ struct JsonDocument {
   Location locate_byte(std::size_t offset) const;
 };
 
-constexpr std::size_t largest_text =
-    std::size_t{16} << 20;  ///< largest size [bytes]; the tree of a hostile text takes about 60 times as much memory
+/// Largest size [bytes]; the tree of a hostile text takes about 60 times as much memory.
+constexpr std::size_t largest_text = std::size_t{16} << 20;
 constexpr int deepest_nesting = 64;
 
 /// Parses RFC 8259 strictly, after an optional byte order mark: no comments or trailing commas, valid UTF-8, numbers in

@@ -33,12 +33,12 @@ struct FrameObject {
   int particles = 0;
   std::vector<std::array<int, 3>> triangles;
   std::vector<std::vector<int>> lines;  ///< particles along each line; a closed line ends with its first particle
-  std::vector<TriangleMesh>
-      solids{};  ///< surfaces of bodies, each in the body's principal axes about its centre of mass
+  /// Surfaces of bodies, each in the body's principal axes about its centre of mass.
+  std::vector<TriangleMesh> solids{};
   std::vector<FrameBody> bodies{};
   bool is_remeshed = false;  ///< true: a surface that is another mesh in each frame (Frame::triangles)
-  bool is_relinked =
-      false;            ///< true: lines of which links can break: each frame has those that are left (Frame::lines)
+  /// True: lines of which links can break: each frame has those that are left (Frame::lines)
+  bool is_relinked = false;
   bool varies = false;  ///< true: points, of which each frame has as many as are there
 
   /// True if the object has particles to show that are no centres of bodies.

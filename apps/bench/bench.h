@@ -21,8 +21,8 @@ struct Row {
   double stretch_mean = 0, stretch_p99 = 0, stretch_max = 0;  ///< length over rest length after the last frame
   double energy_lost = 0;                                     ///< energy lost by frame 40 [J]; W1-quality only
   bool met = true;  ///< true if the required quality was reached; W1-quality only
-  std::vector<PhaseTime>
-      phases{};      ///< for "pliant": time of each phase per frame [ms], from a separate run that times phases
+  /// For "pliant": time of each phase per frame [ms], from a separate run that times phases.
+  std::vector<PhaseTime> phases{};
   double ratio = 0;  ///< time of the first row of the same workload and size over the time of this one
 };
 

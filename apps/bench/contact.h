@@ -10,8 +10,8 @@ namespace pliant::bench {
 
 /// Medians over frames, in processor time of one thread.
 struct ContactRow {
-  int size =
-      0;  ///< N for N x N particles in all, edges of 1 cm, a ball as wide as the cloth; multiples of 100: several cloths
+  /// N for N x N particles in all, edges of 1 cm, a ball as wide as the cloth; multiples of 100: several cloths.
+  int size = 0;
   int particles = 0;
   double without_ms = 0, with_ms = 0;  ///< milliseconds per frame without and with self-collision
   double ratio = 0;                    ///< with_ms over without_ms

@@ -45,8 +45,8 @@ struct LandingRow {
   int frames = 0;       ///< frames completed within the time limit
   bool in_time = true;  ///< true if all frames were completed
   double mean_ms = 0, median_ms = 0, largest_ms = 0;
-  std::size_t crossings =
-      0;  ///< edges that intersect a triangle after the last frame; not counted if a position is not finite
+  /// Edges that intersect a triangle after the last frame; not counted if a position is not finite.
+  std::size_t crossings = 0;
   double stretch_mean = 0, stretch_p99 = 0;  ///< length over rest length after the last frame; NaN if a position is
   double ratio = 0;                          ///< speedup over the first row of the same landing and size
 };

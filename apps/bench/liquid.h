@@ -10,16 +10,16 @@ namespace pliant::bench {
 /// One way to step a splash.
 struct LiquidRow {
   int particles = 0;
-  std::string
-      engine;  ///< "plain loop", "pliant", "two threads", "stray" (one particle is 1 km away) or "1/60 s" (on two threads)
+  /// "plain loop", "pliant", "two threads", "stray" (one particle is 1 km away) or "1/60 s" (on two threads)
+  std::string engine;
   std::string isa;  ///< the code path in use
   int substeps = 0;
   double median_ms = 0, largest_ms = 0;  ///< of a step: processor time; of two threads, time on the wall [ms]
   double ns_per_particle = 0;            ///< median time over particles and substeps [ns]
   double search = 0;                     ///< median share of the step that finds neighbours [-]
   double compression = 0;                ///< largest mean compression of a step [-]
-  double ratio =
-      0;  ///< median, over the steps, of the plain loop's time over that of this row; "two threads": one thread's over this
+  /// Median, over the steps, of the plain loop's time over that of this row; "two threads": one thread's over this.
+  double ratio = 0;
   double bytes = 0;    ///< that World and Scene take, for each particle; 0: not measured
   double surface = 0;  ///< time to make the surface as a mesh, over that of a step; 0: not measured
 };

@@ -57,8 +57,8 @@ std::unique_ptr<PileEngine> make_bullet_pile(const Pile& pile, int substeps);
 /// A pile at some frame.
 struct PileSnapshot {
   int frame = 0;
-  double moved =
-      0;  ///< largest distance of a centre of mass from where it started [m]; not finite if a position is not
+  /// Largest distance of a centre of mass from where it started [m]; not finite if a position is not.
+  double moved = 0;
   double speed = 0;  ///< of the fastest body [m/s]
   int lost = 0;      ///< bodies below the ground
 };
@@ -77,8 +77,8 @@ struct PileRow {
 struct PileOptions {
   std::vector<std::string> piles{"pyramid", "tower", "pour"};
   std::vector<int> sizes;  ///< empty: pyramids of 30 and 100, a tower of 50, 1 000 to 10 000 poured bodies
-  int frames =
-      240;  ///< frames of 1/60 s until the first snapshot; the second is at five times as many (of `pour`: none)
+  /// Frames of 1/60 s until the first snapshot; the second is at five times as many (of `pour`: none)
+  int frames = 240;
   double limit = 120;  ///< no second snapshot if it would take longer [s]
   bool against_bullet = false;
   std::function<void(const PileRow&)> on_row;

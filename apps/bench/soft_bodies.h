@@ -17,8 +17,8 @@ struct SoftBodyRow {
   int substeps = 0;
   double median_ms = 0;  ///< of a frame: processor time; of two threads, time on the wall [ms]
   double ns = 0;         ///< median over projections of a frame [ns]
-  double ratio =
-      0;  ///< median, over the frames, of the plain loop's time over that of this row; "two threads": one thread's over this
+  /// Median, over the frames, of the plain loop's time over that of this row; "two threads": one thread's over this.
+  double ratio = 0;
   int inverted = 0;      ///< tetrahedra with a volume below 0 after the last frame
   double worst = 0;      ///< smallest volume over the rest volume, in any frame [-]
   double set_up_ms = 0;  ///< processor time to make the World [ms]

@@ -35,8 +35,8 @@ struct Sample {
   double milliseconds = 0;  ///< time of the whole substep, the least of several runs [ms]
   double residual = 0;      ///< root mean square of C + alpha~ lambda for the curve's constraint type, in the unit of C
   Stretch stretch;
-  bool of_next =
-      false;  ///< true if `milliseconds` are those of the next substep, because the first one after a restore rebuilds lists
+  /// True if `milliseconds` are those of the next substep, because the first one after a restore rebuilds lists.
+  bool of_next = false;
 };
 
 /// How one method converges in the substep.

@@ -24,8 +24,8 @@ struct BenchOptions {
   std::string workload;    ///< name of a workload; empty: all
   std::string against;     ///< "bullet" to measure it too; empty: not
   std::vector<int> sizes;  ///< numbers of vertices along a side; empty: 64, 128, 256, 512
-  std::optional<int>
-      frames;          ///< frames measured, after 20 that are not (not of `default`); none: 120, or those of a scene
+  /// Frames measured, after 20 that are not (not of `default`); none: 120, or those of a scene.
+  std::optional<int> frames;
   double limit = 120;  ///< time limit of a row of W3 [s]
   int threads = 0;     ///< threads of the second run; the first one uses one; 0: all hardware threads
   std::string json;    ///< file for the rows as JSON; empty: none

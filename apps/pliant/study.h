@@ -51,8 +51,8 @@ class StudyTable {
   std::vector<std::string> columns_;
   std::size_t keys_;
   std::vector<std::vector<std::string>> rows_;  ///< empty: not there yet
-  std::map<std::string, std::vector<std::string>>
-      earlier_{};  ///< rows of the file that no row replaces, by their values
+  /// Rows of the file that no row replaces, by their values.
+  std::map<std::string, std::vector<std::string>> earlier_{};
   std::chrono::steady_clock::time_point written_{};
 };
 

@@ -20,7 +20,8 @@ class WarningLog {
   const std::vector<std::string>& lines() const { return lines_; }
 
  private:
-  std::set<std::string> kinds_;  ///< texts of warnings that have occurred, without those numbers
+  /// Texts of warnings that have occurred, without those numbers.
+  std::set<std::string> kinds_;
   std::vector<std::string> lines_;
 };
 

@@ -27,11 +27,11 @@ struct BodyOptions {
   Vec3f velocity{};           ///< of the centre of mass [m/s]
   Vec3f angular_velocity{};   ///< in world axes [rad/s]
   float mass = 0;             ///< replaces the mass that densities give, > 0 [kg]; 0: by density; infinity: fixed
-  std::optional<BodyInertia>
-      inertia{};  ///< replaces mass, centre and inertia of the solids, of which there may then be none
-  bool kinematic =
-      false;        ///< infinite mass: nothing pushes or turns it; it follows `motion`, or ObjectHandle::set_pose
-  Motion motion{};  ///< of a kinematic body: moves it from `position` and `rotation`, as Collider::motion does
+  /// Replaces mass, centre and inertia of the solids, of which there may then be none.
+  std::optional<BodyInertia> inertia{};
+  /// Infinite mass: nothing pushes or turns it; it follows `motion`, or ObjectHandle::set_pose.
+  bool kinematic = false;
+  Motion motion{};           ///< of a kinematic body: moves it from `position` and `rotation`, as Collider::motion does
   Vec3f surface_velocity{};  ///< ObjectBody::surface_velocity [m/s]
 };
 

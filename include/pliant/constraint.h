@@ -50,8 +50,8 @@ struct ConstraintDefinition {
   std::vector<std::string> rest_fields;
   bool is_length = false;    ///< true if C is the distance of two points minus the only rest field
   bool is_compiled = false;  ///< true for built-in types of one row over points, which are projected sixteen at a time
-  bool is_joint =
-      false;  ///< true for bilateral joints of two bodies (point, frame, point, frame): trees of them are solved directly
+  /// True for bilateral joints of two bodies (point, frame, point, frame): trees of them are solved directly.
+  bool is_joint = false;
   bool is_tie = false;  ///< true if C is the way from a place on a body to a particle (slots body, frame, particle) [m]
   bool acts_on_motion = false;  ///< true if rows impose a speed of C; only with `evaluate_bounded`
   float largest_change = 0;     ///< largest change of C in one projection; 0: no limit

@@ -10,8 +10,8 @@ namespace pliant {
 
 /// Options of decompose.
 struct DecomposeOptions {
-  float tolerance =
-      0;  ///< by how much pieces may fill hollows of the mesh, >= 0 [m]; 0: 2 % of the mesh's longest side
+  /// By how much pieces may fill hollows of the mesh, >= 0 [m]; 0: 2 % of the mesh's longest side.
+  float tolerance = 0;
   int most_pieces = 32;   ///< 1 to 1024; where more would be needed, hollows are filled further
   int most_corners = 64;  ///< of each piece, 8 to 1024
   float density = 1000;   ///< > 0 [kg/m^3]

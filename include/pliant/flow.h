@@ -40,8 +40,8 @@ struct Flow {
   std::vector<Drain> drains;
   float lifetime = 0;  ///< for which a particle stays [s]; 0: for ever
   int spare = 0;       ///< how many of the last of Object::positions are not there at the start, but may be emitted
-  bool open =
-      false;  ///< true: they may come and go for other reasons. A World sets it for liquids that may soak in (Absorbency)
+  /// True: they may come and go for other reasons. A World sets it for liquids that may soak in (Absorbency)
+  bool open = false;
 
   /// True if particles can come or go.
   bool is_used() const { return !emitters.empty() || !drains.empty() || lifetime > 0 || spare > 0 || open; }

@@ -24,10 +24,10 @@ struct WorldData;
 struct ObjectInfo {
   std::string name;
   int particles = 0;
-  std::vector<std::pair<std::string, std::int64_t>>
-      constraints;  ///< number of constraints of each type, "volume" included
-  int substeps =
-      0;  ///< substeps per frame; 0: they follow the State. Fast colliders may increase them (Report::substeps)
+  /// Number of constraints of each type, "volume" included.
+  std::vector<std::pair<std::string, std::int64_t>> constraints;
+  /// Substeps per frame; 0: they follow the State. Fast colliders may increase them (Report::substeps)
+  int substeps = 0;
 };
 
 /// What a joint does to its body b, in world axes.

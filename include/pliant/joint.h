@@ -136,8 +136,8 @@ struct PlanarJoint {
   int a = -1, b = 0;
   Vec3f anchor{};
   Vec3f normal{0, 1, 0};
-  std::optional<Vec3f>
-      axis_x{};  ///< direction x in the plane, needed for limits and motors of x and y; y is normal x axis_x
+  /// Direction x in the plane, needed for limits and motors of x and y; y is normal x axis_x.
+  std::optional<Vec3f> axis_x{};
   std::optional<JointRange> x_limit{}, y_limit{}, turn_limit{};  ///< of the displacements [m], of the angle [rad]
   std::optional<JointMotor> x_motor{}, y_motor{}, turn_motor{};
   float slide_friction = 0, turn_friction = 0;  ///< greatest force along x and along y [N], greatest torque [N m]

@@ -19,8 +19,8 @@ struct Stiffness {
   enum class Kind { compliance, pbd };
   Kind kind = Kind::compliance;
   float value = 0;  ///< compliance alpha >= 0, or k in [0, 1]
-  float damping =
-      0;  ///< damping coefficient beta >= 0 of a compliance, in N s/m (the type's own unit), eq. 26 of the paper
+  /// Damping coefficient beta >= 0 of a compliance, in N s/m (the type's own unit), eq. 26 of the paper.
+  float damping = 0;
 
   static Stiffness rigid() { return {}; }
   static Stiffness compliance(float alpha, float beta = 0) { return {Kind::compliance, alpha, beta}; }
@@ -29,9 +29,9 @@ struct Stiffness {
 
 /// What a conversion between k and compliance depends on.
 struct ConversionContext {
-  float
-      inverse_mass;  ///< generalised: sum of w_i |grad_i C|^2 over all particles; 2/m for a distance of masses m [1/kg]
-  float dt;          ///< time step of a frame [s]
+  /// Generalised: sum of w_i |grad_i C|^2 over all particles; 2/m for a distance of masses m [1/kg]
+  float inverse_mass;
+  float dt;  ///< time step of a frame [s]
   int substeps = 1;
   int iterations = 1;
 };
@@ -85,12 +85,12 @@ struct Grains {
 /// docs/guide/wet_cloth.md explains it.
 struct Absorbency {
   float capacity = 0.5f;  ///< most liquid that it holds against gravity, > 0 [kg/m^2]
-  float uptake =
-      0.1f;  ///< speed at which liquid that touches it soaks in while it is not full; 0: it repels liquid [m/s]
+  /// Speed at which liquid that touches it soaks in while it is not full; 0: it repels liquid [m/s]
+  float uptake = 0.1f;
   float wicking = 1e-4f;  ///< diffusivity of the liquid along it; 0: the liquid stays where it is [m^2/s]
   float rise = 0.3f;      ///< how high it draws liquid up against gravity, > 0 [m]
-  float runoff =
-      0.05f;  ///< speed at which what is more than `capacity` runs down it, to where it drips off; 0: it stays [m/s]
+  /// Speed at which what is more than `capacity` runs down it, to where it drips off; 0: it stays [m/s]
+  float runoff = 0.05f;
   float seepage = 0;  ///< speed at which liquid that lies on it passes through where it is full; 0: it is tight [m/s]
   float drag = 0;     ///< rate at which liquid that touches it takes on its velocity, and the reverse [1/s]
 };
@@ -114,14 +114,14 @@ struct GasHeater {
 /// volume.
 struct Gas {
   float temperature = 293.15f;  ///< at the start [K]
-  float ambient_temperature =
-      293.15f;  ///< of the air around; Fluid::density is that of the gas at this temperature [K]
+  /// Of the air around; Fluid::density is that of the gas at this temperature [K]
+  float ambient_temperature = 293.15f;
   /// Of the air around; the gas is accelerated by -g (ambient_density / density T / ambient_temperature - 1) [kg/m^3].
   float ambient_density = 1.2f;
   float cooling_time = 0;  ///< time constant of cooling to the ambient temperature; 0: none [s]
   float diffusivity = 0;   ///< of heat [m^2/s]
-  float drag =
-      0;  ///< of the air on the surface: 1/time in which a particle without neighbours takes its velocity [1/s]
+  /// Of the air on the surface: 1/time in which a particle without neighbours takes its velocity [1/s]
+  float drag = 0;
   float vorticity = 0;  ///< confinement: accelerates by this times N x omega (Steinhoff and Underhill 1994) [m/s]
   std::vector<GasHeater> heaters{};
 };

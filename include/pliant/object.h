@@ -97,8 +97,8 @@ struct Cluster {
   std::vector<int> particles;  ///< two or more, none of them twice
   std::vector<Vec3f> rest;     ///< their rest shape [m]; empty: their initial positions
   Mode mode = Mode::rigid;
-  float share =
-      0.8f;  ///< of the deformation that `linear` and `quadratic` keep, 0..1; the rest of it is pulled back [-]
+  /// Of the deformation that `linear` and `quadratic` keep, 0..1; the rest of it is pulled back [-]
+  float share = 0.8f;
   /// Its compliance is per mass, alpha in s^2: particles swing about their places at 1 / (2 pi sqrt(alpha)) Hz,
   /// whatever their masses. Its damping is per mass too, in 1/s.
   Stiffness stiffness{};

@@ -47,7 +47,8 @@ class AnyConstraint;
 /// A system of particles and constraints, and the loop that solves it.
 class Solver {
  public:
-  Vec3d gravity{};     ///< acceleration of gravity [m/s^2]
+  /// Acceleration of gravity [m/s^2]
+  Vec3d gravity{};
   double damping = 0;  ///< rate at which velocities decay: by a factor exp(-damping) per second [1/s]
   int substeps = 1;    ///< substeps per step, >= 1
   int iterations = 1;  ///< iterations per substep, >= 1

@@ -107,8 +107,8 @@ struct WorstEstimates {
 
 /// Where the first value that is not finite arose.
 struct NonFinite {
-  std::string object,
-      element;             ///< "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step
+  /// "distance constraint 17 (particles 3, 4)", "particle 12"; no object: see World::step.
+  std::string object, element;
   std::int64_t frame = 0;  ///< number of complete frames before the error
   int substep = 0;         ///< index of the substep within the frame, from 0
 };
@@ -180,8 +180,8 @@ struct ContactEvent {
   Change change = Change::begin;
   Thing first, second;  ///< first < second; equal for self-contact
   int contacts = 0;     ///< largest number of active contacts in a substep; can be 0 for a liquid
-  double impulse =
-      0;             ///< sum of the magnitudes of their normal impulses over the frame, with those of restitution [N s]
+  /// Sum of the magnitudes of their normal impulses over the frame, with those of restitution [N s]
+  double impulse = 0;
   Vec3f position{};  ///< mean position of the contacts, weighted by impulse [m]
   Vec3f normal{};    ///< unit vector: mean direction of the push on `first`; zero if pushes cancel
   Vec3d push{};      ///< sum of their normal impulses on `first` over the frame [N s]
@@ -224,8 +224,8 @@ struct Torn {
 /// compliance or PBD stiffness are left out, because these open by design.
 struct TieGap {
   double gap = 0;  ///< distance of the particle from its place on the body [m]
-  double length =
-      0;  ///< mean length of the edges at the particle, or without edges its distance from the centre of mass [m]
+  /// Mean length of the edges at the particle, or without edges its distance from the centre of mass [m]
+  double length = 0;
   ObjectId object;
   int particle = -1,
       body = -1;  ///< in the object's own order, and an index in Object::bodies; -1: no rigid tie is open
@@ -258,8 +258,8 @@ struct ViscositySolves {
 /// How much of the surface tension of liquids acts, as the least of any liquid and substep of a frame
 /// (docs/guide/liquids.md).
 struct TensionActs {
-  float share =
-      1;  ///< of Fluid::surface_tension; below 1 where substeps are too long for it, and a warning says so [-]
+  /// Of Fluid::surface_tension; below 1 where substeps are too long for it, and a warning says so [-]
+  float share = 1;
 
   TensionActs& operator+=(const TensionActs& other) {
     share = other.share < share ? other.share : share;
@@ -287,8 +287,8 @@ struct Report {
   std::int64_t frame = 0;
   double time = 0;
   double milliseconds = 0;
-  int substeps =
-      0;  ///< substeps of this frame, with those that Settings::most_substeps permits; the most of any object
+  /// Substeps of this frame, with those that Settings::most_substeps permits; the most of any object.
+  int substeps = 0;
   std::vector<PhaseTime> phases;  ///< of sets that ran side by side the sum, which can exceed `milliseconds`
   std::int64_t contacts = 0;      ///< contacts with colliders and rigid bodies that were active in the last substep
   PairReport pairs;

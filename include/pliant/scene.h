@@ -58,8 +58,8 @@ struct RopeOptions {
   std::string name = "rope";
   float linear_density = 0.05f;  ///< mass per length [kg/m]
   Stiffness stretch{};
-  Stiffness bending =
-      Stiffness::compliance(1);  ///< stiffness between particles two links apart; used if `bends` is set
+  /// Stiffness between particles two links apart; used if `bends` is set.
+  Stiffness bending = Stiffness::compliance(1);
   bool bends = false;
   float thickness = 0.005f;  ///< radius [m]; two ropes keep the sum of their radii
 };
@@ -140,8 +140,8 @@ std::shared_ptr<const DistanceField> measure_distances(const TriangleMesh& mesh,
 struct PairProperties {
   std::string first, second;       ///< names of both; twice the same name: self-collision of that object
   std::optional<float> thickness;  ///< distance that the two keep [m]
-  std::optional<float> static_friction, kinetic_friction,
-      restitution;  ///< coefficients of friction and restitution [-]
+  /// Coefficients of friction and restitution [-]
+  std::optional<float> static_friction, kinetic_friction, restitution;
 };
 
 /// Moving air: a uniform wind whose speed varies periodically in gusts. It blows on triangles, and on bodies that are
@@ -223,12 +223,13 @@ struct SweepOptions {
   float relaxation = 1;  ///< omega in (0, 2), a factor of every multiplier change [-]
   Sharing sharing = Sharing::split;
   Acceleration acceleration = Acceleration::none;
-  int plain_iterations =
-      10;  ///< iterations of a substep before Chebyshev starts, 1..10000; at least 2 if rho is estimated
+  /// Iterations of a substep before Chebyshev starts, 1..10000; at least 2 if rho is estimated. A substep with no more
+  /// iterations than these is not accelerated.
+  int plain_iterations = 10;
   float spectral_radius = 0;  ///< spectral radius rho of the sweep in (0, 1); 0: estimated in each substep [-]
   bool tethers = false;  ///< limit the distance of particles from pins to that along the mesh (long-range attachments)
-  float tether_slack =
-      0;  ///< share by which tether lengths may be exceeded, 0..1000, for cloth that is meant to stretch [-]
+  /// Share by which tether lengths may be exceeded, 0..1000, for cloth that is meant to stretch [-]
+  float tether_slack = 0;
   /// For `chains`, 0..1000: regularisation of the solve of a straight path between two pins, as a share of the inverse
   /// of its mass. A link stretches by about this times g h^2 [-].
   float chain_softness = 0.1f;
@@ -285,8 +286,8 @@ struct Settings {
   bool separate_phases = false;
   bool measure = false;           ///< fill Report::residuals and stretch; costs about one more iteration a frame
   bool record_residuals = false;  ///< fill Report::convergence; slow: measures each iteration of the last substep
-  bool record_multipliers =
-      false;  ///< keep multipliers for ObjectView::multipliers even if the solver does not need them
+  /// Keep multipliers for ObjectView::multipliers even if the solver does not need them.
+  bool record_multipliers = false;
   /// "" for the fastest, or one that the build holds: "x86-64-v2", "-v3", "-v4", "generic"; or "sequential". The bits
   /// are the same.
   std::string isa;

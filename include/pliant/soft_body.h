@@ -67,8 +67,8 @@ struct SoftBodyOptions {
   Vec3f velocity{};          ///< at the start [m/s]
   float thickness = 0.001f;  ///< Object::thickness: distance that its surface keeps [m]
   std::optional<Fibres> fibres{};
-  std::optional<StrainLimit>
-      strain_limit{};  ///< of the edges of its tetrahedra; none: it stretches as far as it is pulled
+  /// Of the edges of its tetrahedra; none: it stretches as far as it is pulled.
+  std::optional<StrainLimit> strain_limit{};
 };
 
 /// Makes an elastic body of a tetrahedral mesh, which becomes its rest shape: of each tetrahedron a quarter of the mass

@@ -17,8 +17,8 @@ namespace pliant {
 
 /// Options of add_stitches.
 struct StitchOptions {
-  float closing_time =
-      0;  ///< until when the threads have shortened from the distance at the start to nothing; 0: at once [s]
+  /// Until when the threads have shortened from the distance at the start to nothing; 0: at once [s]
+  float closing_time = 0;
   Stiffness stiffness{};  ///< of the threads
   float break_force = 0;  ///< ConstraintGroup::break_force; 0: they hold [N]
 };

@@ -25,8 +25,8 @@ struct alignas(64) Contact {
   Vec3f normal{};   ///< unit vector from the second side to the first
   float gap = 0;    ///< value of C at the substep's start: distance minus `thickness` [m]
   Vec3f carried{};  ///< part of the relative displacement that is no motion: the points' rounding residues [m]
-  float approach =
-      0;  ///< relative normal velocity at the beginning of the substep; negative where the sides approach [m/s]
+  /// Relative normal velocity at the beginning of the substep; negative where the sides approach [m/s]
+  float approach = 0;
   Vec3f friction{};  ///< sum of this substep's tangential corrections [m]
   float push = 0;    ///< sum of this substep's normal corrections [m]
   float static_friction = 0, kinetic_friction = 0, restitution = 0;

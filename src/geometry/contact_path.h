@@ -112,8 +112,8 @@ class PathSearch {
  private:
   static constexpr int most_steps = 32;
   static constexpr double accuracy = 0.1;  ///< share of the slop
-  static constexpr double sideways =
-      1e-4;  ///< of motion whose share along the normal is less solids neither come nearer nor part
+  /// Of motion whose share along the normal is less solids neither come nearer nor part.
+  static constexpr double sideways = 1e-4;
   static constexpr double narrow = 1e-4;     ///< share of a leg
   static constexpr double frames_ahead = 4;  ///< in which is seen whether solids pass each other
 

@@ -50,6 +50,11 @@ void check_sweep(Problems& problems, const Settings& settings, bool uses_natural
     problems.grave("settings, sweep_options, plain_iterations",
                    "is 1, but the estimate of the spectral radius needs at least 2",
                    "set it to 2 or more, or give spectral_radius");
+  if (settings.iterations <= options.plain_iterations)
+    problems.doubtful("settings, sweep_options, acceleration",
+                      "has no effect: a substep has " + words(settings.iterations) + " iterations, and the first " +
+                          words(options.plain_iterations) + " are plain",
+                      "give more iterations than plain_iterations, or leave it out");
   if (uses_natural)
     problems.grave("settings, sweep_options, acceleration",
                    "is Chebyshev over Gauss-Seidel in natural order, which diverges: its iteration matrix is far from "

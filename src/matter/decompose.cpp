@@ -21,8 +21,8 @@ namespace pliant {
 namespace {
 
 constexpr float cells_along = 56;  ///< along the longest side
-constexpr float near_surface =
-    0.9f;  ///< nodes up to this share of a cell outside count as solid, so that thin walls do too
+/// Nodes up to this share of a cell outside count as solid, so that thin walls do too.
+constexpr float near_surface = 0.9f;
 constexpr float automatic = 0.02f;       ///< tolerance, as a share of the longest side
 constexpr int planes_per_axis = 12;      ///< that are tried, evenly spaced
 constexpr std::size_t most_places = 24;  ///< up to which all places of vertices are tried as well

@@ -44,8 +44,8 @@ struct AxisPlane {
 struct MeshPart {
   std::vector<std::array<Vec3f, 3>> triangles;
   std::vector<GridNode> solid;  ///< in the mesh, or within less than a cell of it
-  std::vector<GridNode>
-      hollow;  ///< outside of the mesh by more than the tolerance, but between the slabs of the others
+  /// Outside of the mesh by more than the tolerance, but between the slabs of the others.
+  std::vector<GridNode> hollow;
 
   /// Keeps only hollow nodes between the slabs.
   void drop_far_hollows();

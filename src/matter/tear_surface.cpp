@@ -153,8 +153,8 @@ class SurfaceTear {
   std::span<const Vec3f> positions_;
   Around around_;
   std::vector<char> held_, touched_;  ///< by particle
-  std::vector<std::vector<int>>
-      beside_;  ///< by particle: those at the other ends of its links that belong to no triangle
+  /// By particle: those at the other ends of its links that belong to no triangle.
+  std::vector<std::vector<int>> beside_;
   Breaks breaks_;
 };
 

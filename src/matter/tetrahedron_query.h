@@ -11,8 +11,8 @@ namespace pliant {
 
 struct PlaceInTetrahedron {
   int tetrahedron = 0;  ///< the first of those that are equally near
-  std::array<double, 4>
-      weights{};  ///< barycentric coordinates of the place; negative outside; of its first corner if it is flat
+  /// Barycentric coordinates of the place; negative outside; of its first corner if it is flat.
+  std::array<double, 4> weights{};
 };
 
 class TetrahedronQuery {

@@ -15,8 +15,8 @@ struct CompiledAbsorbency {
   /// both ends hold on an area.
   struct Edge {
     int a = 0, b = 0;  ///< particles in storage order, a < b
-    float weight =
-        0;  ///< half the cotangents of the opposite angles at rest (Pinkall and Polthier 1993), 0 if that is negative [-]
+    /// Half the cotangents of the opposite angles at rest (Pinkall and Polthier 1993), 0 if that is negative [-]
+    float weight = 0;
     float length = 0;  ///< at rest [m]
   };
   bool is_used = false;

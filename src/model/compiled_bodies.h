@@ -39,11 +39,11 @@ struct CompiledBodies {
   std::vector<Body> bodies;           ///< in the order of Object::bodies
   std::vector<Label> labels;          ///< likewise
   std::vector<CompiledSolid> solids;  ///< body after body
-  std::vector<std::pair<int, int>>
-      jointed;  ///< pairs of bodies with a constraint between them, which do not collide; sorted
+  /// Pairs of bodies with a constraint between them, which do not collide; sorted.
+  std::vector<std::pair<int, int>> jointed;
   std::vector<std::pair<int, int>> attached;  ///< particles and the bodies to which a constraint ties them; likewise
-  std::vector<double>
-      edge_lengths;  ///< [attached] mean length at the start of the edges at the particle; 0: it has none [m]
+  /// [attached] mean length at the start of the edges at the particle; 0: it has none [m]
+  std::vector<double> edge_lengths;
   std::vector<DrivenFrame> driven;                           ///< of bodies that follow their pins, by body
   std::vector<Vec3f> surface_velocities;                     ///< [body] in principal axes; empty if none has one [m/s]
   std::shared_ptr<const std::vector<Polyhedron>> polyhedra;  ///< what shapes point to; each different one once

@@ -66,8 +66,8 @@ struct Kinematic {
 /// The triangles of an object in storage order and the triangles at each particle, for volume and aerodynamic forces.
 struct Surface {
   std::vector<std::array<int, 3>> triangles;
-  std::vector<int>
-      corner_begin;  ///< particle p has corners corner_begin[p] .. corner_begin[p + 1]; empty without air and volume
+  /// Particle p has corners corner_begin[p] .. corner_begin[p + 1]; empty without air and volume.
+  std::vector<int> corner_begin;
   std::vector<int> corners;  ///< 3 * triangle + number of the corner, ascending for each particle
 };
 
@@ -81,8 +81,8 @@ struct CompiledVolume {
   float response = 0;  ///< compliance alpha or PBD stiffness k'
   float damping = 0;
   float lift = 0;  ///< Volume::lift [kg/m^3]
-  bool keeps_momentum =
-      false;  ///< true: its own constraints may not turn or move the object as a whole (solver/momentum.h)
+  /// True: its own constraints may not turn or move the object as a whole (solver/momentum.h)
+  bool keeps_momentum = false;
 
   /// The target at a time [s].
   double target_at(double time) const;
@@ -99,8 +99,8 @@ struct LengthRange {
 struct Additions {
   bool are_used = false;   ///< true: the schedule was kept
   int first_particle = 0;  ///< in storage; as many as there are particles if none were added
-  std::vector<char>
-      segments;  ///< 1 for each segment of constraints that were coloured by an edit; may be shorter than all
+  /// 1 for each segment of constraints that were coloured by an edit; may be shorter than all.
+  std::vector<char> segments;
 };
 
 /// The output of compile(). It has over thirty members, because each stage of a step reads a few of them.
@@ -116,8 +116,8 @@ struct CompiledObject {
   CompiledBodies bodies;
   std::vector<CompiledJoint> joints;  ///< in the order of Object::joints
   std::vector<Pool> pools;
-  std::vector<Segment>
-      segments;  ///< of tiles, then inter-tile constraints, then links of chains, then constraints projected one at a time
+  /// Of tiles, then inter-tile constraints, then links of chains, then constraints projected one at a time.
+  std::vector<Segment> segments;
   std::vector<Tile> tiles;
   std::vector<ObjectPhase> phases;  ///< phases sorted by driver; those of one driver by colour
   std::vector<ChainBatch> chains;

@@ -32,8 +32,8 @@ struct MultigridLevel {
   // first_round[s + 1]; a round has for each lane the finer block's row_of(slot, lane), or the finer level's
   // no_block(). Anchors are blocks between a row and a fixed particle.
   std::vector<std::int32_t> first_round, sources;
-  std::vector<std::int32_t> anchor_begin,
-      anchors;                         ///< blocks to fixed particles: list starts by 16 x batch + lane; lists
+  /// Blocks to fixed particles: list starts by 16 x batch + lane; lists.
+  std::vector<std::int32_t> anchor_begin, anchors;
   std::vector<std::int32_t> children;  ///< largest_group x 16 per batch: rows of the finer level, or its nothing()
 
   std::vector<std::int32_t> parent;  ///< by 16 x batch + lane: row of the next level, or its nothing()

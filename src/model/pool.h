@@ -28,8 +28,8 @@ struct Segment {
   std::int32_t runs = 0;  ///< bit s: slot s is contiguous, so a batch stores four indices for it instead of sixteen
   std::int32_t first_batch = 0;  ///< index of its first batch in the pool
   std::int32_t batches = 0;
-  std::int32_t last_count =
-      0;  ///< in the last batch: valid lanes (1..16), or groups of four (1..4) if a slot is contiguous; the rest is padding
+  /// In the last batch: valid lanes (1..16), or groups of four (1..4) if a slot is contiguous; the rest is padding.
+  std::int32_t last_count = 0;
   std::int64_t index_offset = 0;  ///< index of its first entry in Pool::indices
   bool is_of_one_body = false;    ///< ties of one body (solver/bodies/tied_body.h)
 };

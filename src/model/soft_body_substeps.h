@@ -25,8 +25,8 @@ int substeps_of_soft_body(const Object& object, double frame_time);
 
 /// What is said of a soft body's numbers before it runs.
 struct SoftBodyNumbers {
-  double strain_by_weight =
-      0;  ///< of its lowest layer: density gravity height / Young's modulus, taken as 2.6 shear moduli [-]
+  /// Of its lowest layer: density gravity height / Young's modulus, taken as 2.6 shear moduli [-]
+  double strain_by_weight = 0;
   double damping_time = 0;  ///< of the constraint on shear [s]
 };
 SoftBodyNumbers numbers_of_soft_body(const Object& object, const Vec3f& gravity);

@@ -18,8 +18,8 @@ struct SweepArguments {
   Record* displacements = nullptr;      ///< displacements since the substep's start; w is zero
   const Record* remainders = nullptr;   ///< rounding residues, with which displacements started
   float* const* multipliers = nullptr;  ///< multipliers of each pool; null if none are stored
-  const char* const* skipped =
-      nullptr;  ///< for each pool, by lane: 1 if the stencil driver leaves a constraint out; null: none
+  /// For each pool, by lane: 1 if the stencil driver leaves a constraint out; null: none.
+  const char* const* skipped = nullptr;
   const Record* velocities = nullptr;  ///< at the substep's start, without `gravity`
   Vec3f gravity{};                     ///< this frame's gravity that the velocities of finite masses lack [m/s]
   float h = 0, inverse_h = 0, inverse_h2 = 0;
@@ -30,8 +30,8 @@ struct SweepArguments {
   // For sweep_general only:
   float relaxation = 1;                  ///< factor omega of every multiplier change
   Record* const* corrections = nullptr;  ///< one array per pool, size x 16 records per batch: replaces displacements
-  const float* const* shares =
-      nullptr;  ///< for each pool: the share of a change that is added to the multiplier; null: the whole change
+  /// For each pool: the share of a change that is added to the multiplier; null: the whole change.
+  const float* const* shares = nullptr;
 };
 
 /// The displacement of a particle in a substep at the velocity of its start [m].

@@ -10,7 +10,6 @@
 
 namespace pliant::reference {
 
-/// A constraint as the reference solver sees it, whatever its type.
 /// One pass over the constraints.
 struct Pass {
   double h = 0;                          ///< length of the substep [s]
@@ -18,12 +17,12 @@ struct Pass {
   bool is_first = true, is_only = true;  ///< of the substep
 };
 
+/// A constraint as the reference solver sees it, whatever its type.
 class AnyConstraint {
  public:
   virtual ~AnyConstraint() = default;
   virtual void start_substep() = 0;
-  /// Projects the constraint once. `start` has the positions before the substep; `projections` is their number per
-  /// step.
+  /// Projects the constraint once. `start` has the positions before the substep.
   virtual void project(std::vector<Particle>& particles, const std::vector<Vec3d>& start, const Pass& pass) = 0;
   virtual double value(const std::vector<Particle>& particles) const = 0;
   virtual double multiplier() const = 0;

@@ -34,7 +34,8 @@ class ContactColours {
   const std::vector<std::int32_t>& start() const { return start_; }
 
  private:
-  std::vector<std::uint64_t> taken_;  ///< bit mask of the colours taken at each point; all 0 between calls
+  /// Bit mask of the colours taken at each point; all 0 between calls.
+  std::vector<std::uint64_t> taken_;
   std::vector<std::uint8_t> colour_;  ///< colour of each contact
   std::vector<std::int32_t> order_, start_;
 };

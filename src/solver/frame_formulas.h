@@ -122,8 +122,8 @@ template <class R>
 struct Spinning {
   using Applies = decltype(R{} > R{});
   bool anywhere;  ///< in some lane; if not, what follows is not set
-  Applies
-      applies;  ///< false where two moments of inertia do not agree to 1e-4, or the frame turns slowly and is not round
+  /// False where two moments of inertia do not agree to 1e-4, or the frame turns slowly and is not round.
+  Applies applies;
   Vec3<R> angle;  ///< about the angular momentum [rad]
   Quat<R> twist;  ///< about the axis
 

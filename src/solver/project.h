@@ -58,7 +58,7 @@ PLIANT_HD R led(const R& denominator, const R& rigid, const R& lead) {
 /// The inputs of a projection besides positions: compliance, damping, multiplier.
 template <class R>
 struct ConstraintResponse {
-  R softness;             ///< compliance alpha, or PBD stiffness k'
+  R softness;             ///< compliance alpha [m/N where C is a length], or PBD stiffness k' [-]
   R damping;              ///< damping coefficient beta
   R multiplier;           ///< lambda of this substep; updated by project
   bool is_kept = true;    ///< false: there is no multiplier, and what it would be is not asked

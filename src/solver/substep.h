@@ -37,8 +37,8 @@ struct Substep {
   bool update_is_due = false;        ///< true if update is deferred to the next predict (stages/advance.cpp)
   bool frames_are_finite = true;     ///< orientations after the last update, for objects that take part
   std::int64_t iterations_made = 0;  ///< iterations made in this frame
-  const SweepGroup* group =
-      nullptr;  ///< the sweep group that is being iterated; null: loops over swept objects visit every object
+  /// The sweep group that is being iterated; null: loops over swept objects visit every object.
+  const SweepGroup* group = nullptr;
 
   int least = 0, most = 0;     ///< bounds of substeps that follow the State; `most` is 0 if they are fixed
   int least_hanging = 0;       ///< replaces `least` in quarters in which the group hangs

@@ -29,8 +29,8 @@ struct SubstepGroup {
   int least_hanging = 0;    ///< where they do: what the finest object needs by its resolution
   bool has_all = true;      ///< true: all objects; stages then use the model's lists, and all below is empty
   int number = 0;           ///< index among the groups
-  std::shared_ptr<const std::vector<int>>
-      group_of_object{};                ///< of all groups: each object's group, -1 where it was removed
+  /// Of all groups: each object's group, -1 where it was removed.
+  std::shared_ptr<const std::vector<int>> group_of_object{};
   std::vector<int> objects{}, tiles{};  ///< ascending; indices of Model::objects and Model::tiles()
   std::vector<Phase> phases{};          ///< phases with the tasks of these objects only
   std::vector<Sweep> sweeps{};          ///< sweeps that these objects use

@@ -13,8 +13,8 @@ namespace pliant {
 
 inline constexpr int quarters = 4;                              ///< of a frame, in which substeps may differ
 inline constexpr int least_by_state = 12, most_by_state = 100;  ///< substeps per frame, unless the settings differ
-inline constexpr int most_of_ropes =
-    200;  ///< the same where there are only ropes, whose ends may crack like whips and cost little
+/// The same where there are only ropes, whose ends may crack like whips and cost little.
+inline constexpr int most_of_ropes = 200;
 inline constexpr int least_of_hanging = 6;  ///< the same where SubstepGroup::hangs
 
 /// True if the current substep is the last of a quarter.

@@ -28,8 +28,8 @@ inline constexpr std::int32_t any_set = -1;
 
 /// Which lanes of a batch are stored: all but in the last batch of a segment.
 struct ValidLanes {
-  std::int32_t
-      count;  ///< the first groups of four lanes if all slots of the segment are contiguous, the first lanes if none is
+  /// The first groups of four lanes if all slots of the segment are contiguous, the first lanes if none is.
+  std::int32_t count;
   bool whole;  ///< all sixteen; always if some slots are contiguous and others are not (topology/colouring.cpp)
 };
 

@@ -96,8 +96,8 @@ struct SubstepScratch {
 /// Memory that a World reuses from step to step. Over fifteen members: each stage of a substep has buffers of its own.
 struct Workspace {
   Records displacements;  ///< displacements since the substep's start [m]
-  std::vector<std::vector<AlignedVector<float>>>
-      multipliers;  ///< [object][pool], one float per lane; empty if not stored
+  /// [object][pool], one float per lane; empty if not stored.
+  std::vector<std::vector<AlignedVector<float>>> multipliers;
   std::vector<std::vector<float*>> multiplier_pointers;
   std::vector<char> stores_in_last;  ///< [object] 1: multipliers are stored in the last substep of a frame only
   std::vector<ObjectJoints> joints;  ///< [object]
@@ -119,8 +119,8 @@ struct Workspace {
   Records predicted;                       ///< predicted displacements, kept if residuals are recorded
   std::unique_ptr<SurfaceContact> pairs;   ///< contact between surfaces; null if no dynamic surface can touch another
   ShapeContacts shape_contacts;            ///< finds contacts of edges and triangles with primitive colliders
-  bool look_for_tangles =
-      true;                   ///< true: the next frame searches all initial intersections (first frame, restored State)
+  /// True: the next frame searches all initial intersections (first frame, restored State)
+  bool look_for_tangles = true;
   Records velocities_before;  ///< of the substep's start, before forces change them; only where there are forces [m/s]
   Records expected_velocities;  ///< velocities after the impacts of the next quarter (impacts.h) [m/s]
   std::vector<float> last_h;    ///< length of each object's last substep [s]; 0: none yet

@@ -21,8 +21,8 @@ struct CubeCase {
   std::uint8_t crossed_count = 0;
   std::array<std::array<std::uint8_t, 3>, most_triangles> triangles{};  ///< edges, counter-clockwise from outside
   std::array<std::uint8_t, 12> crossed{};                               ///< the edges that the surface crosses
-  std::array<std::uint8_t, 12>
-      next{};  ///< by edge: the one that follows it, where the surface leaves the cell through a face
+  /// By edge: the one that follows it, where the surface leaves the cell through a face.
+  std::array<std::uint8_t, 12> next{};
 };
 
 /// The corner at which an edge starts; it ends at the corner with the bit of its axis set.

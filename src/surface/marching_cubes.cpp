@@ -17,8 +17,8 @@ namespace pliant::surface {
 
 namespace {
 
-constexpr float least_share =
-    0.02f;  ///< of an edge between a vertex and a node, so that no triangle has two equal corners
+/// Of an edge between a vertex and a node, so that no triangle has two equal corners.
+constexpr float least_share = 0.02f;
 
 /// The crossed edges of a brick, by axis, and the number of the first vertex of each axis.
 struct BrickEdges {

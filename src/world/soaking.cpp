@@ -413,8 +413,8 @@ class Soaking {
   std::vector<ColliderId> colliders_ = world_.ids.colliders.all();
   std::vector<Touch> near_;
   float cell_size_ = 1;  ///< at least the least distance of a drop from others [m]
-  std::map<std::array<std::int64_t, 3>, std::vector<std::int64_t>>
-      cells_;                            ///< particles of liquids that are or were near
+  /// Particles of liquids that are or were near.
+  std::map<std::array<std::int64_t, 3>, std::vector<std::int64_t>> cells_;
   std::vector<int> begin_, neighbours_;  ///< of particles, along edges
   std::vector<char> visited_;
 };

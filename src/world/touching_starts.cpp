@@ -43,8 +43,8 @@ struct Part {
   bool has_sides = false, moves = false, is_closed = false, is_near_others = false;
   float tolerance = 0;  ///< below which a distance is rounding [m]
   BoxBounds bounds{};
-  std::vector<BoxBounds>
-      boxes;  ///< of the elements, grown by the tolerance; empty until they are needed, like the tree
+  /// Of the elements, grown by the tolerance; empty until they are needed, like the tree.
+  std::vector<BoxBounds> boxes;
   Tree<BoxBounds> tree;
 
   bool has(int vertex) const { return vertex >= first && vertex < end; }

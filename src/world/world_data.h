@@ -48,8 +48,8 @@ struct WorldGroups {
   BodyMeshes body_meshes;                   ///< shared by all groups
   std::vector<int> changed_surfaces;        ///< the numbers of these objects whose surface can touch something
   std::vector<int> changed;                 ///< the numbers of all of these objects
-  bool bodies_meet_others =
-      false;  ///< true if primitive colliders were added or removed, or joints broke, since the last step
+  /// True if primitive colliders were added or removed, or joints broke, since the last step.
+  bool bodies_meet_others = false;
   bool objects_changed = false;  ///< true if objects were added, removed or edited since the last step
 };
 
@@ -91,8 +91,8 @@ struct WorldData {
   OverstretchRecord overstretch;
   ConvergenceRecord convergence;
   WorldEvents events;
-  std::map<int, Object>
-      descriptions;  ///< by slot of their id: of objects that come apart, or of all if `kept_scene` is there
+  /// By slot of their id: of objects that come apart, or of all if `kept_scene` is there.
+  std::map<int, Object> descriptions;
   std::optional<KeptScene> kept_scene;
   std::vector<std::string> warnings;        ///< for the Report of the next step
   bool stopped = false;                     ///< true after a value that is not finite, until a State is restored

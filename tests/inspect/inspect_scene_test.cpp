@@ -484,5 +484,16 @@ TEST(InspectScene, NamesSheetsThatAreFarHeavierThanThoseTheyPressOn) {
   EXPECT_NE(text.find("`most_substeps` bounds what frames take"), std::string::npos) << text;
 }
 
+/// The first `plain_iterations` of a substep are not accelerated.
+TEST(InspectScene, NamesAnAccelerationThatNeverBegins) {
+  Scene scene;
+  scene.objects.push_back(make_rope({{0, 0, 0}, {0.1f, 0, 0}, {0.2f, 0, 0}}));
+  scene.settings.sweep_options.acceleration = SweepOptions::Acceleration::chebyshev;
+  scene.settings.iterations = 10;
+  EXPECT_NE(finding(scene, "acceleration, has no effect: a substep has 10 iterations, and the first 10 are plain"), "");
+  scene.settings.iterations = 11;
+  EXPECT_EQ(finding(scene, "has no effect"), "");
+}
+
 }  // namespace
 }  // namespace pliant

@@ -102,8 +102,8 @@ struct Outcome {
   double exchanged = 0;     ///< change of the second object's momentum [kg m/s]
   double linear = 0;        ///< change of the sum, over `exchanged`
   double angular = 0;       ///< the same of angular momentum about the centre of mass, over `exchanged` times 1 m
-  double about_origin =
-      0;           ///< the same about the origin: a lag of the centre of mass times the momentum would be in it
+  /// The same about the origin: a lag of the centre of mass times the momentum would be in it.
+  double about_origin = 0;
   double lag = 0;  ///< how far the centre of mass is from where its velocity at the start takes it [m]
   std::int64_t filtered = 0;
   std::size_t crossings = 0;

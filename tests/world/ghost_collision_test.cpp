@@ -160,8 +160,8 @@ struct GhostPath {
   float rise = 0;   ///< the most above where it began [m]
   float sunk = 0;   ///< the most below [m]
   float aside = 0;  ///< the most from the straight line [m]
-  float lost =
-      0;  ///< the most change of the horizontal velocity, or of the velocity without gravity; share of the speed
+  /// The most change of the horizontal velocity, or of the velocity without gravity; share of the speed.
+  float lost = 0;
 };
 
 GhostPath follow(Scene scene, const Ghost& of, BodyOptions options, const GhostMotion& motion, int frames,

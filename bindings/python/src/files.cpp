@@ -17,8 +17,8 @@ namespace {
 /// Writes frames of a World, as a context manager.
 struct Writer {
   SharedWorld world;
-  nb::object
-      target;  ///< a dict of files in memory or a file object, which the sink only borrows; null: files go to disk
+  /// A dict of files in memory or a file object, which the sink only borrows; null: files go to disk.
+  nb::object target;
   std::unique_ptr<FrameWriter> writer;
   bool is_finished = false, has_failed = false;
 

@@ -40,7 +40,8 @@ class ContactsBefore {
   }
 
  private:
-  static constexpr std::size_t most_steps = 8;  ///< beyond, a binary search is faster
+  /// Beyond, a binary search is faster.
+  static constexpr std::size_t most_steps = 8;
 
   const std::vector<BodyContact>& all_;
   std::size_t next_ = 0;

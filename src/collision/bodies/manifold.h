@@ -33,8 +33,8 @@ struct Manifold {
   float sliding = 1;                       ///< kinetic over static friction [-]
   float settles = 0;                       ///< of a contact that begins at rest: speed at which it slides [m/s]; else 0
   float rolling = 0, spinning = 0;         ///< greatest torque against rolling and spinning, per normal force [m]
-  std::array<float, 2>
-      drift{};  ///< velocity of b against a along the tangents at which friction holds: of their surfaces [m/s]
+  /// Velocity of b against a along the tangents at which friction holds: of their surfaces [m/s]
+  std::array<float, 2> drift{};
 
   std::array<float, 4> impulse{};           ///< of the points along the normal, in a substep [N s]
   float bounced = 0;                        ///< sum of what bounces gave along the normal, in a substep [N s]

@@ -15,8 +15,8 @@ namespace pliant {
 /// What limits the points of a flat part on a round one.
 struct Rocking {
   double height = 0;  ///< of points above the surface, at most [m]
-  double on_a =
-      0;  ///< angle that half of the flat part covers, seen from the centre of a round solid a, at most; 0: b does not rock
+  /// Angle that half of the flat part covers, seen from the centre of a round solid a, at most; 0: b does not rock.
+  double on_a = 0;
   double on_b = 0;     ///< the same of a round solid b
   double turning = 0;  ///< angle by which the round solid turns under the flat one [rad]
 };

@@ -21,7 +21,8 @@ class PointCells {
   void query(const BoxBounds& box, std::vector<std::int32_t>& found) const;
 
  private:
-  static constexpr int most_cells = 16;  ///< along an axis
+  /// Along an axis.
+  static constexpr int most_cells = 16;
 
   int cell_along(float x, int axis) const;
 

@@ -63,8 +63,8 @@ struct ContactSearch {
   const PointBounds& bounds;          ///< encloses the particles before and after the predicted displacement
   const std::vector<MovingCollider>& colliders;
   int (*find_near)(const NearQuery& query, std::int32_t* near);  ///< the kernel StepKernels::find_near
-  MakePointContacts make_contacts =
-      nullptr;  ///< ContactKernels::make_point_contacts, or null for one particle at a time
+  /// ContactKernels::make_point_contacts, or null for one particle at a time.
+  MakePointContacts make_contacts = nullptr;
   const std::vector<int>* near_colliders = nullptr;  ///< the colliders that may be near the tile, ascending; null: all
   NearPoints* near_points = nullptr;  ///< of the tile; null: all its particles are tested. Numbers as in the State
   int first_of_object = 0;            ///< the number of the object's first particle in `near_points`

@@ -24,11 +24,11 @@ struct ShapeContactSearch {
   const Model& model;
   const std::vector<MovingCollider>& colliders;
   FunctionRef<AdvanceArguments(int task)> particles;  ///< the particles of a task's tile
-  FunctionRef<const PointBounds&(int task)>
-      bounds;                               ///< encloses the tile's particles at the substep's start and predicted
+  /// Encloses the tile's particles at the substep's start and predicted.
+  FunctionRef<const PointBounds&(int task)> bounds;
   const std::vector<int>* tasks = nullptr;  ///< tasks whose tiles take part, ascending; null: all
-  const std::vector<const std::vector<int>*>* near_colliders =
-      nullptr;  ///< of each of `tasks` the colliders that may be near, ascending; null: all
+  /// Of each of `tasks` the colliders that may be near, ascending; null: all.
+  const std::vector<const std::vector<int>*>* near_colliders = nullptr;
 };
 
 /// Scratch memory of one thread.

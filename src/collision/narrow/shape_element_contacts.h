@@ -30,8 +30,8 @@ struct Meeting {
   int number = 0;  ///< index of the collider
   const PairMaterial& material;
   float thickness = 0;  ///< of the material [m]
-  float shortest_squared =
-      0;  ///< squared length; the interior of shorter edges is nearer than their ends by at most least_dip [m^2]
+  /// Squared length; the interior of shorter edges is nearer than their ends by at most least_dip [m^2]
+  float shortest_squared = 0;
 };
 
 /// Squared length up to which an edge dips by at most least_dip into a circle around solid and thickness [m^2]; 0: box.

@@ -30,8 +30,8 @@ class BoxSearch {
   struct Scratch {
     std::vector<std::int32_t> batches;
     std::vector<BoxHit> hits;
-    AlignedVector<PairStencils>
-        blocks;     ///< the pairs found, sixteen a block; unused lanes of the last one repeat a pair
+    /// The pairs found, sixteen a block; unused lanes of the last one repeat a pair.
+    AlignedVector<PairStencils> blocks;
     int found = 0;  ///< number of pairs found
     std::vector<Kept> kept;
   };

@@ -55,8 +55,8 @@ class ClusterMotions {
   const PairModel& model_;
   const PairKernels& kernels_;
   std::vector<ClusterMotion> motions_;
-  std::vector<float>
-      travel_;  ///< distance that each cluster has travelled relative to mean(), since begin_travel() [m]
+  /// Distance that each cluster has travelled relative to mean(), since begin_travel() [m]
+  std::vector<float> travel_;
   std::vector<float> extent_;
   std::vector<Sum> sums_;     ///< scratch memory of find_means
   std::vector<Vec3f> means_;  ///< for each set

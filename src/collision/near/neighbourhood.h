@@ -51,8 +51,8 @@ struct Neighbourhood {
   ClusterPairs pairs;
   StaticPairs static_pairs;
   std::vector<NearList> lists;
-  std::vector<std::int32_t>
-      order;  ///< indices of lists in use: vertex-triangle lists, then edge-edge lists, by clusters
+  /// Indices of lists in use: vertex-triangle lists, then edge-edge lists, by clusters.
+  std::vector<std::int32_t> order;
   std::vector<NearTask> tasks;
 
   Neighbourhood(const PairModel& of, const PairKernels& with)

@@ -87,11 +87,11 @@ struct VertexComparison {
 
 /// The motion of sixteen pairs in a substep.
 struct PairPaths {
-  alignas(64) float falls
-      [16];  ///< the sum of the residual motions of both sides; the distance decreases at most by this and by the
-             ///< relative rigid motion of the clusters [m]
-  alignas(64) float apart
-      [16];  ///< the largest separation, along any coordinate axis, of the swept boxes of the two sides [m]
+  /// The sum of the residual motions of both sides; the distance decreases at most by this and by the relative rigid
+  /// motion of the clusters [m]
+  alignas(64) float falls[16];
+  /// The largest separation, along any coordinate axis, of the swept boxes of the two sides [m]
+  alignas(64) float apart[16];
 };
 
 /// The clusters of both sides of a pair, exchanged in lanes of `swapped`, and the displacement of the reference frame.

@@ -65,8 +65,8 @@ struct PairModel {
   bool has_all = true;       ///< true if the members are all bodies of the World
   /// Corners of unused entries are -1. `vertices` stays empty: a vertex takes part in contact if it has a cluster.
   ContactElements elements;
-  std::vector<int>
-      free_points;  ///< particles of bodies without triangles and lines, ordered by body; they meet one another as spheres
+  /// Particles of bodies without triangles and lines, ordered by body; they meet one another as spheres.
+  std::vector<int> free_points;
   std::vector<int> points_at_lines;       ///< free particles that meet bodies of lines, ordered by body
   std::vector<std::array<int, 2>> lines;  ///< edges of bodies of lines that meet free particles, ordered by body
   /// Clusters: about 64 neighbouring vertices of one body, with the edges and triangles whose first vertex is one of

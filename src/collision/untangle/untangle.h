@@ -94,8 +94,8 @@ class Untangler {
   std::vector<int> piece_;          ///< index of the piece of each vertex on a wrong side
   std::vector<Push> pushes_;
   std::vector<char> led_;  ///< for each part, 1 if its speed is limited; empty: none is
-  std::vector<std::pair<int, float>>
-      speeds_;  ///< vertices of parts with a speed limit, and their predicted speeds [m/s]
+  /// Vertices of parts with a speed limit, and their predicted speeds [m/s]
+  std::vector<std::pair<int, float>> speeds_;
   std::int64_t inside_ = 0;
 };
 

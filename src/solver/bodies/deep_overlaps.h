@@ -29,8 +29,9 @@ class DeepOverlaps {
   void note(Substep& s, const ContactBodies& bodies, const BodyOverlap& deepest);
 
  private:
-  BodyOverlap deepest_{};  ///< of the last frame
-  int frames_ = 0;         ///< for how many frames it has been deep
+  /// Of the last frame.
+  BodyOverlap deepest_{};
+  int frames_ = 0;  ///< for how many frames it has been deep
 };
 
 }  // namespace pliant

@@ -58,9 +58,9 @@ class ManifoldBlocks {
                   FunctionRef<Manifold(int)> manifold);
 
   std::vector<ManifoldBlock> blocks_;
-  std::vector<int> start_ =
-      std::vector<int>(manifold_colours + 2, 0);  ///< first block of each colour, of the tail, and the end
-  std::vector<int> first_;                        ///< first manifold of each block, and the number of all
+  /// First block of each colour, of the tail, and the end.
+  std::vector<int> start_ = std::vector<int>(manifold_colours + 2, 0);
+  std::vector<int> first_;  ///< first manifold of each block, and the number of all
 };
 
 }  // namespace pliant

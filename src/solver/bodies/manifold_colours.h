@@ -31,7 +31,8 @@ class ManifoldColours {
   int tail() const { return start_[manifold_colours]; }
 
  private:
-  std::vector<std::uint32_t> taken_;  ///< bit mask of the colours taken at each body
+  /// Bit mask of the colours taken at each body.
+  std::vector<std::uint32_t> taken_;
   std::vector<std::uint8_t> colour_;  ///< of each manifold
   std::vector<int> order_, start_ = std::vector<int>(manifold_colours + 2, 0);
 };

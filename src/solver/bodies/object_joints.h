@@ -11,12 +11,12 @@ struct RodBundle;
 
 struct ObjectJoints {
   std::vector<int> broken;  ///< indices in CompiledObject::joints, ascending
-  std::vector<std::pair<int, int>>
-      freed;  ///< pairs of bodies that collide because all joints between them are broken; sorted
+  /// Pairs of bodies that collide because all joints between them are broken; sorted.
+  std::vector<std::pair<int, int>> freed;
   std::vector<std::vector<char>> is_broken;  ///< [pool][16 batch + lane] 1: part of a broken joint; empty: none
   std::vector<char> is_asleep;               ///< [body] 1: sleeps, so its constraints are left out; empty: none does
-  std::vector<std::vector<char>>
-      is_skipped;  ///< as is_broken, also of joints in `forests` and of bodies that sleep: the stencil driver leaves them out
+  /// As is_broken, also of joints in `forests` and of bodies that sleep: the stencil driver leaves them out.
+  std::vector<std::vector<char>> is_skipped;
   std::vector<const char*> skipped;  ///< pointers to the same; null: none of the pool. Empty: none at all
   std::vector<JointForest> forests;  ///< joints that are solved directly, those of connected bodies in one
   std::vector<RodBundle> bundles;    ///< those of the forests that are rods of equal shape

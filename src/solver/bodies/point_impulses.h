@@ -58,8 +58,8 @@ class PointImpulses {
 
   std::vector<Contact> contacts_;
   std::vector<float> impulses_;
-  std::vector<float>
-      bounced_;  ///< what respond gave beside them: the next substep's loads are not to take it for a weight
+  /// What respond gave beside them: the next substep's loads are not to take it for a weight.
+  std::vector<float> bounced_;
   std::vector<BodyProgress> progress_;  ///< of bodies
   PinchedPoints pinched_;
   bool pinched_are_found_ = false;  ///< among contacts_

@@ -84,9 +84,9 @@ class PointLoads {
 
   std::vector<TouchedBody> bodies_;
   std::vector<std::pair<int, int>> ties_;  ///< particles in the State, and bodies
-  std::vector<std::int32_t>
-      pressed_by_;            ///< [particle in the State] 1 + body that pressed at the last substep's end, or 0
-  std::vector<int> pressed_;  ///< particles with such an entry
+  /// [particle in the State] 1 + body that pressed at the last substep's end, or 0.
+  std::vector<std::int32_t> pressed_by_;
+  std::vector<int> pressed_;               ///< particles with such an entry
   std::vector<std::int32_t> of_particle_;  ///< [particle in the State] index in loads_, or -1
   std::vector<char> is_loaded_;            ///< [object]
   std::vector<Load> loads_, kept_;

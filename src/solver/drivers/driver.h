@@ -24,8 +24,8 @@ struct Pass {
   Order order = Order::forward;
   int number = 0;                           ///< index of this pass over the stencils within the iteration
   const std::vector<char>* only = nullptr;  ///< for each object, 1 if chains of it are solved; null: all
-  const std::vector<char>* tied =
-      nullptr;  ///< for each object, 1 if project_ties has begun its ties in this substep; null: none
+  /// For each object, 1 if project_ties has begun its ties in this substep; null: none.
+  const std::vector<char>* tied = nullptr;
 };
 
 struct PhaseDriver {

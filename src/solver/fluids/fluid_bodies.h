@@ -33,7 +33,8 @@ class FluidBodies {
             float mass);
 
  private:
-  std::vector<int> touched_;  ///< [body]
+  /// [body]
+  std::vector<int> touched_;
   std::vector<Vec3f> moved_, turned_;
 };
 

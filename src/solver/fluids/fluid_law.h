@@ -12,8 +12,8 @@ struct FluidLaw {
   float own = 0;             ///< a particle's own share of the rest density [-]
   float density_scale = 0;   ///< from a sum of q^3 to a density over that at rest [1/m^3]
   float gradient_scale = 0;  ///< from a sum of q^2 to a gradient: three times that [1/m^3]
-  float least_sum =
-      0;  ///< added to the squared gradients, so that a particle without neighbours has a multiplier [1/m^2]
+  /// Added to the squared gradients, so that a particle without neighbours has a multiplier [1/m^2]
+  float least_sum = 0;
   float laplacian = 0;  ///< sum of the weights of neighbours in a Laplacian, in a lattice at rest [1/m^2]
   float passed_on = 0;  ///< what first derivatives by the kernel are in a lattice at rest, over what they should be [-]
   float wall_scale = 0;  ///< from the share of the kernel behind a wall to what a wall stands for [-]

@@ -51,8 +51,8 @@ struct ChebyshevScratch : SweepScratch {
   ChebyshevIterate before, older;  ///< iterates x_k and x_(k-1)
   ChebyshevRecurrence recurrence;
   std::vector<double> tile_sums;  ///< sum of m |correction|^2 over each tile
-  std::vector<std::vector<Record>>
-      touching;  ///< for each tile, saved displacements of particles in contact, which are not extrapolated
+  /// For each tile, saved displacements of particles in contact, which are not extrapolated.
+  std::vector<std::vector<Record>> touching;
   std::vector<std::pair<int, Record>> touching_points;  ///< saved displacements at other contacts
 
   void prepare(const SweepSetup& setup, int object) override;

@@ -16,10 +16,10 @@ inline constexpr int spring_floats = 4 * batch_width;
 /// Matrix and vectors of a level in one solve. Records are padded to whole batches plus one zero record; their w is
 /// zero.
 struct MultigridValues {
-  AlignedVector<float>
-      blocks;  ///< negative off-diagonal blocks of all rows by slot: spring_floats or block_floats each
-  AlignedVector<float>
-      diagonal;                  ///< diagonal blocks of each batch without neighbours' part: inertia, contacts, anchors
+  /// Negative off-diagonal blocks of all rows by slot: spring_floats or block_floats each.
+  AlignedVector<float> blocks;
+  /// Diagonal blocks of each batch without neighbours' part: inertia, contacts, anchors.
+  AlignedVector<float> diagonal;
   AlignedVector<float> inverse;  ///< damped inverses of each batch's diagonal blocks, zero for fixed rows
   Records right, x, y;           ///< right-hand side, solution, scratch
   /// The blocks again, as records by row_of(slot, lane), for sums of the next level: g and k of springs; xx yy zz xy of
