@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
+
 #include <vector>
 
 #include "pliant/body.h"
