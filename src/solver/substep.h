@@ -3,6 +3,7 @@
 
 #include "core/at.h"
 #include "solver/step.h"
+#include "solver/ways_out.h"
 
 namespace pliant {
 
@@ -40,14 +41,15 @@ struct Substep {
   /// The sweep group that is being iterated; null: loops over swept objects visit every object.
   const SweepGroup* group = nullptr;
 
-  int least = 0, most = 0;     ///< bounds of substeps that follow the State; `most` is 0 if they are fixed
-  int least_hanging = 0;       ///< replaces `least` in quarters in which the group hangs
-  bool hangs = false;          ///< true if it does in this quarter: SubstepGroup::hangs, and its tethers hold
-  int made = 0;                ///< substeps made in this frame
-  int failed_in = -1;          ///< the substep of this frame in which a value was not finite; -1: none
-  bool is_guarded = false;     ///< true in quarters with over 1.25 times the substeps of the last one
-  double substeps_before = 0;  ///< per frame in the last quarter; 0: none
-  float velocity_share = 1;    ///< share of the corrections that the update turns into velocity
+  int least = 0, most = 0;         ///< bounds of substeps that follow the State; `most` is 0 if they are fixed
+  int least_hanging = 0;           ///< replaces `least` in quarters in which the group hangs
+  bool hangs = false;              ///< true if it does in this quarter: SubstepGroup::hangs, and its tethers hold
+  int made = 0;                    ///< substeps made in this frame
+  std::vector<WayOut> ways_out{};  ///< in this frame, of objects that started it inside of a collider
+  int failed_in = -1;              ///< the substep of this frame in which a value was not finite; -1: none
+  bool is_guarded = false;         ///< true in quarters with over 1.25 times the substeps of the last one
+  double substeps_before = 0;      ///< per frame in the last quarter; 0: none
+  float velocity_share = 1;        ///< share of the corrections that the update turns into velocity
   const std::vector<Task>* own_lengths = nullptr;  ///< SubstepGroup::lengths; null: none
 
   /// The distances that the limit and the law of substeps apply to.

@@ -39,7 +39,8 @@ struct alignas(64) TileScratch {
   std::vector<std::int32_t> near;                              ///< particles that a collider could touch
   PointBounds bounds;
   bool finite = true;
-  int impacts = 0;  ///< on colliders, within the next quarter of a frame (impacts.h)
+  std::vector<std::pair<int, int>> inside;  ///< colliders and particles inside of them (collider_depenetration.h)
+  int impacts = 0;                          ///< on colliders, within the next quarter of a frame (impacts.h)
   CorrectionEnergy energy;
   double gradient_squared = 0, position_along = 0, motion_along = 0;  ///< sums of the volume constraint
   RigidSums rigid;                                                    ///< of inflated objects
@@ -76,6 +77,13 @@ struct ImpactScratch {
   std::vector<char> goes_on, again;
 };
 
+/// What the speeds of an object's particles are limited to in a substep (collider_depenetration.h).
+struct SpeedLimit {
+  int object = 0;
+  float most = 0;             ///< [m/s]
+  std::vector<float> speeds;  ///< at the substep's start, which may be higher [m/s]
+};
+
 /// Scratch data of a substep of a group. Nothing lasts for the next one, so groups that take turns share it; groups
 /// that run side by side have one for each thread.
 struct SubstepScratch {
@@ -89,6 +97,7 @@ struct SubstepScratch {
   FreeBodies free;  ///< objects on which nothing fixed acts in the substep (free_objects.h)
   std::vector<VertexDisplacement> without_velocity;  ///< of displacements, what is not to become velocity
   ImpactScratch impacts;
+  std::vector<SpeedLimit> speed_limits;
   LimitScratch limit;                  ///< the limit of overstretch
   std::vector<RigidStep> rigid_steps;  ///< [object] if it is inflated (momentum.h)
 };

@@ -363,15 +363,10 @@ int find_near(const ContactSearch& search, int number, float thickness, std::vec
 
 }  // namespace
 
-namespace {
-
-/// True if an object and a collider can meet. Primitive colliders meet every object.
 bool meet(const CompiledObject& object, const MovingCollider& collider) {
   if (object.is_collider) return false;
   return collider.field == nullptr || ((object.groups & collider.mask) != 0 && (collider.groups & object.mask) != 0);
 }
-
-}  // namespace
 
 namespace {
 

@@ -49,6 +49,9 @@ PairMaterial material_of(const CompiledObject& object, const MovingCollider& col
 /// That thickness without the collider's own [m].
 float thickness_of(const CompiledObject& object, const MovingCollider& collider);
 
+/// True if an object and a collider can meet. Primitive colliders meet every object.
+bool meet(const CompiledObject& object, const MovingCollider& collider);
+
 /// Adds what a collider's surface moves along itself to the motion of a contact with it.
 void add_slide(const MovingCollider& collider, Contact& contact);
 

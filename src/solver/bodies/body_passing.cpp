@@ -114,6 +114,7 @@ bool BodyPassing::stop_once(Substep& s, const Parts& parts, bool is_first, Stop 
   if (swept.has_fast()) swept.detect(s, surfaces, solids.moving(), meets, more);
   const PassingFilter::Moved moved{is_first ? nullptr : &moved_solids_, &moved_vertices_, is_first ? 0 : farthest_};
   filter_.find(s, surfaces, solids.moving(), moved, meets, more);
+  std::erase_if(more, [&](const Contact& c) { return parts.led_out.leads_out(s, parts.solids, c); });
   if (more.empty()) return false;
   const std::size_t first = impulses.append(more);
   if (by == Stop::back || by == Stop::bodies_back) {
@@ -224,7 +225,7 @@ void BodyPassing::warn_of_overlaps(const Substep& s, const Found& found, std::ve
   for (const PassingFilter::Overlap& overlap : filter_.overlaps()) {
     const int body = solids.body_of_solid()[at(overlap.solid)];
     const auto is_told = [&](const PointDepenetration::Inside& inside) {
-      return inside.object == overlap.object && solids.body_of_solid()[at(inside.solid)] == body;
+      return inside.way.object == overlap.object && solids.body_of_solid()[at(inside.way.solid)] == body;
     };
     if (std::any_of(found.inside.begin(), found.inside.end(), is_told)) continue;
     Between& between = all[{overlap.object, body}];

@@ -29,6 +29,7 @@ class BodyPassing {
     SweptContacts& swept;
     PointImpulses& impulses;
     const std::vector<BodyMotion>& motions;  ///< inverse masses and inertias of bodies
+    const PointDepenetration& led_out;       ///< what may pass, as it is being led out
   };
 
   void begin_frame() { filter_.begin_frame(); }

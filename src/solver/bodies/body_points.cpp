@@ -78,11 +78,11 @@ void BodyPoints::detect(Substep& s) {
 }
 
 void BodyPoints::stop_passing(Substep& s, const std::vector<BodyMotion>& motions) {
-  if (has_any()) passing_.stop_passing(s, {solids_, surfaces_, swept_, impulses_, motions});
+  if (has_any()) passing_.stop_passing(s, {solids_, surfaces_, swept_, impulses_, motions, depenetration_});
 }
 
 void BodyPoints::hold_bodies(Substep& s, const std::vector<BodyMotion>& motions) {
-  if (has_any()) passing_.hold_bodies(s, {solids_, surfaces_, swept_, impulses_, motions});
+  if (has_any()) passing_.hold_bodies(s, {solids_, surfaces_, swept_, impulses_, motions, depenetration_});
 }
 
 }  // namespace pliant

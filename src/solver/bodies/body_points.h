@@ -39,6 +39,7 @@ class BodyPoints {
   /// The contacts of the substep.
   const PointImpulses& impulses() const { return impulses_; }
   PointLoads& loads() { return loads_; }
+  const std::vector<PointDepenetration::Inside>& inside() const { return depenetration_.inside(); }
 
   /// Starts a frame: forgets contacts, because a State does not have them.
   void begin_frame(const Substep& s);

@@ -81,6 +81,8 @@ class BodySolver {
   const BodyIslands& find_islands(const Substep& s);
   /// Share of the corrections that becomes velocity.
   VelocityShares& velocity_shares() { return shares_; }
+  /// What is deep inside of a body in this substep.
+  const std::vector<PointDepenetration::Inside>& points_inside() const { return points_.inside(); }
   const std::vector<Contact>& point_contacts() const { return points_.impulses().contacts(); }
   /// The pass over velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
   void respond(Substep& s, FunctionRef<Vec3f(int object)> gravity);

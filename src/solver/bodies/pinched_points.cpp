@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solver/bodies/body_math.h"
 #include "solver/substep.h"
@@ -29,21 +30,22 @@ struct PinchSide {
   BodyProgress* progress = nullptr;
 };
 
-PinchSide side_of(const Substep& s, Contact& c, float sign) {
+/// `displacements`: those that the contact's points are indices of.
+PinchSide side_of(Contact& c, float sign, const Record* displacements) {
   PinchSide out;
   out.contact = &c;
   out.sign = sign;
   out.normal = c.normal * sign;
-  out.moved = relative(c, s.work.displacements.data()) * sign;
+  out.moved = relative(c, displacements) * sign;
   out.predicted = c.surface_motion * sign;
   out.slip = out.moved - (c.carried + c.surface_motion) * sign;
   return out;
 }
 
 PinchSide side_of_body(const Substep& s, const PinchedPoints::Parts& parts, Contact& c) {
-  PinchSide out = side_of(s, c, 1);
-  const int number = parts.solids.number_of(c);
   const Record *positions = s.state.positions.data(), *displacements = s.work.displacements.data();
+  PinchSide out = side_of(c, 1, displacements);
+  const int number = parts.solids.number_of(c);
   BodyProgress& p = parts.progress[at(number)];
   out.progress = &p;
   out.motion = parts.motions[at(number)];
@@ -53,6 +55,15 @@ PinchSide side_of_body(const Substep& s, const PinchedPoints::Parts& parts, Cont
   out.moved -= of_body;
   out.slip -= of_body;
   return out;
+}
+
+/// The contact of a vertex with a collider in the list of its tile, which is ordered by collider, then by particle;
+/// null if there is none. `particle`: its number in its object.
+Contact* contact_in_tile(std::vector<Contact>& contacts, int collider, int particle) {
+  const auto place = [](const Contact& c) { return std::pair{c.collider, c.point[0]}; };
+  const auto found = std::lower_bound(contacts.begin(), contacts.end(), std::pair{collider, particle},
+                                      [&](const Contact& c, const auto& wanted) { return place(c) < wanted; });
+  return found != contacts.end() && place(*found) == std::pair{collider, particle} ? &*found : nullptr;
 }
 
 /// The displacement of a side's place by an impulse on it.
@@ -154,8 +165,26 @@ void PinchedPoints::find_at_meshes(const Substep& s, const std::vector<Contact>&
         std::lower_bound(touches_.begin(), touches_.end(), vertex, [](const Touch& t, int v) { return t.vertex < v; });
     for (; touch != touches_.end() && touch->vertex == vertex; ++touch)
       if (side * dot(contacts[at(touch->contact)].normal, all[n].normal) < opposite)
-        pinches_.push_back({touch->contact, static_cast<int>(n), true, side});
+        pinches_.push_back({touch->contact, static_cast<int>(n), Other::mesh, side});
   }
+}
+
+/// At primitive colliders, distance grids and heightfields, whose contacts each tile has.
+void PinchedPoints::find_at_colliders(const Substep& s, const std::vector<Contact>& contacts) {
+  const int colliders = static_cast<int>(s.own->colliders.size());
+  auto touch = touches_.begin();
+  for_each_tile(s, [&](int task) {
+    std::vector<Contact>& of_tile = s.work.tiles[at(task)].contacts;
+    const int first = s.model.first[at(s.model.tiles()[at(task)].object)];
+    const int begin = first + tile_of(s, task).first_particle, end = first + tile_of(s, task).last_particle;
+    while (touch != touches_.end() && touch->vertex < begin) ++touch;
+    for (; touch != touches_.end() && touch->vertex < end; ++touch)
+      for (int c = 0; c < colliders && !of_tile.empty(); ++c) {
+        const Contact* const other = contact_in_tile(of_tile, c, touch->vertex - first);
+        if (other != nullptr && dot(contacts[at(touch->contact)].normal, other->normal) < opposite)
+          pinches_.push_back({touch->contact, c, Other::collider, 1, task});
+      }
+  });
 }
 
 void PinchedPoints::find(const Substep& s, const BodySolids& solids, const std::vector<Contact>& contacts) {
@@ -167,17 +196,29 @@ void PinchedPoints::find(const Substep& s, const BodySolids& solids, const std::
   std::stable_sort(touches_.begin(), touches_.end(),
                    [](const Touch& a, const Touch& b) { return a.vertex < b.vertex; });
   find_between_bodies(solids, contacts);
-  if (!touches_.empty() && s.has_pairs()) find_at_meshes(s, contacts);
+  if (touches_.empty()) return;
+  if (s.has_pairs()) find_at_meshes(s, contacts);
+  if (!s.own->colliders.empty()) find_at_colliders(s, contacts);
 }
 
 void PinchedPoints::project(Substep& s, const Parts& parts, const Pinch& pinch) const {
   Contact& first = parts.contacts[at(pinch.contact)];
+  const int vertex = first.point[0];
   const PinchSide a = side_of_body(s, parts, first);
-  const PinchSide b = pinch.is_mesh ? side_of(s, s.pairs->contacts()[at(pinch.other)], pinch.side)
-                                    : side_of_body(s, parts, parts.contacts[at(pinch.other)]);
-  const float along = join(a, b, s.state.positions[at(first.point[0])].w) / s.h;
+  PinchSide b;
+  if (pinch.kind == Other::body) {
+    b = side_of_body(s, parts, parts.contacts[at(pinch.other)]);
+  } else if (pinch.kind == Other::mesh) {
+    b = side_of(s.pairs->contacts()[at(pinch.other)], pinch.side, s.work.displacements.data());
+  } else {
+    const int begin = s.model.first[at(s.model.object_of(vertex))];
+    Contact* const other = contact_in_tile(s.work.tiles[at(pinch.task)].contacts, pinch.other, vertex - begin);
+    if (other == nullptr) return;
+    b = side_of(*other, pinch.side, s.work.displacements.data() + begin);
+  }
+  const float along = join(a, b, s.state.positions[at(vertex)].w) / s.h;
   parts.impulses[at(pinch.contact)] += along;
-  if (!pinch.is_mesh) parts.impulses[at(pinch.other)] += along;
+  if (pinch.kind == Other::body) parts.impulses[at(pinch.other)] += along;
 }
 
 void PinchedPoints::project(Substep& s, const Parts& parts, const std::vector<char>* of) const {

@@ -1,4 +1,4 @@
-// Vertices that two bodies, or a body and a mesh collider, press on from opposite sides.
+// Vertices that two bodies, or a body and a collider, press on from opposite sides.
 //
 // A light vertex passes little of what one side does on to the other in a pass: a crate of 8 500 of its masses would
 // have to be projected a thousand times until its weight and its friction reach the table beneath the cloth. So both
@@ -36,18 +36,21 @@ class PinchedPoints {
     std::vector<BodyProgress>& progress;
   };
 
-  /// Finds them among the contacts of a substep, with bodies and with mesh colliders.
+  /// Finds them among the contacts of a substep, with bodies and with colliders.
   void find(const Substep& s, const BodySolids& solids, const std::vector<Contact>& contacts);
   /// Projects each, in the order of vertices. Contacts have been projected, and are those for which pinched vertices
   /// were found. Unless `of` is null only vertices of the objects for which it is not zero.
   void project(Substep& s, const Parts& parts, const std::vector<char>* of) const;
 
  private:
+  /// What presses from the other side.
+  enum class Other { body, mesh, collider };
   struct Pinch {
-    int contact = 0;       ///< with the body
-    int other = 0;         ///< with the other body, or of SurfaceContact with a mesh collider
-    bool is_mesh = false;  ///< the latter
-    float side = 1;        ///< -1: the vertex is on the second side of that one
+    int contact = 0;  ///< with the body
+    int other = 0;    ///< contact with the other body, of SurfaceContact with a mesh collider, or the other collider
+    Other kind = Other::body;
+    float side = 1;  ///< -1: the vertex is on the second side of that one
+    int task = 0;    ///< tile of a contact with another collider
   };
   /// A contact of a vertex by its index.
   struct Touch {
@@ -56,6 +59,7 @@ class PinchedPoints {
 
   void find_between_bodies(const BodySolids& solids, const std::vector<Contact>& contacts);
   void find_at_meshes(const Substep& s, const std::vector<Contact>& contacts);
+  void find_at_colliders(const Substep& s, const std::vector<Contact>& contacts);
   void project(Substep& s, const Parts& parts, const Pinch& pinch) const;
 
   std::vector<Pinch> pinches_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "solver/collider_depenetration.h"
 #include "solver/contact_kernels.h"
 #include "solver/drivers/driver.h"
 #include "solver/object_lookup.h"
@@ -36,6 +37,7 @@ void find_more_in_tile(Substep& s, int task) {
   find_contacts(
       {object, a, scratch.bounds, s.own->colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
       scratch.near, scratch.more_contacts);
+  follow_ways_out(s, task, scratch.more_contacts);
   const auto is_shallow = [&](const Contact& c) {
     const Record& d = a.displacements[c.point[0]];
     const float thickness = object.thickness + s.own->colliders[c.collider].thickness;

@@ -9,6 +9,7 @@
 #include "math/motion.h"
 #include "solver/bodies/body_solver.h"
 #include "solver/bodies/joint_forest.h"
+#include "solver/collider_depenetration.h"
 #include "solver/contact_kernels.h"
 #include "solver/drivers/lanes.h"
 #include "solver/forces.h"
@@ -27,7 +28,7 @@ bool settles(const Substep& s) { return s.is_last() || ends_quarter(s); }
 /// deferred. Nor is it where a share of the corrections becomes velocity, because the pass of both knows one h.
 bool velocities_are_read(const Substep& s) {
   return settles(s) || s.is_guarded || s.has_pairs() || s.bodies != nullptr || s.fluids != nullptr ||
-         s.grains != nullptr || s.gases != nullptr || !s.own->shape_contacts.empty() ||
+         s.grains != nullptr || s.gases != nullptr || !s.ways_out.empty() || !s.own->shape_contacts.empty() ||
          has_forces(s.model, s.work.control) || s.context.separate_phases;
 }
 
@@ -107,6 +108,7 @@ void predict_tile(const Substep& s, int task, void (*move)(const AdvanceArgument
   if (bounds == nullptr) return;
   find_contacts({object, a, *bounds, s.own->colliders, s.kernels.find_near, s.kernels.contacts.make_point_contacts},
                 scratch.near, scratch.contacts);
+  follow_ways_out(s, task, scratch.contacts);
 }
 
 /// Ends one substep of a tile and starts the next. Returns false, and changes nothing, if a displacement is not finite.

@@ -1,5 +1,6 @@
 #include "model/surface_velocity.h"
 #include "solver/bodies/body_solver.h"
+#include "solver/collider_depenetration.h"
 #include "solver/fluids/fluid_solver.h"
 #include "solver/grains/grain_solver.h"
 #include "solver/stages/stages.h"
@@ -18,6 +19,7 @@ void collide_with_shapes(Substep& s) {
   s.work.shape_contacts.detect(
       s.context.executor,
       {s.model, s.own->colliders, particles_of, bounds_of, s.part == nullptr ? nullptr : &s.part->tiles}, found);
+  drop_elements_inside(s, found);
   s.own->shape_contact_solver.begin(s.kernels.contacts, found, 0, s.state.positions.data(), s.state.positions.size());
 }
 
@@ -43,6 +45,7 @@ void add_slides_of_meshes(Substep& s) {
 void collide(Substep& s) {
   collide_with_shapes(s);
   if (s.bodies != nullptr) s.bodies->collide(s);
+  note_speeds(s);
   if (s.fluids != nullptr) s.fluids->collide(s);
   if (s.grains != nullptr) s.grains->collide(s);
   if (!s.has_pairs()) return;

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "solver/bodies/body_solver.h"
+#include "solver/collider_depenetration.h"
 #include "solver/fluids/fluid_solver.h"
 #include "solver/gases/gas_solver.h"
 #include "solver/stages/stages.h"
@@ -63,14 +64,8 @@ void respond_to_shapes(Substep& s, float slow, FunctionRef<Vec3f(int object)> gr
       });
 }
 
-}  // namespace
-
-void respond(Substep& s) {
+void respond_to_all(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
   const float slow = 2 * length(s.model.gravity) * s.h;
-  const bool is_settled = s.is_last() || ends_quarter(s);
-  const auto gravity = [&](int object) {
-    return is_settled ? Vec3f{} : gravity_for(s, s.work.gravity[object].settled);
-  };
   if (s.bodies != nullptr) s.bodies->respond(s, gravity);
   if (s.bodies != nullptr && s.work.contact_log != nullptr) s.bodies->log_contacts(s, *s.work.contact_log);
   respond_to_shapes(s, slow, gravity);
@@ -83,6 +78,17 @@ void respond(Substep& s) {
   });
   if (s.pairs->has_impacts()) end_impacts(s, gravity, slow);
   s.pairs->limit_untangling(velocities, gravity);
+}
+
+}  // namespace
+
+void respond(Substep& s) {
+  const bool is_settled = s.is_last() || ends_quarter(s);
+  const auto gravity = [&](int object) {
+    return is_settled ? Vec3f{} : gravity_for(s, s.work.gravity[object].settled);
+  };
+  respond_to_all(s, gravity);
+  limit_speeds(s, gravity);
 }
 
 }  // namespace pliant
