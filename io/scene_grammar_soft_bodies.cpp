@@ -54,7 +54,11 @@ const Record& tetrahedral_box_record() {
   static const Record result{"box of tetrahedra",
                              "A box about the origin, of cubes that are cut into six tetrahedra each.",
                              {needed("size", positive_vector("m", largest_place), "Sizes along x, y and z."),
-                              needed("cells", list(integer(1, 1 << 20), 3, 3), "Number of cubes along x, y and z.")},
+                              needed("cells", list(integer(1, 1 << 20), 3, 3), "Number of cubes along x, y and z."),
+                              field("cut", choice({"alike", "mirrored"}), "alike",
+                                    "Whether all cubes are cut along the same diagonal, or those on both sides of the "
+                                    "middle as mirror images, so that what is dropped level bounces up and not aside. "
+                                    "Give even numbers of cubes then.")},
                              {}};
   return result;
 }

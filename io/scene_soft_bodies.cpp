@@ -54,7 +54,9 @@ TetrahedralMesh box_of(const JsonDocument& document, const JsonValue& at) {
   }
   if (tetrahedra > most_tetrahedra)
     document.fail(list, "more than " + std::to_string(most_tetrahedra) + " tetrahedra", "use fewer cells");
-  return box_tetrahedra(size, cells);
+  std::string cut;
+  set(at, "cut", cut);
+  return box_tetrahedra(size, cells, cut == "mirrored" ? BoxCut::mirrored : BoxCut::alike);
 }
 
 /// Names of repairs in a scene: of an object, and of the file if it was read from one.

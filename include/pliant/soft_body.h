@@ -86,9 +86,15 @@ std::vector<std::array<int, 4>> tetrahedra_of(const Object& object);
 /// a tetrahedron that shares a face with two others.
 std::vector<std::array<int, 3>> border_triangles(const TetrahedralMesh& mesh);
 
-/// A box about the origin of `cells` cubes along each axis, each cut into six tetrahedra about one diagonal (Kuhn
-/// 1960), so that faces match. Throws an Error unless the sizes are positive and there are 1 to 2^24 cells.
-TetrahedralMesh box_tetrahedra(const Vec3f& size, const std::array<int, 3>& cells);
+/// How the cubes of a box are cut into six tetrahedra about a diagonal.
+enum class BoxCut {
+  alike,    ///< all along the same diagonal: what is dropped level bounces aside (docs/internals/solids.md)
+  mirrored  ///< as mirror images on both sides of the middle of each axis, if the number of cubes along it is even
+};
+
+/// A box about the origin of `cells` cubes along each axis, each cut into six tetrahedra about a diagonal (Kuhn 1960),
+/// so that faces match. Throws an Error unless the sizes are positive and there are 1 to 2^24 cells.
+TetrahedralMesh box_tetrahedra(const Vec3f& size, const std::array<int, 3>& cells, BoxCut cut = BoxCut::alike);
 
 /// A tetrahedral mesh that was made of a surface, and what there is to say about it.
 struct FilledMesh {

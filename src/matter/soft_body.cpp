@@ -3,6 +3,8 @@
 #include "pliant/soft_body.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -310,9 +312,27 @@ namespace {
 constexpr std::array<std::array<int, 4>, 6> kuhn{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 
+/// The same mirrored along the axes whose bits are set. An odd number of mirrors turns tetrahedra inside out.
+std::array<std::array<int, 4>, 6> kuhn_about(int mirrored) {
+  const bool is_odd = std::popcount(static_cast<unsigned>(mirrored)) % 2 == 1;
+  std::array<std::array<int, 4>, 6> cut = kuhn;
+  for (std::array<int, 4>& corners : cut) {
+    if (is_odd) std::swap(corners[1], corners[2]);
+    for (int& corner : corners) corner ^= mirrored;
+  }
+  return cut;
+}
+
+/// Bit `axis` is set in the second half of the cells along it.
+int half_of(const std::array<int, 3>& cell, const std::array<int, 3>& cells) {
+  int half = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) half |= (2 * cell[axis] >= cells[axis] ? 1 : 0) << axis;
+  return half;
+}
+
 }  // namespace
 
-TetrahedralMesh box_tetrahedra(const Vec3f& size, const std::array<int, 3>& cells) {
+TetrahedralMesh box_tetrahedra(const Vec3f& size, const std::array<int, 3>& cells, BoxCut cut) {
   constexpr std::int64_t most_cells = 1 << 24;
   for (const float side : {size.x, size.y, size.z})
     if (!(side > 0) || !std::isfinite(side))
@@ -337,7 +357,7 @@ TetrahedralMesh box_tetrahedra(const Vec3f& size, const std::array<int, 3>& cell
   for (int z = 0; z < cells[2]; ++z)
     for (int y = 0; y < cells[1]; ++y)
       for (int x = 0; x < cells[0]; ++x)
-        for (const auto& corners : kuhn) {
+        for (const auto& corners : kuhn_about(cut == BoxCut::mirrored ? half_of({x, y, z}, cells) : 0)) {
           Tetrahedron t;
           for (std::size_t i = 0; i < 4; ++i)
             t[i] = (z + (corners[i] >> 2)) * layer + (y + (corners[i] >> 1 & 1)) * row + x + (corners[i] & 1);

@@ -1,9 +1,11 @@
 // Makers of soft bodies: tetrahedra of boxes and of closed meshes, masses, borders, and what they refuse.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -46,6 +48,46 @@ TEST(BoxTetrahedra, FillTheBoxAndMatch) {
   EXPECT_EQ(border.size(), 4u * (3 * 2 + 2 * 4 + 3 * 4));
   EXPECT_TRUE(is_closed(find_edges(border, static_cast<int>(mesh.positions.size()))));
   EXPECT_NEAR(volume_inside(mesh.positions, border), 0.024, 1e-7);
+}
+
+/// True if the mirror image of a mesh along an axis is the same mesh.
+bool is_its_own_mirror_image(const TetrahedralMesh& mesh, float Vec3f::*axis) {
+  using Place = std::array<float, 3>;
+  const auto corners = [&](bool mirrored) {
+    std::set<std::set<Place>> all;
+    for (const auto& t : mesh.tetrahedra) {
+      std::set<Place> places;
+      for (const int corner : t) {
+        Vec3f p = mesh.positions[static_cast<std::size_t>(corner)];
+        if (mirrored) p.*axis = 0 - p.*axis;
+        places.insert({p.x, p.y, p.z});
+      }
+      all.insert(places);
+    }
+    return all;
+  };
+  return corners(false) == corners(true);
+}
+
+TEST(BoxTetrahedra, MirroredOnesAreTheirMirrorImages) {
+  for (const std::array<int, 3>& cells : {std::array{2, 4, 8}, std::array{4, 4, 4}}) {
+    const TetrahedralMesh mesh = box_tetrahedra({0.25f, 0.5f, 0.75f}, cells, BoxCut::mirrored);
+    for (float Vec3f::*axis : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) EXPECT_TRUE(is_its_own_mirror_image(mesh, axis));
+    EXPECT_FALSE(is_its_own_mirror_image(box_tetrahedra({0.25f, 0.5f, 0.75f}, cells), &Vec3f::x));
+  }
+}
+
+TEST(BoxTetrahedra, MirroredOnesFillTheBoxAndMatch) {
+  for (const std::array<int, 3>& cells : {std::array{1, 1, 1}, std::array{3, 2, 4}, std::array{5, 4, 1}}) {
+    const TetrahedralMesh mesh = box_tetrahedra({0.3f, 0.2f, 0.4f}, cells, BoxCut::mirrored);
+    const std::vector<double> volumes = six_volumes(mesh.positions, mesh.tetrahedra);
+    EXPECT_GT(*std::min_element(volumes.begin(), volumes.end()), 0);
+    EXPECT_NEAR(sum(volumes) / 6, 0.3 * 0.2 * 0.4, 1e-7);
+    const auto border = border_triangles(mesh);
+    EXPECT_EQ(border.size(),
+              4u * static_cast<unsigned>(cells[0] * cells[1] + cells[1] * cells[2] + cells[2] * cells[0]));
+    EXPECT_TRUE(is_closed(find_edges(border, static_cast<int>(mesh.positions.size()))));
+  }
 }
 
 TEST(BoxTetrahedra, RefuseWhatIsNoBox) {

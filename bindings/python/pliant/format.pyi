@@ -512,6 +512,9 @@ class BoxOfTetrahedra(TypedDict, total=False):
     """Sizes along x, y and z. [m]"""
     cells: Required[Sequence[int] | AnyArray]
     """Number of cubes along x, y and z."""
+    cut: Literal['alike', 'mirrored']
+    """Whether all cubes are cut along the same diagonal, or those on both sides of the middle as mirror images, so that
+    what is dropped level bounces up and not aside. Give even numbers of cubes then. Default: alike."""
 
 class ElasticSolid(TypedDict, total=False):
     """An elastic solid in SI units, independent of the mesh. Missing members come from `base`, or else from the

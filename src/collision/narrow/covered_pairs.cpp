@@ -39,10 +39,10 @@ bool is_well_conditioned(const PairStencil& pair, const Record* positions) {
 }  // namespace
 
 bool CoveredPairs::has_triangle_without(int a, int b, int vertex) const {
-  return std::any_of(around_.begin(a), around_.end(a), [&](int number) {
-    const Triangle& t = elements_.triangles[static_cast<std::size_t>(number)];
-    return has(t, b) && !has(t, vertex);
-  });
+  const std::array<int, 2>* const others = around_.others(a);
+  return vertex != a && std::any_of(others, others + (around_.end(a) - around_.begin(a)), [&](const auto& other) {
+           return (other[0] == b && other[1] != vertex) || (other[1] == b && other[0] != vertex);
+         });
 }
 
 CoveredPairs::Feature CoveredPairs::feature_of(const PairStencil& pair, const Closest& at, int first, int last,
@@ -63,16 +63,21 @@ bool CoveredPairs::rises_beside(const Feature& feature, const Vec3f& towards, in
                                 Counts counts) const {
   const auto& holds = feature.holds;
   const auto rises = [&](int corner) {
-    // By rounding of the closest point along an edge, one end of the edge may seem to rise.
-    if (corner == holds[0] || (feature.held == 2 && corner == holds[1])) return false;
     const Vec3f beside = xyz(positions[corner]) - xyz(positions[origin]) - feature.point;
     const float rise = dot(towards, beside);
     return rise > 0 && rise > least_rise * length(beside);  // most corners of flat meshes need no length
   };
-  return std::any_of(around_.begin(holds[0]), around_.end(holds[0]), [&](int number) {
-    const Triangle& t = elements_.triangles[static_cast<std::size_t>(number)];
-    return (feature.held != 2 || has(t, holds[1])) && std::any_of(t.begin(), t.end(), rises) && counts(t);
-  });
+  // Not the ends of the edge itself: by rounding of the closest point along it, one may seem to rise.
+  const auto any_rises = [&](const std::array<int, 2>& others) {
+    if (feature.held != 2) return rises(others[0]) || rises(others[1]);
+    return (others[0] == holds[1] && rises(others[1])) || (others[1] == holds[1] && rises(others[0]));
+  };
+  const int* const first = around_.begin(holds[0]);
+  const std::array<int, 2>* const others = around_.others(holds[0]);
+  const std::ptrdiff_t count = around_.end(holds[0]) - first;
+  for (std::ptrdiff_t i = 0; i < count; ++i)
+    if (any_rises(others[i]) && counts(elements_.triangles[static_cast<std::size_t>(first[i])])) return true;
+  return false;
 }
 
 /// For a vertex and a triangle: true if another triangle with the same closest point comes closer to the vertex.
