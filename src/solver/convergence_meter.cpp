@@ -9,6 +9,7 @@
 #include "constraints/triangle_shear.h"
 #include "constraints/triangle_stretch.h"
 #include "core/at.h"
+#include "solver/damper.h"
 #include "solver/visit.h"
 
 namespace pliant {
@@ -83,7 +84,7 @@ void load_estimated(const EstimatedObject& of, const Pool& pool, const std::int3
   }
 }
 
-/// What the damping force explains of C: alpha beta times the rate of C.
+/// What the damping force explains of C: what damper.h leaves of alpha beta, times the rate of C.
 double damping_explains(const EstimatedObject& of, const ConstraintPlace& at, const std::int32_t* slots,
                         const StencilArrays<float>& arrays) {
   if (at.pool.law != Law::damped) return 0;
@@ -92,7 +93,8 @@ double damping_explains(const EstimatedObject& of, const ConstraintPlace& at, co
     const Record& v = of.velocities[slots[slot]];
     rate += static_cast<double>(dot(arrays.gradient(at.pool, 0, slot), Vec3f{v.x, v.y, v.z}));
   }
-  return static_cast<double>(at.value(at.pool.fields)) * static_cast<double>(at.value(at.pool.fields + 1)) * rate;
+  const double time = static_cast<double>(at.value(at.pool.fields)) * static_cast<double>(at.value(at.pool.fields + 1));
+  return viscous_share(time, 1 / std::sqrt(of.inverse_h2)) * rate;
 }
 
 /// Adds an elastic constraint of one row over points.

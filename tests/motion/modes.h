@@ -65,8 +65,21 @@ inline Mode spring_mode(double frequency, double damping = 0) {
   return mode;
 }
 
+/// An arm of 0.5 m on a hinge with a spring, with the decay exp(-damping t / 2).
+inline Mode hinge_mode(double frequency, double damping = 0) {
+  Mode mode;
+  Mechanism m;
+  m.box({0.5f, 0, 0}, 2, {0.1f, 0.1f, 0.1f}, {}, {0, 0, 0.2f});
+  const double inertia = box_inertia(2, 0.1, 0.1) + 2 * 0.25;
+  const JointSpring spring{.stiffness = static_cast<float>(inertia * frequency * frequency),
+                           .damping = static_cast<float>(inertia * damping)};
+  add_joint(m.object, HingeJoint{.b = 0, .axis = {0, 0, 1}, .spring = spring});
+  mode.begin(m.object, 0.1f, frequency, [](const Vec3f& x) { return x.x > 0.4f ? Vec3f{0, 1, 0} : Vec3f{}; });
+  return mode;
+}
+
 /// A line of particles and springs between two pins, in its lengthwise mode.
-inline Mode line_mode(double frequency, int springs, Sweep sweep) {
+inline Mode line_mode(double frequency, int springs, Sweep sweep, double damping_time = 0) {
   Object line;
   line.name = "line";
   line.sweep = sweep;
@@ -78,7 +91,8 @@ inline Mode line_mode(double frequency, int springs, Sweep sweep) {
     line.masses.push_back(1);
     if (i > 0) group.particles.insert(group.particles.end(), {i - 1, i});
   }
-  group.stiffness = Stiffness::compliance(static_cast<float>(1 / stiffness));
+  group.stiffness =
+      Stiffness::compliance(static_cast<float>(1 / stiffness), static_cast<float>(damping_time * stiffness));
   line.constraints = {group};
   Mode mode;
   mode.begin(std::move(line), 0.01f, frequency, [&](const Vec3f& x) {
@@ -164,16 +178,17 @@ inline Mode cloth_mode(double stiffness, Sweep sweep) {
 /// A mode's coordinate in a World, frame by frame, with its velocity over its frequency.
 struct ModeTrace {
   std::vector<double> position, velocity;
+  double rate = 60;  ///< frames per second
   bool ok = true;
 
-  ModeTrace(const Mode& mode, const Settings& settings, double seconds) {
+  ModeTrace(const Mode& mode, const Settings& settings, double seconds, double in_rate = 60) : rate(in_rate) {
     World world(mode.scene, settings);
-    const int frames = static_cast<int>(std::lround(seconds * 60));
+    const int frames = static_cast<int>(std::lround(seconds * rate));
     position.reserve(static_cast<std::size_t>(frames) + 1);
     velocity.reserve(static_cast<std::size_t>(frames) + 1);
     add(mode, world);
     for (int i = 0; i < frames && ok; ++i) {
-      ok = world.step(1.f / 60).ok();
+      ok = world.step(static_cast<float>(1 / rate)).ok();
       add(mode, world);
     }
   }
@@ -187,11 +202,11 @@ struct ModeTrace {
       if (first < 0) first = last;
       ++zeros;
     }
-    return zeros < 3 ? guess : 3.14159265358979324 * (zeros - 1) / (last - first) * 60;
+    return zeros < 3 ? guess : 3.14159265358979324 * (zeros - 1) / (last - first) * rate;
   }
   /// The mean amplitude of the period that begins with a frame.
   double amplitude(std::size_t frame, double omega) const {
-    const auto period = static_cast<std::size_t>(std::lround(2 * 3.14159265358979324 / omega * 60));
+    const auto period = static_cast<std::size_t>(std::lround(2 * 3.14159265358979324 / omega * rate));
     double sum = 0;
     for (std::size_t i = frame; i < frame + period; ++i) sum += std::hypot(position[i], velocity[i] / omega);
     return sum / static_cast<double>(period);
