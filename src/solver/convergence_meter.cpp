@@ -297,15 +297,16 @@ const char* name_of(Resistance kind) {
 }
 
 bool is_tolerable(Resistance kind, const ConvergenceEstimate& estimate) {
-  constexpr double of_bending = 0.25, of_angle = 0.001, of_shear = 0.1, of_strain = 0.002, of_volume = 0.05,
-                   of_others = 0.01;
+  constexpr double of_bending = 0.25, of_angle = 0.001, of_shear = 0.1, of_strain = 0.002, of_small_shear = 0.15,
+                   of_small_strain = 0.00002, of_volume = 0.05, of_others = 0.01;
   switch (kind) {
     case Resistance::stretching:
       return estimate.excess <= tolerated_p99;
     case Resistance::bending:
       return estimate.excess <= of_bending || estimate.strain <= of_angle;
     case Resistance::shear:
-      return estimate.excess <= of_shear || estimate.strain <= of_strain;
+      return estimate.excess <= (estimate.strain > of_strain ? of_shear : of_small_shear) ||
+             estimate.strain <= of_small_strain;
     case Resistance::volume:
       return estimate.excess <= of_volume;
     default:
