@@ -102,11 +102,13 @@ bool pulls(const Pool& pool, const ConstraintDefinition& type, const Work& work)
 }
 
 /// The weights in the force of the displacement in the substep, and of that at the velocity of its start: of the mean of
-/// forces and of damping, equal in all rows, so that the matrix is symmetric. A spring's damping is of the second order.
+/// forces and of damping, equal in all rows, so that the matrix is symmetric. A spring keeps motion by any integrator,
+/// and its damping is of the second order.
 ViscousWeights weights_of(const Pool& pool, const Work& work, const SweepArguments& a, const Yielding& yielding) {
-  const bool is_mean = a.keeps_energy && pool.law != Law::pbd;
-  if (!is_mean && !(yielding.damping > 0)) return {};
   const ConstraintDefinition& type = constraint_type(pool.type);
+  const bool is_bounded = type.evaluate_bounded != nullptr;
+  const bool is_mean = (a.keeps_energy || is_bounded) && yielding.compliance > 0;
+  if (!is_mean && !(yielding.damping > 0)) return {};
   const bool pulls_both_ways = pulls(pool, type, work);
   float mass = 0;
   for (int i = 0; i < pool.components; ++i) mass = max(mass, coupling(pool, work, i, i));
@@ -114,7 +116,7 @@ ViscousWeights weights_of(const Pool& pool, const Work& work, const SweepArgumen
                         ? energy_law::shares_of(yielding.compliance, mass, energy_law::most_of_sweep)
                         : energy_law::Shares<float>{0, 0};
   const float share = viscous_share(yielding.damping, 1 - mean.motion - mean.coast);
-  const bool is_spring = type.evaluate_bounded != nullptr && pulls_both_ways && yielding.compliance > 0;
+  const bool is_spring = is_bounded && pulls_both_ways && yielding.compliance > 0;
   const ViscousWeights viscous =
       is_spring ? viscous_weights(share, mass / yielding.compliance) : ViscousWeights{share, 0};
   return {viscous.motion - mean.motion, viscous.coast - mean.coast};

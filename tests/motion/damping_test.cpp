@@ -139,6 +139,7 @@ TEST(Damping, OfSpringsIsItsTimeInAnyFrameTime) {
     for (const int times : {1, 2, 4}) {
       EXPECT_NEAR(decay_of(spring_mode(12, 2), 8 * times, frames).rate, 1, 0.03) << frames << " " << times;
       EXPECT_NEAR(decay_of(hinge_mode(12, 2), 8 * times, frames).rate, 1, 0.03) << frames << " " << times;
+      EXPECT_NEAR(decay_of(cluster_mode(12, 2), 20 * times, frames).rate, 1, 0.03) << frames << " " << times;
       for (const Sweep sweep : {Sweep::tiled, Sweep::chains, Sweep::symmetric})
         EXPECT_NEAR(damped_share(line_mode(12, 2, sweep, 0.01), 0.01, 20 * times, frames), 1, 0.03)
             << frames << " " << times << " " << sweep_name(sweep);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "joints/joint_support.h"
+#include "pliant/cluster.h"
 #include "pliant/rod.h"
 #include "pliant/soft_body.h"
 #include "pliant/world.h"
@@ -53,14 +54,16 @@ inline double share_of_clamped_beam(double along) {
   return (std::cosh(k * along) - std::cos(k * along) - s * (std::sinh(k * along) - std::sin(k * along))) / 2;
 }
 
-inline Mode spring_mode(double frequency, double damping = 0) {
+/// A body on a spring, or on so many side by side: all but one close loops of joints.
+inline Mode spring_mode(double frequency, double damping = 0, int springs = 1) {
   Mode mode;
   Mechanism m;
   m.box({1, 0, 0}, 2, {0.1f, 0.1f, 0.1f});
-  add_joint(m.object, SpringJoint{.b = 0,
-                                  .anchor_b = {1, 0, 0},
-                                  .stiffness = static_cast<float>(2 * frequency * frequency),
-                                  .damping = static_cast<float>(2 * damping)});
+  for (int i = 0; i < springs; ++i)
+    add_joint(m.object, SpringJoint{.b = 0,
+                                    .anchor_b = {1, 0, 0},
+                                    .stiffness = static_cast<float>(2 * frequency * frequency / springs),
+                                    .damping = static_cast<float>(2 * damping / springs)});
   mode.begin(m.object, 0.1f, frequency, [](const Vec3f& x) { return x.x > 0.5f ? Vec3f{1, 0, 0} : Vec3f{}; });
   return mode;
 }
@@ -75,6 +78,41 @@ inline Mode hinge_mode(double frequency, double damping = 0) {
                            .damping = static_cast<float>(inertia * damping)};
   add_joint(m.object, HingeJoint{.b = 0, .axis = {0, 0, 1}, .spring = spring});
   mode.begin(m.object, 0.1f, frequency, [](const Vec3f& x) { return x.x > 0.4f ? Vec3f{0, 1, 0} : Vec3f{}; });
+  return mode;
+}
+
+/// The corners of a cube in one cluster, whose size changes, with the decay exp(-damping t / 2).
+inline Mode cluster_mode(double frequency, double damping) {
+  Object cube;
+  cube.name = "cube";
+  std::vector<int> all;
+  for (int i = 0; i < 8; ++i) {
+    cube.positions.push_back({i % 2 == 0 ? -1.f : 1.f, i / 2 % 2 == 0 ? -1.f : 1.f, i < 4 ? -1.f : 1.f});
+    cube.masses.push_back(1);
+    all.push_back(i);
+  }
+  const Stiffness stiffness =
+      Stiffness::compliance(static_cast<float>(1 / (frequency * frequency)), static_cast<float>(damping));
+  add_cluster(cube, all, {.stiffness = stiffness});
+  Mode mode;
+  mode.begin(std::move(cube), 0.1f, frequency, [](const Vec3f& x) { return x; });
+  return mode;
+}
+
+/// Bodies in a row, each on two springs to the one before.
+inline Mode bodies_on_springs(double frequency, int bodies) {
+  Mechanism m;
+  for (int i = 0; i < bodies; ++i) m.box({1 + static_cast<float>(i), 0, 0}, 2, {0.1f, 0.1f, 0.1f});
+  const auto stiffness = static_cast<float>(frequency * frequency);
+  for (int i = 0; i < bodies; ++i) {
+    const float at = static_cast<float>(i), aside = 0.1f;
+    for (const float y : {aside, -aside})
+      add_joint(
+          m.object,
+          SpringJoint{.a = i - 1, .b = i, .anchor_a = {at, y, 0}, .anchor_b = {1 + at, y, 0}, .stiffness = stiffness});
+  }
+  Mode mode;
+  mode.begin(m.object, 0.1f, frequency, [](const Vec3f& x) { return x.x > 0.5f ? Vec3f{1, 0, 0} : Vec3f{}; });
   return mode;
 }
 

@@ -79,7 +79,6 @@ float inverse_mass_of(const JointWork& work, const JointForest::Joint& joint, co
 /// How a row with compliance over h^2 `alpha` takes the mean of forces.
 energy_law::Shares<float> mean_of(const JointWork& work, const JointForest::Joint& joint, const Pool& pool, int row,
                                   float alpha) {
-  if (!work.points.keeps_energy || !(alpha > 0)) return {0, 0};
   const float moves = length_squared(work.arrays.gradient(pool, row, 2));
   return energy_law::shares_of(alpha, inverse_mass_of(work, joint, pool, row), energy_law::most_of_tree(moves));
 }
@@ -91,7 +90,8 @@ struct Response {
   float past = 0;              ///< is added to C
 };
 
-/// Of what was evaluated last. A stop knows only of the substep's motion; a spring's damping is of the second order.
+/// Of what was evaluated last. A stop knows only of the substep's motion. A spring keeps motion by any integrator, and
+/// its damping is of the second order.
 Response response_of(const JointWork& work, const JointForest::Joint& joint, const ConstraintPlace& at, int row) {
   const bool is_bounded = constraint_type(at.pool.type).evaluate_bounded != nullptr;
   const bool is_spring = is_bounded && acts_both_ways(work.bounds[3 * row], work.bounds[3 * row + 1]);
@@ -101,7 +101,8 @@ Response response_of(const JointWork& work, const JointForest::Joint& joint, con
   if (!(response.alpha > 0)) return response;
   if (at.pool.law == Law::damped)
     response.gamma = min(softness * at.value(at.pool.fields + 1) * work.points.inverse_h, largest_compliance);
-  const auto mean = mean_of(work, joint, at.pool, row, is_spring || !is_bounded ? response.alpha : 0);
+  const bool keeps_motion = is_spring || (!is_bounded && work.points.keeps_energy);
+  const auto mean = keeps_motion ? mean_of(work, joint, at.pool, row, response.alpha) : energy_law::Shares<float>{0, 0};
   if (!(response.gamma > 0) && !(mean.motion > 0)) return response;
   const float share = viscous_share(response.gamma, 1 - mean.motion - mean.coast);
   const ViscousWeights viscous =
