@@ -1,5 +1,5 @@
-// Hanging objects that the sweep multigrid stretches further than their stiffness says, since it treats stiff springs as
-// softer than they are (docs/internals/multigrid.md).
+// Hanging objects that the sweep multigrid stretches further than their stiffness says, since it treats stiff springs
+// as softer than they are (docs/internals/multigrid.md).
 #include <algorithm>
 #include <cmath>
 #include <string>

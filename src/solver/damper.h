@@ -36,8 +36,8 @@ struct ViscousWeights {
   float motion = 0, coast = 0;
 };
 
-/// The weights of a damper beside a spring, of the second order in h: `share` is a viscous_share, and `mass` the inverse
-/// mass along the row over the compliance over h^2, so that the damper alone slows it by share * mass.
+/// The weights of a damper beside a spring, of the second order in h: `share` is a viscous_share, and `mass` the
+/// inverse mass along the row over the compliance over h^2, so that the damper alone slows it by share * mass.
 inline ViscousWeights viscous_weights(float share, float mass) {
   if (!(share > 0)) return {};
   const auto end = static_cast<float>(weight_of_end(static_cast<double>(share) * static_cast<double>(mass)));

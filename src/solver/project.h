@@ -128,7 +128,8 @@ PLIANT_HD void damp_across(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_
 ///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
 ///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18,
 ///   26)
-///          with a = alpha / h^2 and g = alpha beta / h less what damper.h says; that of a solid or a woven triangle in a sweep of one pass: see `led`
+///          with a = alpha / h^2 and g = alpha beta / h, less what damper.h says; that of a solid or a woven triangle
+///          in a sweep of one pass: see `led`
 ///          With Integrator::energy C is C^ of energy_law.h, and the 1 of (1 + g) is a.
 ///   Types that measure the length of a strain are projected by project_strain in the first pass. With Integrator::energy they are
 ///   damped across it apart:

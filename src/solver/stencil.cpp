@@ -101,8 +101,8 @@ bool pulls(const Pool& pool, const ConstraintDefinition& type, const Work& work)
   return true;
 }
 
-/// The weights in the force of the displacement in the substep, and of that at the velocity of its start: of the mean of
-/// forces and of damping, equal in all rows, so that the matrix is symmetric. A spring keeps motion by any integrator,
+/// The weights in the force of the displacement in the substep, and of that at the velocity of its start: of the mean
+/// of forces and of damping, equal in all rows, so that the matrix is symmetric. A spring keeps motion by any integrator,
 /// and its damping is of the second order.
 ViscousWeights weights_of(const Pool& pool, const Work& work, const SweepArguments& a, const Yielding& yielding) {
   const ConstraintDefinition& type = constraint_type(pool.type);

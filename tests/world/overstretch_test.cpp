@@ -54,7 +54,8 @@ double value_of(const ConstraintGroup& group, std::size_t i) {
   return double(i < group.compliances.size() ? group.compliances[i] : group.stiffness.value);
 }
 
-/// (C + alpha~ lambda + (alpha beta - h) d|x|/dt) / L of each distance of an object that has a multiplier and a free end.
+/// (C + alpha~ lambda + (alpha beta - h) d|x|/dt) / L of each distance of an object that has a multiplier and a free
+/// end.
 void add_overstretches(const World& world, ObjectId id, const Object& object, std::vector<double>& all) {
   const std::vector<Vec3f> x = world.object(id).positions(), v = world.object(id).velocities();
   const std::vector<float> multipliers = world.object(id).multipliers("distance");
