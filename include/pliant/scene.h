@@ -276,8 +276,8 @@ struct Settings {
   } initial_intersections = Intersections::leave;
   /// How elastic constraints move matter. `pbd`: by their forces at the substep's end (implicit Euler), which takes
   /// (omega h)^2 / 2 of the amplitude of a mode of frequency omega in each substep h. `energy`: by a mean of forces of
-  /// three times, which takes 1/200 of that, more in solids (docs/guide/choosing_settings.md). Contact, friction and
-  /// rigid constraints are the same.
+  /// three times, which takes 1/200 of that, more in solids (docs/guide/choosing_settings.md); springs of joints have
+  /// it by both. Contact, friction and rigid constraints are the same.
   enum class Integrator { pbd, energy } integrator = Integrator::pbd;
   float untangling_speed = 0.5f;  ///< largest speed at which surfaces are moved apart [m/s]
   SleepOptions sleep{};

@@ -320,6 +320,8 @@ void look_through(Problems& problems, const Scene& scene) {
     doubt_bent_solids(problems, scene);
     doubt_substeps_of_woven(problems, scene);
     doubt_substeps_of_hinges(problems, scene);
+    doubt_springs_of_multigrid(problems, scene);
+    doubt_plates(problems, scene);
     doubt_substeps_of_rods(problems, scene);
     doubt_jumps_of_volumes(problems, scene);
     doubt_flows(problems, scene);

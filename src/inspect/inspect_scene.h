@@ -41,6 +41,12 @@ std::vector<std::string> warnings_of_woven(const Scene& scene, const Settings& s
 /// For each sheet whose hinges bend much further than their stiffness says with these settings: a warning with by how
 /// much.
 std::vector<std::string> warnings_of_hinges(const Scene& scene, const Settings& settings);
+/// For each object that hangs by the sweep multigrid and stretches much further than its stiffness says: a warning with
+/// by how much.
+std::vector<std::string> warnings_of_multigrid(const Scene& scene, const Settings& settings);
+/// For each sheet that is held at all edges and whose mesh is so coarse that it bends much further than its stiffness
+/// says: a warning with by how much.
+std::vector<std::string> warnings_of_plates(const Scene& scene, const Settings& settings);
 /// For each sheet whose particles are over 10 000 times as heavy as those of one that it can press on: a warning with
 /// how many times, as frames may take ten times as long.
 std::vector<std::string> warnings_of_masses(const Scene& scene);

@@ -112,6 +112,10 @@ void doubt_starts_in_bodies(Problems& problems, const Scene& scene);
 void doubt_substeps_of_woven(Problems& problems, const Scene& scene);
 /// Those whose hinges bend further than their stiffness says, because they have too few substeps for their mesh.
 void doubt_substeps_of_hinges(Problems& problems, const Scene& scene);
+/// Those that hang by multigrid and stretch further than their stiffness says.
+void doubt_springs_of_multigrid(Problems& problems, const Scene& scene);
+/// Sheets that are held at all edges and bend further than their stiffness says, because few edges lie across.
+void doubt_plates(Problems& problems, const Scene& scene);
 /// Warns of bodies that a pin moves, but that a load can turn.
 void doubt_bodies(Problems& problems, const Object& object);
 /// Warns of joints that are probably not as intended.

@@ -8,6 +8,7 @@
 
 #include "constraints/registry.h"
 #include "model/attachments.h"
+#include "model/spring_limit.h"
 
 namespace pliant {
 
@@ -306,12 +307,8 @@ std::vector<int> rings_from_pins(const Graph& graph, const std::vector<char>& fi
   return ring;
 }
 
-struct Measures {
-  double mass = 0, extent = 0, spacing = 0;
-};
-
-Measures measure(const std::vector<Spring>& springs, const std::vector<Record>& positions) {
-  Measures m;
+SpringMeasures measure(const std::vector<Spring>& springs, const std::vector<Record>& positions) {
+  SpringMeasures m;
   Record low{3e38f, 3e38f, 3e38f, 0}, high{-3e38f, -3e38f, -3e38f, 0};
   for (const Record& p : positions) {
     if (p.w > 0) m.mass += 1 / double(p.w);
@@ -323,15 +320,18 @@ Measures measure(const std::vector<Spring>& springs, const std::vector<Record>& 
   return m;
 }
 
-/// The stiffness limit at each particle: each edge of a cross-section carries its share of the object's weight, more
-/// near few pins.
+/// Edges across an object.
+double edges_across(const SpringMeasures& m, double particles) {
+  return std::max(1., particles * m.spacing / std::max(m.extent, 1e-30));
+}
+
+/// The stiffness limit at each particle: spring_limit, and more near few pins.
 std::vector<float> stiffness_limits(const std::vector<Spring>& springs, const Graph& graph,
                                     const std::vector<Record>& positions, const std::vector<char>& fixed,
                                     float gravity) {
-  const Measures m = measure(springs, positions);
-  const double across = std::max(1., static_cast<double>(positions.size()) * m.spacing / std::max(m.extent, 1e-30));
-  const double load = m.mass * std::max(double(gravity), least_acceleration);
-  const double stiffness = stiffness_over_weight * load / std::max(across * m.spacing, 1e-30);
+  const SpringMeasures m = measure(springs, positions);
+  const double across = edges_across(m, static_cast<double>(positions.size()));
+  const double stiffness = spring_limit(m, static_cast<double>(positions.size()), static_cast<double>(gravity));
   const auto pins = static_cast<double>(std::count(fixed.begin(), fixed.end(), 1));
   const std::vector<int> ring = rings_from_pins(graph, fixed);
   std::vector<float> limits(positions.size());
@@ -382,6 +382,11 @@ void fill_springs(const std::vector<Spring>& springs, const std::vector<Link>& l
 }
 
 }  // namespace
+
+double spring_limit(const SpringMeasures& m, double particles, double gravity) {
+  const double load = m.mass * std::max(gravity, least_acceleration);
+  return stiffness_over_weight * load / std::max(edges_across(m, particles) * m.spacing, 1e-30);
+}
 
 Multigrid build_multigrid(const std::vector<ConstraintList>& lists, const std::vector<Record>& positions,
                           float gravity) {

@@ -135,7 +135,7 @@ class Constraint final : public AnyConstraint {
     const double c = T::evaluate_at(f, rest_, g), h = pass.h;
     const auto across = T::change_across(f, by);
     const double along = dot(g.x, by.x) + dot(g.y, by.y) + dot(g.z, by.z);
-    const double alpha = hardness_.compliance / (h * h), gamma = hardness_.compliance * hardness_.damping / h;
+    const double alpha = hardness_.compliance / (h * h), gamma = viscous_share(h);
     const double stress = c + gamma * along;
     const double size = std::sqrt(stress * stress + 2 * gamma * gamma * across.squares());
     if (!(size > 0)) return;
@@ -152,6 +152,9 @@ class Constraint final : public AnyConstraint {
     move(particles, gradient, -size / denominator);
   }
 
+  // gamma of eq. 26, less the one substep that implicit Euler damps as by itself (docs/internals/integrator.md).
+  double viscous_share(double h) const { return std::max(hardness_.compliance * hardness_.damping / h - 1, 0.); }
+
   // PBD: k' = 1 - (1 - k)^(1/n). n projections of an isolated linear constraint remove the share k of its error.
   double pbd_change(double c, double weight, int projections) const {
     // libm is allowed in this oracle: results are compared within a tolerance, never by their bits.
@@ -163,7 +166,7 @@ class Constraint final : public AnyConstraint {
   // by half of its own denominator, so its compliance is lowered (docs/internals/solids.md, woven.md).
   double xpbd_change(double c, double weight, double motion, const Pass& pass) const {
     const double alpha = hardness_.compliance / (pass.h * pass.h);
-    const double gamma = hardness_.compliance * hardness_.damping / pass.h;
+    const double gamma = viscous_share(pass.h);
     const double rigid = (1 + gamma) * weight;
     const double denominator =
         is_led<T> && pass.is_only ? std::max(rigid + alpha - lead * rigid, rigid) : rigid + alpha;

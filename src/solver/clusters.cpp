@@ -6,6 +6,7 @@
 #include "math/best_rotation.h"
 #include "math/closest_volume.h"
 #include "model/cluster_moments.h"
+#include "solver/damper.h"
 
 namespace pliant {
 
@@ -108,7 +109,7 @@ struct Yield {
       return;
     }
     compliance = min(cluster.response * a.inverse_h2, 1e30);
-    set_damping(min(cluster.response * cluster.damping * a.inverse_h, 1e30));
+    set_damping(viscous_share(min(cluster.response * cluster.damping * a.inverse_h, 1e30)));
   }
 
   void set_damping(double value) {

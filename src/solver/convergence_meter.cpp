@@ -9,6 +9,7 @@
 #include "constraints/triangle_shear.h"
 #include "constraints/triangle_stretch.h"
 #include "core/at.h"
+#include "solver/damper.h"
 #include "solver/visit.h"
 
 namespace pliant {
@@ -83,7 +84,7 @@ void load_estimated(const EstimatedObject& of, const Pool& pool, const std::int3
   }
 }
 
-/// What the damping force explains of C: alpha beta times the rate of C.
+/// What the damping force explains of C: what damper.h leaves of alpha beta, times the rate of C.
 double damping_explains(const EstimatedObject& of, const ConstraintPlace& at, const std::int32_t* slots,
                         const StencilArrays<float>& arrays) {
   if (at.pool.law != Law::damped) return 0;
@@ -92,7 +93,8 @@ double damping_explains(const EstimatedObject& of, const ConstraintPlace& at, co
     const Record& v = of.velocities[slots[slot]];
     rate += static_cast<double>(dot(arrays.gradient(at.pool, 0, slot), Vec3f{v.x, v.y, v.z}));
   }
-  return static_cast<double>(at.value(at.pool.fields)) * static_cast<double>(at.value(at.pool.fields + 1)) * rate;
+  const double time = static_cast<double>(at.value(at.pool.fields)) * static_cast<double>(at.value(at.pool.fields + 1));
+  return viscous_share(time, 1 / std::sqrt(of.inverse_h2)) * rate;
 }
 
 /// Adds an elastic constraint of one row over points.
@@ -295,15 +297,16 @@ const char* name_of(Resistance kind) {
 }
 
 bool is_tolerable(Resistance kind, const ConvergenceEstimate& estimate) {
-  constexpr double of_bending = 0.25, of_angle = 0.001, of_shear = 0.1, of_strain = 0.002, of_volume = 0.05,
-                   of_others = 0.01;
+  constexpr double of_bending = 0.25, of_angle = 0.001, of_shear = 0.1, of_strain = 0.002, of_small_shear = 0.15,
+                   of_small_strain = 0.00002, of_volume = 0.05, of_others = 0.01;
   switch (kind) {
     case Resistance::stretching:
       return estimate.excess <= tolerated_p99;
     case Resistance::bending:
       return estimate.excess <= of_bending || estimate.strain <= of_angle;
     case Resistance::shear:
-      return estimate.excess <= of_shear || estimate.strain <= of_strain;
+      return estimate.excess <= (estimate.strain > of_strain ? of_shear : of_small_shear) ||
+             estimate.strain <= of_small_strain;
     case Resistance::volume:
       return estimate.excess <= of_volume;
     default:

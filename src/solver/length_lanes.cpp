@@ -58,7 +58,7 @@ PLIANT_HD Wide explained(const Batch<runs>& of, const float* multipliers, const 
   const Wide elastic =
       explained_by_force(compliance, load_wide(multipliers + of.number() * batch_width), Wide(q.inverse_h2));
   if (of.pool.law != Law::damped || q.velocities == nullptr) return elastic;
-  return elastic + explained_by_damping(across, of.ends.across(q.velocities), compliance, of.row(2));
+  return elastic + explained_by_damping(across, of.ends.across(q.velocities), compliance, of.row(2), q.inverse_h2);
 }
 
 /// Hands constraints over many at a time, because each call costs as much as measuring a batch.

@@ -25,10 +25,13 @@ PLIANT_HD R explained_by_force(const R& compliance, const R& multiplier, const R
   return min(compliance * inverse_h2, R(largest_compliance)) * multiplier;
 }
 
-/// The same for the damping force: alpha beta times the speed along the constraint [m], with `damping` beta [s].
+/// The same for the damping force: what damper.h leaves of alpha beta, times the speed along the constraint [m], with
+/// `damping` beta [s].
 template <class R>
-PLIANT_HD R explained_by_damping(const Vec3<R>& across, const Vec3<R>& speed, const R& compliance, const R& damping) {
-  return compliance * damping * dot(across, speed) / max(sqrt(length_squared(across)), R(1e-20f));
+PLIANT_HD R explained_by_damping(const Vec3<R>& across, const Vec3<R>& speed, const R& compliance, const R& damping,
+                                 float inverse_h2) {
+  return viscous_share(compliance * damping, R(1 / sqrt(inverse_h2))) * dot(across, speed) /
+         max(sqrt(length_squared(across)), R(1e-20f));
 }
 
 /// The square of a length [m^2]: a shorter constraint has no overstretch above `above`, with whatever roundings.

@@ -17,7 +17,7 @@ float explained(const Pool& pool, std::int64_t batch, int lane, float multiplier
   const float compliance = pool.row(1, batch)[lane];
   const float elastic = explained_by_force(compliance, multiplier, q.inverse_h2);
   if (pool.law != Law::damped || q.velocities == nullptr) return elastic;
-  return elastic + explained_by_damping(across, speed, compliance, pool.row(2, batch)[lane]);
+  return elastic + explained_by_damping(across, speed, compliance, pool.row(2, batch)[lane], q.inverse_h2);
 }
 
 /// True if the constraint in a lane has a rest length above zero and a free particle.

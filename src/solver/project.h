@@ -5,6 +5,7 @@
 #include "math/scalar.h"
 #include "math/unroll.h"
 #include "model/pool.h"
+#include "solver/damper.h"
 #include "solver/energy_law.h"
 #include "solver/kernels.h"
 
@@ -87,7 +88,7 @@ PLIANT_HD void project_strain(const Vec3<R> (&x)[slot_count<T>], const R (&w)[sl
   const auto across = T::change_across(f, by);
   const R along = dot(gradient_of_f.x, by.x) + dot(gradient_of_f.y, by.y) + dot(gradient_of_f.z, by.z);
   const R compliance = min(response.softness * R(a.inverse_h2), R(largest_compliance));
-  const R gamma = min(response.softness * response.damping * R(a.inverse_h), R(most_damping));
+  const R gamma = viscous_share(min(response.softness * response.damping * R(a.inverse_h), R(most_damping)));
   const R stress = c + gamma * along, squares = stress * stress + R(2) * (gamma * gamma * across.squares());
   const R size = sqrt(min(max(squares, R(1e-30f)), R(1e36f))), unit = R(1) / size;
   Vec3<R> gradient[slot_count<T>];
@@ -115,7 +116,7 @@ PLIANT_HD void damp_across(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_
   Vec3<R> gradient[slot_count<T>];
   const R moved = T::strain_across(x, motion, params, gradient), mass = generalised_inverse_mass<T>(gradient, w);
   const R compliance = min(response.softness * R(a.inverse_h2), R(largest_compliance));
-  const R gamma = min(response.softness * response.damping * R(a.inverse_h), R(largest_compliance));
+  const R gamma = viscous_share(min(response.softness * response.damping * R(a.inverse_h), R(largest_compliance)));
   R change = -(gamma * moved) / max(gamma * mass + compliance, R(smallest_denominator));
   if constexpr (general) change = change * R(a.relaxation);
   PLIANT_UNROLL
@@ -127,7 +128,8 @@ PLIANT_HD void damp_across(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_
 ///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
 ///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18,
 ///   26)
-///          with a = alpha / h^2 and g = alpha beta / h; that of a solid or a woven triangle in a sweep of one pass: see `led`
+///          with a = alpha / h^2 and g = alpha beta / h, less what damper.h says; that of a solid or a woven triangle
+///          in a sweep of one pass: see `led`
 ///          With Integrator::energy C is C^ of energy_law.h, and the 1 of (1 + g) is a.
 ///   Types that measure the length of a strain are projected by project_strain in the first pass. With Integrator::energy they are
 ///   damped across it apart:
@@ -157,14 +159,17 @@ PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_coun
     if constexpr (keeps_multiplier) {
       if (response.is_kept) numerator = numerator - compliance * response.multiplier;
     }
+    R lost = R(1.f);
     if (coast != nullptr) {  // known at compile time
       const auto mean = energy_law::shares_of(compliance, mass, R(energy_law::most_of_sweep));
       numerator =
           numerator + (mean.motion * motion_along<T>(gradient, motion) + mean.coast * motion_along<T>(gradient, coast));
       denominator = denominator - mean.motion * mass;
+      lost = R(1.f) - mean.motion - mean.coast;
     }
     if constexpr (law == Law::damped) {
-      const R gamma = min(response.softness * response.damping * R(a.inverse_h), R(largest_compliance));
+      const R gamma =
+          viscous_share(min(response.softness * response.damping * R(a.inverse_h), R(largest_compliance)), lost);
       numerator = numerator - gamma * motion_along<T>(gradient, motion);
       denominator = denominator + gamma * mass;
     }

@@ -94,36 +94,49 @@ float along(const Pool& pool, const Work& work, int row, const Vec3f (&motion)[m
 }
 float motion_along(const Pool& pool, const Work& work, int row) { return along(pool, work, row, work.motion); }
 
-/// How a constraint of this compliance over h^2 takes the mean of forces: equally in all rows, so that the matrix is
-/// symmetric.
-energy_law::Shares<float> mean_of(const Pool& pool, const Work& work, const SweepArguments& a, float compliance) {
-  if (!a.keeps_energy || pool.law == Law::pbd) return {0, 0};
-  const bool is_bounded = constraint_type(pool.type).evaluate_bounded != nullptr;
+/// True if every row pulls both ways, as a joint or a spring does, and no stop.
+bool pulls(const Pool& pool, const ConstraintDefinition& type, const Work& work) {
+  for (int i = 0; i < pool.components && type.evaluate_bounded != nullptr; ++i)
+    if (!acts_both_ways(work.bounds[3 * i], work.bounds[3 * i + 1])) return false;
+  return true;
+}
+
+/// The weights in the force of the displacement in the substep, and of that at the velocity of its start: of the mean
+/// of forces and of damping, equal in all rows, so that the matrix is symmetric. A spring keeps motion by any integrator,
+/// and its damping is of the second order.
+ViscousWeights weights_of(const Pool& pool, const Work& work, const SweepArguments& a, const Yielding& yielding) {
+  const ConstraintDefinition& type = constraint_type(pool.type);
+  const bool is_bounded = type.evaluate_bounded != nullptr;
+  const bool is_mean = (a.keeps_energy || is_bounded) && yielding.compliance > 0;
+  if (!is_mean && !(yielding.damping > 0)) return {};
+  const bool pulls_both_ways = pulls(pool, type, work);
   float mass = 0;
-  for (int i = 0; i < pool.components; ++i) {
-    if (is_bounded && !acts_both_ways(work.bounds[3 * i], work.bounds[3 * i + 1])) return {0, 0};
-    mass = max(mass, coupling(pool, work, i, i));
-  }
-  return energy_law::shares_of(compliance, mass, energy_law::most_of_sweep);
+  for (int i = 0; i < pool.components; ++i) mass = max(mass, coupling(pool, work, i, i));
+  const auto mean = is_mean && pulls_both_ways
+                        ? energy_law::shares_of(yielding.compliance, mass, energy_law::most_of_sweep)
+                        : energy_law::Shares<float>{0, 0};
+  const float share = viscous_share(yielding.damping, 1 - mean.motion - mean.coast);
+  const bool is_spring = is_bounded && pulls_both_ways && yielding.compliance > 0;
+  const ViscousWeights viscous =
+      is_spring ? viscous_weights(share, mass / yielding.compliance) : ViscousWeights{share, 0};
+  return {viscous.motion - mean.motion, viscous.coast - mean.coast};
 }
 
 /// Computes the matrix and the right-hand side for the law of the constraint's pool.
 void assemble(const ConstraintPlace& at, const float* multipliers, const SweepArguments& a, Work& work) {
   const Pool& pool = at.pool;
-  const auto [compliance, gamma] = yielding_of(at, a);
-  const auto mean = mean_of(pool, work, a, compliance);
+  const Yielding yielding = yielding_of(at, a);
+  const ViscousWeights by = weights_of(pool, work, a, yielding);
   for (int i = 0; i < pool.components; ++i) {
     float& rhs = work.change[i];
     rhs = pool.law == Law::pbd ? -(at.value(pool.fields) * work.arrays.c[i]) : -work.arrays.c[i];
-    if (multipliers != nullptr && !a.first_pass) rhs = rhs - compliance * multipliers[i * batch_width];
-    if (pool.law == Law::damped) rhs = rhs - gamma * motion_along(pool, work, i);
-    if (mean.motion > 0)
-      rhs = rhs + (mean.motion * motion_along(pool, work, i) + mean.coast * along(pool, work, i, work.coast));
+    if (multipliers != nullptr && !a.first_pass) rhs = rhs - yielding.compliance * multipliers[i * batch_width];
+    if (by.motion != 0) rhs = rhs - by.motion * motion_along(pool, work, i);
+    if (by.coast != 0) rhs = rhs - by.coast * along(pool, work, i, work.coast);
     for (int j = 0; j <= i; ++j) {
       const float mass = coupling(pool, work, i, j);
-      work.matrix[i][j] = i == j ? mass + compliance : mass;
-      if (pool.law == Law::damped) work.matrix[i][j] = work.matrix[i][j] + gamma * mass;
-      if (mean.motion > 0) work.matrix[i][j] = work.matrix[i][j] - mean.motion * mass;
+      work.matrix[i][j] = i == j ? mass + yielding.compliance : mass;
+      if (by.motion != 0) work.matrix[i][j] = work.matrix[i][j] + by.motion * mass;
     }
   }
 }

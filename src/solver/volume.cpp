@@ -2,6 +2,7 @@
 
 #include "math/functions.h"
 #include "math/scalar.h"
+#include "solver/damper.h"
 
 namespace pliant {
 
@@ -55,7 +56,7 @@ double multiplier_change(const CompiledVolume& volume, double c, double mass, do
   const double least = 1e-30;
   if (volume.law == Law::pbd) return -volume.response * c / max(mass, least);
   const double compliance = min(double(volume.response) * a.inverse_h2, 1e30);
-  const double gamma = min(double(volume.response) * volume.damping * a.inverse_h, 1e30);
+  const double gamma = viscous_share(min(double(volume.response) * volume.damping * a.inverse_h, 1e30));
   return (-c - compliance * multiplier - gamma * motion) / max((1 + gamma) * mass + compliance, least);
 }
 

@@ -43,6 +43,8 @@ WorldData::WorldData(const Scene& scene, const Settings& given, const Settings& 
   for (std::string& warning : warnings_of_soft_bodies(scene, given)) warnings.push_back(std::move(warning));
   for (std::string& warning : warnings_of_woven(scene, given)) warnings.push_back(std::move(warning));
   for (std::string& warning : warnings_of_hinges(scene, given)) warnings.push_back(std::move(warning));
+  for (std::string& warning : warnings_of_multigrid(scene, given)) warnings.push_back(std::move(warning));
+  for (std::string& warning : warnings_of_plates(scene, given)) warnings.push_back(std::move(warning));
   for (std::string& warning : warnings_of_masses(scene)) warnings.push_back(std::move(warning));
   model.gravity = scene.gravity;
   model.wind = scene.wind;

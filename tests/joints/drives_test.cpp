@@ -24,10 +24,8 @@ struct OneBody : Mechanism {
   JointState state() const { return world->object(0).joint_state(0); }
 };
 
-/// rest (1 - cos(omega t)), with the amplitude that implicit Euler leaves in substeps of 1/1200 s.
-double swing(double rest, double omega, double t) {
-  return rest * (1 - std::exp(-omega * omega * t / 2400) * std::cos(omega * t));
-}
+/// rest (1 - cos(omega t)): springs keep their motion.
+double swing(double rest, double omega, double t) { return rest * (1 - std::cos(omega * t)); }
 
 /// The greatest deviation of a value from its swing in the first second, as a share of `rest`.
 double deviation(OneBody& m, double rest, double omega, const std::function<double(const JointState&)>& value) {

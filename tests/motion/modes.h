@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "joints/joint_support.h"
+#include "pliant/cluster.h"
 #include "pliant/rod.h"
 #include "pliant/soft_body.h"
 #include "pliant/world.h"
@@ -53,20 +54,70 @@ inline double share_of_clamped_beam(double along) {
   return (std::cosh(k * along) - std::cos(k * along) - s * (std::sinh(k * along) - std::sin(k * along))) / 2;
 }
 
-inline Mode spring_mode(double frequency, double damping = 0) {
+/// A body on a spring, or on so many side by side: all but one close loops of joints.
+inline Mode spring_mode(double frequency, double damping = 0, int springs = 1) {
   Mode mode;
   Mechanism m;
   m.box({1, 0, 0}, 2, {0.1f, 0.1f, 0.1f});
-  add_joint(m.object, SpringJoint{.b = 0,
-                                  .anchor_b = {1, 0, 0},
-                                  .stiffness = static_cast<float>(2 * frequency * frequency),
-                                  .damping = static_cast<float>(2 * damping)});
+  for (int i = 0; i < springs; ++i)
+    add_joint(m.object, SpringJoint{.b = 0,
+                                    .anchor_b = {1, 0, 0},
+                                    .stiffness = static_cast<float>(2 * frequency * frequency / springs),
+                                    .damping = static_cast<float>(2 * damping / springs)});
+  mode.begin(m.object, 0.1f, frequency, [](const Vec3f& x) { return x.x > 0.5f ? Vec3f{1, 0, 0} : Vec3f{}; });
+  return mode;
+}
+
+/// An arm of 0.5 m on a hinge with a spring, with the decay exp(-damping t / 2).
+inline Mode hinge_mode(double frequency, double damping = 0) {
+  Mode mode;
+  Mechanism m;
+  m.box({0.5f, 0, 0}, 2, {0.1f, 0.1f, 0.1f}, {}, {0, 0, 0.2f});
+  const double inertia = box_inertia(2, 0.1, 0.1) + 2 * 0.25;
+  const JointSpring spring{.stiffness = static_cast<float>(inertia * frequency * frequency),
+                           .damping = static_cast<float>(inertia * damping)};
+  add_joint(m.object, HingeJoint{.b = 0, .axis = {0, 0, 1}, .spring = spring});
+  mode.begin(m.object, 0.1f, frequency, [](const Vec3f& x) { return x.x > 0.4f ? Vec3f{0, 1, 0} : Vec3f{}; });
+  return mode;
+}
+
+/// The corners of a cube in one cluster, whose size changes, with the decay exp(-damping t / 2).
+inline Mode cluster_mode(double frequency, double damping) {
+  Object cube;
+  cube.name = "cube";
+  std::vector<int> all;
+  for (int i = 0; i < 8; ++i) {
+    cube.positions.push_back({i % 2 == 0 ? -1.f : 1.f, i / 2 % 2 == 0 ? -1.f : 1.f, i < 4 ? -1.f : 1.f});
+    cube.masses.push_back(1);
+    all.push_back(i);
+  }
+  const Stiffness stiffness =
+      Stiffness::compliance(static_cast<float>(1 / (frequency * frequency)), static_cast<float>(damping));
+  add_cluster(cube, all, {.stiffness = stiffness});
+  Mode mode;
+  mode.begin(std::move(cube), 0.1f, frequency, [](const Vec3f& x) { return x; });
+  return mode;
+}
+
+/// Bodies in a row, each on two springs to the one before.
+inline Mode bodies_on_springs(double frequency, int bodies) {
+  Mechanism m;
+  for (int i = 0; i < bodies; ++i) m.box({1 + static_cast<float>(i), 0, 0}, 2, {0.1f, 0.1f, 0.1f});
+  const auto stiffness = static_cast<float>(frequency * frequency);
+  for (int i = 0; i < bodies; ++i) {
+    const float at = static_cast<float>(i), aside = 0.1f;
+    for (const float y : {aside, -aside})
+      add_joint(
+          m.object,
+          SpringJoint{.a = i - 1, .b = i, .anchor_a = {at, y, 0}, .anchor_b = {1 + at, y, 0}, .stiffness = stiffness});
+  }
+  Mode mode;
   mode.begin(m.object, 0.1f, frequency, [](const Vec3f& x) { return x.x > 0.5f ? Vec3f{1, 0, 0} : Vec3f{}; });
   return mode;
 }
 
 /// A line of particles and springs between two pins, in its lengthwise mode.
-inline Mode line_mode(double frequency, int springs, Sweep sweep) {
+inline Mode line_mode(double frequency, int springs, Sweep sweep, double damping_time = 0) {
   Object line;
   line.name = "line";
   line.sweep = sweep;
@@ -78,7 +129,8 @@ inline Mode line_mode(double frequency, int springs, Sweep sweep) {
     line.masses.push_back(1);
     if (i > 0) group.particles.insert(group.particles.end(), {i - 1, i});
   }
-  group.stiffness = Stiffness::compliance(static_cast<float>(1 / stiffness));
+  group.stiffness =
+      Stiffness::compliance(static_cast<float>(1 / stiffness), static_cast<float>(damping_time * stiffness));
   line.constraints = {group};
   Mode mode;
   mode.begin(std::move(line), 0.01f, frequency, [&](const Vec3f& x) {
@@ -164,16 +216,17 @@ inline Mode cloth_mode(double stiffness, Sweep sweep) {
 /// A mode's coordinate in a World, frame by frame, with its velocity over its frequency.
 struct ModeTrace {
   std::vector<double> position, velocity;
+  double rate = 60;  ///< frames per second
   bool ok = true;
 
-  ModeTrace(const Mode& mode, const Settings& settings, double seconds) {
+  ModeTrace(const Mode& mode, const Settings& settings, double seconds, double in_rate = 60) : rate(in_rate) {
     World world(mode.scene, settings);
-    const int frames = static_cast<int>(std::lround(seconds * 60));
+    const int frames = static_cast<int>(std::lround(seconds * rate));
     position.reserve(static_cast<std::size_t>(frames) + 1);
     velocity.reserve(static_cast<std::size_t>(frames) + 1);
     add(mode, world);
     for (int i = 0; i < frames && ok; ++i) {
-      ok = world.step(1.f / 60).ok();
+      ok = world.step(static_cast<float>(1 / rate)).ok();
       add(mode, world);
     }
   }
@@ -187,11 +240,11 @@ struct ModeTrace {
       if (first < 0) first = last;
       ++zeros;
     }
-    return zeros < 3 ? guess : 3.14159265358979324 * (zeros - 1) / (last - first) * 60;
+    return zeros < 3 ? guess : 3.14159265358979324 * (zeros - 1) / (last - first) * rate;
   }
   /// The mean amplitude of the period that begins with a frame.
   double amplitude(std::size_t frame, double omega) const {
-    const auto period = static_cast<std::size_t>(std::lround(2 * 3.14159265358979324 / omega * 60));
+    const auto period = static_cast<std::size_t>(std::lround(2 * 3.14159265358979324 / omega * rate));
     double sum = 0;
     for (std::size_t i = frame; i < frame + period; ++i) sum += std::hypot(position[i], velocity[i] / omega);
     return sum / static_cast<double>(period);

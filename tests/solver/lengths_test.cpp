@@ -18,7 +18,7 @@ namespace {
 
 using namespace testing_support;
 
-const Stiffness damped = Stiffness::compliance(2e-4f, 0.5f);
+const Stiffness damped = Stiffness::compliance(2e-4f, 200.f);
 
 /// A compiled grid in a random deformation, with multipliers.
 struct Stretched {
@@ -93,7 +93,7 @@ std::vector<double> overstretches(const Stretched& of) {
       }
       const double compliance = double(at.value(1)), damping = pool.law == Law::damped ? double(at.value(2)) : 0;
       const double explained = compliance * 3600 * double(of.multipliers[at.pool_number][at.multiplier_place(0)]) +
-                               compliance * damping * along / std::sqrt(squared);
+                               std::max(compliance * damping - 1. / 60, 0.) * along / std::sqrt(squared);
       all.push_back((std::sqrt(squared) - double(at.value(0)) + explained) / double(at.value(0)));
     });
   }

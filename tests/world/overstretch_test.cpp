@@ -39,9 +39,9 @@ Scene all_kinds() {
   scene.add(sheet_on_pins("elastic", Stiffness::compliance(2e-4f), 2));
   scene.add(sheet_on_pins("elastic chains", Stiffness::compliance(2e-4f), 4, Sweep::chains));
   scene.add(sheet_on_pins("multigrid", Stiffness::compliance(1e-5f), 6, Sweep::multigrid));
-  scene.add(sheet_on_pins("damped", Stiffness::compliance(2e-4f, 0.01f), 8));
+  scene.add(sheet_on_pins("damped", Stiffness::compliance(2e-4f, 25.f), 8));
   scene.add(sheet_on_pins("pbd", Stiffness::pbd(0.2f), 10));
-  Object rope = chain(12, 0.1f, Stiffness::compliance(1e-4f, 0.05f));
+  Object rope = chain(12, 0.1f, Stiffness::compliance(1e-4f, 50.f));
   rope.pins = {{0, {}}};
   for (Vec3f& p : rope.positions) p.x += 12;
   scene.add(rope);
@@ -54,7 +54,8 @@ double value_of(const ConstraintGroup& group, std::size_t i) {
   return double(i < group.compliances.size() ? group.compliances[i] : group.stiffness.value);
 }
 
-/// (C + alpha~ lambda + alpha beta d|x|/dt) / L of each distance of an object that has a multiplier and a free end.
+/// (C + alpha~ lambda + (alpha beta - h) d|x|/dt) / L of each distance of an object that has a multiplier and a free
+/// end.
 void add_overstretches(const World& world, ObjectId id, const Object& object, std::vector<double>& all) {
   const std::vector<Vec3f> x = world.object(id).positions(), v = world.object(id).velocities();
   const std::vector<float> multipliers = world.object(id).multipliers("distance");
@@ -74,7 +75,8 @@ void add_overstretches(const World& world, ObjectId id, const Object& object, st
       const double rest = i < group.rest.size() ? double(group.rest[i]) : double(length(start));
       const double length = std::sqrt(dot(way, way)), compliance = value_of(group, i);
       const double lambda = number < multipliers.size() ? double(multipliers[number]) : 0;
-      const double damping = compliance * double(group.stiffness.damping) * dot(way, speed) / length;
+      const double time = std::max(compliance * double(group.stiffness.damping) - h, 0.);
+      const double damping = time * dot(way, speed) / length;
       all.push_back((length - rest + compliance / (h * h) * lambda + damping) / rest);
     }
   }

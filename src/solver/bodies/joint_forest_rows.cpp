@@ -79,9 +79,40 @@ float inverse_mass_of(const JointWork& work, const JointForest::Joint& joint, co
 /// How a row with compliance over h^2 `alpha` takes the mean of forces.
 energy_law::Shares<float> mean_of(const JointWork& work, const JointForest::Joint& joint, const Pool& pool, int row,
                                   float alpha) {
-  if (!work.points.keeps_energy || !(alpha > 0)) return {0, 0};
   const float moves = length_squared(work.arrays.gradient(pool, row, 2));
   return energy_law::shares_of(alpha, inverse_mass_of(work, joint, pool, row), energy_law::most_of_tree(moves));
+}
+
+/// What a row of a joint with compliance has besides C and its multiplier.
+struct Response {
+  float alpha = 0, gamma = 0;  ///< compliance over h^2; damping over h
+  float share = 1;             ///< of the substep's motion, along which C changes
+  float past = 0;              ///< is added to C
+};
+
+/// Of what was evaluated last. A stop knows only of the substep's motion. A spring keeps motion by any integrator, and
+/// its damping is of the second order.
+Response response_of(const JointWork& work, const JointForest::Joint& joint, const ConstraintPlace& at, int row) {
+  const bool is_bounded = constraint_type(at.pool.type).evaluate_bounded != nullptr;
+  const bool is_spring = is_bounded && acts_both_ways(work.bounds[3 * row], work.bounds[3 * row + 1]);
+  const float softness = at.value(at.pool.fields);
+  Response response;
+  response.alpha = min(softness * work.points.inverse_h2, largest_compliance);
+  if (!(response.alpha > 0)) return response;
+  if (at.pool.law == Law::damped)
+    response.gamma = min(softness * at.value(at.pool.fields + 1) * work.points.inverse_h, largest_compliance);
+  const bool keeps_motion = is_spring || (!is_bounded && work.points.keeps_energy);
+  const auto mean = keeps_motion ? mean_of(work, joint, at.pool, row, response.alpha) : energy_law::Shares<float>{0, 0};
+  if (!(response.gamma > 0) && !(mean.motion > 0)) return response;
+  const float share = viscous_share(response.gamma, 1 - mean.motion - mean.coast);
+  const ViscousWeights viscous =
+      is_spring ? viscous_weights(share, inverse_mass_of(work, joint, at.pool, row) / response.alpha)
+                : ViscousWeights{share, 0};
+  const float by_motion = viscous.motion - mean.motion, by_coast = viscous.coast - mean.coast;
+  response.share = 1 + by_motion;
+  response.past = by_motion * motion_along(work, joint, at.pool, row);
+  if (by_coast != 0) response.past = response.past + by_coast * coast_along(work, joint, at.pool, row);
+  return response;
 }
 
 /// Adds a row to the bounded ones. A stop that is not reached starts at its bound, so that it does not act.
@@ -126,33 +157,23 @@ void fill_part(JointWork& work, std::size_t j, const JointForest::Part& part, bo
     evaluate(work, type);
   }
   std::copy_n(bounds, 3 * most_components, work.bounds);
-  const float alpha = min(softness * (type.acts_on_motion ? work.points.inverse_h : work.points.inverse_h2),
-                          largest_compliance),
-              gamma = pool.law == Law::damped && !type.acts_on_motion
-                          ? min(softness * at.value(pool.fields + 1) * work.points.inverse_h, largest_compliance)
-                          : 0;
   const float* multipliers = work.points.first_pass ? nullptr : multipliers_of(work, at);
   for (int r = 0; r < pool.components; ++r) {
     const std::size_t row = first + static_cast<std::size_t>(r);
     const float before = multipliers != nullptr ? multipliers[r * batch_width] : 0;
     rows.of_a[row] = {work.arrays.gradient(pool, r, 0), work.arrays.gradient(pool, r, 1)};
     rows.of_b[row] = {work.arrays.gradient(pool, r, 2), work.arrays.gradient(pool, r, 3)};
-    const bool is_elastic = !type.acts_on_motion && (type.evaluate_bounded == nullptr ||
-                                                     acts_both_ways(work.bounds[3 * r], work.bounds[3 * r + 1]));
-    const auto mean = mean_of(work, joint, pool, r, is_elastic ? alpha : 0);
-    const bool needs_motion = type.acts_on_motion || gamma > 0 || mean.motion > 0;
-    const float motion = needs_motion ? motion_along(work, joint, pool, r) : 0;
     if (type.acts_on_motion) {
+      const float alpha = min(softness * work.points.inverse_h, largest_compliance);
       const float coast = alpha > 0 ? coast_along(work, joint, pool, r) : 0,
                   mass = alpha > 0 ? inverse_mass_of(work, joint, pool, r) : 0;
       const DampedRow damped = damped_row(alpha, mass, work.bounds[3 * r + 2] * work.points.h, coast);
-      rows.value[row] = motion - damped.target + damped.compliance * before;
+      rows.value[row] = motion_along(work, joint, pool, r) - damped.target + damped.compliance * before;
       rows.compliance[row] = damped.compliance;
     } else {
-      const float past = mean.motion > 0 ? mean.motion * motion + mean.coast * coast_along(work, joint, pool, r) : 0;
-      const float now = (1 + gamma) - mean.motion;
-      rows.value[row] = ((c[r] + alpha * before + gamma * motion) - past) / now;
-      rows.compliance[row] = alpha / now;
+      const Response response = response_of(work, joint, at, r);
+      rows.value[row] = (c[r] + response.alpha * before + response.past) / response.share;
+      rows.compliance[row] = response.alpha / response.share;
     }
     if (type.evaluate_bounded != nullptr) add_bounded(work, j, row, r, before, rows);
   }
@@ -228,20 +249,12 @@ namespace {
 /// True if the residual of a row of a joint with compliance, C + alpha lambda with damping, is above `most` [m],
 /// divided by the gradient at b's point. Rows that only turn bodies do not count.
 bool is_displaced(const JointWork& work, const JointForest::Joint& joint, const ConstraintPlace& at, float most) {
-  const float softness = at.value(at.pool.fields), alpha = min(softness * work.points.inverse_h2, largest_compliance);
-  const float gamma = at.pool.law == Law::damped
-                          ? min(softness * at.value(at.pool.fields + 1) * work.points.inverse_h, largest_compliance)
-                          : 0;
   const float* multipliers = multipliers_of(work, at);
   for (int r = 0; r < at.pool.components; ++r) {
     const float squared = length_squared(work.arrays.gradient(at.pool, r, 2));
-    const auto mean = mean_of(work, joint, at.pool, r, alpha);
-    const float damped = gamma > 0 ? gamma * motion_along(work, joint, at.pool, r) : 0;
-    const float past = mean.motion > 0 ? mean.motion * motion_along(work, joint, at.pool, r) +
-                                             mean.coast * coast_along(work, joint, at.pool, r)
-                                       : 0;
-    const float error =
-        (work.arrays.c[r] + (multipliers == nullptr ? 0 : alpha * multipliers[r * batch_width]) + damped) - past;
+    const Response response = response_of(work, joint, at, r);
+    const float elastic = multipliers == nullptr ? 0 : response.alpha * multipliers[r * batch_width];
+    const float error = work.arrays.c[r] + elastic + response.past;
     if (error * error > most * most * squared && squared > 0) return true;
   }
   return false;

@@ -157,22 +157,26 @@ struct Loops {
     }
     return sum;
   }
-  /// What a row of a joint has of the past (energy_law.h), with the share of the substep's motion; both zero without
-  /// Integrator::energy.
-  struct Past {
-    F share, value;
+  /// What a row of a joint has besides C and its multiplier: the share of the substep's motion, along which C changes,
+  /// and what is added to C. See response_of in joint_forest_rows.cpp.
+  struct Response {
+    F share, past;
   };
-  PLIANT_HD static Past past_of(const View& v, const RodJoint& joint, const Vec3<F>* gradient,
-                                const Vec3<F> (&motion)[4], const F& alpha, int l) {
-    const F zero(0.f);
-    if (!v.points.keeps_energy) return {zero, zero};
+  PLIANT_HD static Response response_of(const View& v, const RodJoint& joint, const Vec3<F>* gradient,
+                                        const Vec3<F> (&motion)[4], const F& alpha, const F& gamma, int l) {
+    const F zero(0.f), one(1.f);
+    const auto yields = alpha > zero;
+    if (!v.points.keeps_energy) {
+      const F viscous = select(yields, viscous_share(gamma), zero);
+      return {one + viscous, select(viscous > zero, viscous * along(gradient, motion), zero)};
+    }
     Vec3<F> coast[4];
     coast_of(v, joint, coast, l);
     const auto mean = energy_law::shares_of(alpha, inverse_mass_of(v, joint, gradient, l),
                                             energy_law::most_of_tree(length_squared(gradient[2])));
-    const auto yields = alpha > zero;
-    return {select(yields, mean.motion, zero),
-            select(yields, mean.motion * along(gradient, motion) + mean.coast * along(gradient, coast), zero)};
+    const F by_motion = viscous_share(gamma, one - mean.motion - mean.coast) - mean.motion;
+    const F past = by_motion * along(gradient, motion) - mean.coast * along(gradient, coast);
+    return {select(yields, one + by_motion, one), select(yields, past, zero)};
   }
   PLIANT_HD static F along(const Vec3<F>* gradient, const Vec3<F> (&motion)[4]) {
     F sum(0.f);
@@ -219,17 +223,14 @@ struct Loops {
     const bool needs_motion = v.nodes[j].is_damped || v.points.keeps_energy;
     if (needs_motion) motion_of(v, v.kept[j], motion, l);
     for (int r = 0; r < rod_rows; ++r) {
-      F moved = zero;
-      Past past{zero, zero};
+      Response response{one, zero};
       if (needs_motion) {
         Vec3<F> gradient[4];
         for (int slot = 0; slot < 4; ++slot) gradient[slot] = vector<F>(to.gradient[r][slot], l);
-        moved = select(gamma > zero, along(gradient, motion), zero);
-        past = past_of(v, v.kept[j], gradient, motion, alpha, l);
+        response = response_of(v, v.kept[j], gradient, motion, alpha, gamma, l);
       }
-      const F share = (one + gamma) - past.share;
-      store_row(to.value[r] + l, ((now.c[r] + alpha * get<F>(to.before[r] + l) + gamma * moved) - past.value) / share);
-      store_row(to.compliance[r] + l, alpha / share);
+      store_row(to.value[r] + l, (now.c[r] + alpha * get<F>(to.before[r] + l) + response.past) / response.share);
+      store_row(to.compliance[r] + l, alpha / response.share);
     }
   }
 
@@ -421,15 +422,15 @@ struct Loops {
     F alpha, gamma;
     yielding(v, j, alpha, gamma, l);
     Vec3<F> motion[4];
-    if (v.nodes[j].is_damped || v.points.keeps_energy) motion_of(v, v.kept[j], motion, l);
+    const bool needs_motion = v.nodes[j].is_damped || v.points.keeps_energy;
+    if (needs_motion) motion_of(v, v.kept[j], motion, l);
     const auto is_soft = get<F>(joint.rest[rod_fields] + l) > zero;
     F open = zero;
     for (int r = 0; r < rod_rows; ++r) {
       const F squared = length_squared(now.gradient[r][2]);
-      F moved = zero;
-      if (v.nodes[j].is_damped) moved = select(gamma > zero, gamma * along(now.gradient[r], motion), zero);
-      const Past past = past_of(v, v.kept[j], now.gradient[r], motion, alpha, l);
-      const F error = (now.c[r] + alpha * get<F>(joint.before[r] + l) + moved) - past.value;
+      Response response{one, zero};
+      if (needs_motion) response = response_of(v, v.kept[j], now.gradient[r], motion, alpha, gamma, l);
+      const F error = now.c[r] + alpha * get<F>(joint.before[r] + l) + response.past;
       const F displaced = select(squared > zero, select(error * error > of_soft * of_soft * squared, one, zero), zero);
       open = max(open, select(is_soft, displaced, select(abs(now.c[r]) > of_rigid, one, zero)));
     }

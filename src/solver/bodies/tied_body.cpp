@@ -59,7 +59,8 @@ Tie tie_of(const ConstraintPlace& at, const std::int32_t* number, const SweepArg
   const Vec3f apart{((p.x - body.position.x) + d.x) - body.displacement.x,
                     ((p.y - body.position.y) + d.y) - body.displacement.y,
                     ((p.z - body.position.z) + d.z) - body.displacement.z};
-  const auto [compliance, gamma] = yielding_of(at, a);
+  const auto [compliance, damping] = yielding_of(at, a);
+  const float gamma = viscous_share(damping);
   Vec3f rhs = outward - apart;
   if (pool.law == Law::pbd) rhs = rhs * at.value(pool.fields);
   if (multipliers != nullptr && !a.first_pass)

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/at.h"
+#include "solver/damper.h"
 #include "solver/sheets/sheet_cycle.h"
 #include "solver/substep.h"
 #include "solver/substep_law.h"
@@ -34,7 +35,9 @@ constexpr float most_edges4 = 4;
 constexpr int most_together = 4;
 
 /// What K is multiplied by in P [s^2].
-float h2_of(const SheetBending& sheet, float seconds) { return seconds * (seconds + sheet.damping_time); }
+float h2_of(const SheetBending& sheet, float seconds) {
+  return seconds * seconds * (1 + viscous_share(sheet.damping_time / seconds));
+}
 
 /// The substeps that one bending is for, and the number of the present one among them.
 struct Together {

@@ -1,0 +1,137 @@
+// Flat sheets held at all edges that bend too far, because few edges lie between (docs/internals/bending.md).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "inspect/inspect_scene.h"
+#include "inspect/problems.h"
+#include "matter/advice_settings.h"
+#include "model/sheet_bending.h"
+#include "model/sheet_choice.h"
+
+namespace pliant {
+
+namespace {
+
+/// Told beyond this; the advice leaves `wanted_of_plates` too much.
+constexpr double tolerated_of_plates = 1.1, wanted_of_plates = 0.05;
+/// By what share a square plate of n edges bends too far, times n^2: measured with 6 to 24 edges, where vertices have
+/// six triangles and where not, with one pinned row (supported) and with two (clamped).
+constexpr double excess_of_regular[] = {2, 5}, excess_of_irregular[] = {8, 11};
+/// A mesh is irregular if more than this share of its free vertices has not six triangles.
+constexpr double share_of_irregular = 0.1;
+
+std::vector<char> held_particles(const Object& object) {
+  std::vector<char> held(object.positions.size(), 0);
+  for (std::size_t i = 0; i < held.size(); ++i) held[i] = std::isinf(object.masses[i]) ? 1 : 0;
+  for (const Pin& pin : object.pins) held[static_cast<std::size_t>(pin.particle)] = 1;
+  return held;
+}
+
+/// A sheet whose border is held.
+struct Plate {
+  bool is_one = false;
+  bool is_clamped = false, is_irregular = false;
+  double edges = 0;  ///< across it
+  double edge = 0;   ///< their length [m]
+};
+
+bool has_held_border(const Object& object, const std::vector<char>& held) {
+  std::map<std::pair<int, int>, int> triangles_at;
+  for (const auto& t : object.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int a = t[static_cast<std::size_t>(k)], b = t[static_cast<std::size_t>((k + 1) % 3)];
+      ++triangles_at[{std::min(a, b), std::max(a, b)}];
+    }
+  return std::all_of(triangles_at.begin(), triangles_at.end(), [&](const auto& edge) {
+    return edge.second != 1 || (held[static_cast<std::size_t>(edge.first.first)] != 0 &&
+                                held[static_cast<std::size_t>(edge.first.second)] != 0);
+  });
+}
+
+double area_of(const Object& object, const std::array<int, 3>& t) {
+  const auto at = [&](std::size_t k) { return object.positions[static_cast<std::size_t>(t[k])]; };
+  return std::sqrt(static_cast<double>(length_squared(cross(at(1) - at(0), at(2) - at(0))))) / 2;
+}
+
+Plate plate_of(const Object& object) {
+  const std::vector<char> held = held_particles(object);
+  Plate plate;
+  if (std::count(held.begin(), held.end(), 1) == 0 || !has_held_border(object, held)) return plate;
+  std::vector<int> triangles_at(held.size(), 0);
+  double area = 0, triangles = 0, wholly_held = 0;
+  for (const auto& t : object.triangles) {
+    const bool is_free = std::any_of(t.begin(), t.end(), [&](int i) { return held[static_cast<std::size_t>(i)] == 0; });
+    for (const int i : t) ++triangles_at[static_cast<std::size_t>(i)];
+    area += is_free ? area_of(object, t) : 0;
+    triangles += is_free ? 1 : 0;
+    wholly_held += is_free ? 0 : 1;
+  }
+  if (!(triangles > 0)) return plate;
+  double free = 0, irregular = 0;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (held[i] != 0 || triangles_at[i] == 0) continue;
+    ++free;
+    irregular += triangles_at[i] == 6 ? 0 : 1;
+  }
+  plate.is_one = free > 0;
+  plate.edges = std::sqrt(triangles / 2);
+  plate.edge = std::sqrt(2 * area / triangles);
+  plate.is_clamped = wholly_held > 3 * plate.edges;
+  plate.is_irregular = irregular > share_of_irregular * free;
+  return plate;
+}
+
+struct SoftPlate {
+  const Object* object = nullptr;
+  std::string problem, advice;
+};
+
+std::vector<SoftPlate> find_soft_plates(const Scene& scene, const Settings& settings) {
+  std::vector<SoftPlate> found;
+  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  std::vector<int> substeps_of;
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const Object& object = scene.objects[o];
+    if (object.triangles.empty() || object.volume || has_long_edges(object, gravity)) continue;
+    const Plate plate = plate_of(object);
+    if (!plate.is_one) continue;
+    if (substeps_of.empty()) substeps_of = chosen_substeps(scene, settings);
+    const double h = static_cast<double>(scene.frame_time) / std::max(substeps_of[o], least_substeps_of_sheets);
+    if (!bends_as_sheet(object, h)) continue;
+    const double excess = (plate.is_irregular ? excess_of_irregular : excess_of_regular)[plate.is_clamped ? 1 : 0];
+    const double times = 1 + excess / (plate.edges * plate.edges),
+                 needed = std::ceil(std::sqrt(excess / wanted_of_plates));
+    if (times <= tolerated_of_plates) continue;
+    found.push_back({&object,
+                     "is a sheet that is held at all edges, with about " + words(std::round(plate.edges)) +
+                         " edges of its mesh across, so it bends about " + words(std::round(10 * times) / 10) +
+                         " times as far as its stiffness says",
+                     "give it " + words(needed) + " across: edges of " +
+                         words(std::round(1e4 * plate.edge * plate.edges / needed) / 1e4) + " m"});
+  }
+  return found;
+}
+
+}  // namespace
+
+void doubt_plates(Problems& problems, const Scene& scene) {
+  for (const SoftPlate& found : find_soft_plates(scene, scene.settings)) {
+    problems.at(found.object->name);
+    problems.doubtful("", found.problem, found.advice);
+  }
+  problems.at("");
+}
+
+std::vector<std::string> warnings_of_plates(const Scene& scene, const Settings& settings) {
+  std::vector<std::string> warnings;
+  for (const SoftPlate& found : find_soft_plates(scene, settings))
+    warnings.push_back("object '" + found.object->name + "' " + found.problem + "; " + found.advice);
+  return warnings;
+}
+
+}  // namespace pliant

@@ -1,0 +1,161 @@
+// What `inspect` and the first Report say of sheets that bend or stretch further than their stiffness says, against
+// formulas.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pliant/scene.h"
+#include "pliant/world.h"
+
+namespace pliant {
+namespace {
+
+/// A number in -1 .. 1 that looks random.
+float noise(int n) {
+  const double x = std::sin(12.9898 * n) * 43758.5453;
+  return static_cast<float>(2 * (x - std::floor(x)) - 1);
+}
+
+/// A square of so many cells in the plane y = 0, diagonals to and fro by chance if it is irregular; inner vertices are
+/// moved by a quarter of an edge at most.
+TriangleMesh cells_of(int cells, float size, bool is_irregular, int rim = 0) {
+  TriangleMesh mesh;
+  const float e = size / static_cast<float>(cells);
+  const int n = cells + 2 * rim;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) {
+      const bool moves = is_irregular && i > rim && j > rim && i < n - rim && j < n - rim;
+      const int number = 2 * (i * (n + 1) + j);
+      mesh.positions.push_back({e * (static_cast<float>(i) + (moves ? 0.25f * noise(number) : 0)), 0,
+                                e * (static_cast<float>(j) + (moves ? 0.25f * noise(number + 1) : 0))});
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const int a = i * (n + 1) + j, b = a + n + 1;
+      const bool turns = is_irregular && noise(3 * a) > 0;
+      mesh.triangles.push_back({a, turns ? a + 1 : b + 1, b});
+      mesh.triangles.push_back({turns ? a + 1 : a, turns ? b + 1 : a + 1, turns ? b : b + 1});
+    }
+  return mesh;
+}
+
+Scene sheet_of(TriangleMesh mesh, const Fabric& material) {
+  ClothOptions options;
+  options.name = "sheet";
+  options.material = material;
+  Scene scene;
+  scene.add_cloth(mesh, options);
+  scene.objects[0].collides = scene.objects[0].self_collision = false;
+  scene.settings.threads = 1;
+  return scene;
+}
+
+/// The number after these words in what is told; 0 if nothing is.
+double told_number(const Scene& scene, const std::string& words) {
+  double number = 0;
+  for (const Finding& found : inspect(scene))
+    if (const std::size_t at = found.message.find(words); at != std::string::npos)
+      number = std::atof(found.message.c_str() + at + words.size());
+  World world(scene);
+  const Report report = world.step(scene.frame_time);
+  bool is_warned = false;
+  for (const std::string& warning : report.warnings) is_warned = is_warned || warning.find(words) != std::string::npos;
+  EXPECT_EQ(is_warned, number > 0);
+  return number;
+}
+
+constexpr double side = 0.2;  ///< of plates [m]
+
+/// A plate of 1 kg/m^2 and 1 N m that is held at its border.
+Scene plate(int cells, bool is_irregular, bool is_clamped) {
+  Fabric material;
+  material.area_density = 1;
+  material.stretch_stiffness = 20000;
+  material.bending_stiffness = 1;
+  Scene scene = sheet_of(cells_of(cells, static_cast<float>(side), is_irregular, is_clamped ? 1 : 0), material);
+  std::vector<int> held;
+  const float e = static_cast<float>(side) / static_cast<float>(cells), low = is_clamped ? 1.01f * e : 0.01f * e,
+              high = low - 0.02f * e + static_cast<float>(side);
+  for (int i = 0; i < static_cast<int>(scene.objects[0].positions.size()); ++i) {
+    const Vec3f& x = scene.objects[0].positions[static_cast<std::size_t>(i)];
+    const Vec3f& first = scene.objects[0].positions[0];
+    if (x.x - first.x < low || x.z - first.z < low || x.x - first.x > high || x.z - first.z > high) held.push_back(i);
+  }
+  scene.pin(0, held);
+  scene.objects[0].damping = 8;
+  return scene;
+}
+
+/// Its deflection over that of a plate, w = c q L^4 / B.
+double deflection(const Scene& scene, bool is_clamped) {
+  World world(scene);
+  for (int i = 0; i < 90; ++i) world.step(1.f / 60);
+  double lowest = 0;
+  for (const Vec3f& x : world.object(0).positions()) lowest = std::min(lowest, static_cast<double>(x.y));
+  return -lowest / ((is_clamped ? 0.00126 : 0.00406) * 9.81 * std::pow(side, 4));
+}
+
+TEST(ToldSheets, APlateOfFewEdgesBendsAsFarAsIsTold) {
+  for (const bool is_clamped : {false, true})
+    for (const bool is_irregular : {false, true}) {
+      const Scene scene = plate(6, is_irregular, is_clamped);
+      const double told = told_number(scene, "across, so it bends about "), is = deflection(scene, is_clamped);
+      EXPECT_EQ(told > 0, is_clamped || is_irregular);
+      EXPECT_NEAR((told > 0 ? told : 1) / is, 1, 0.1) << is_clamped << is_irregular;
+      EXPECT_EQ(told_number(plate(16, is_irregular, is_clamped), "across, so it bends about "), 0);
+    }
+}
+
+TEST(ToldSheets, NothingIsToldOfASheetThatIsNotHeldAllAround) {
+  Scene scene = plate(6, true, true);
+  scene.objects[0].pins.resize(scene.objects[0].pins.size() / 2);
+  EXPECT_EQ(told_number(scene, "across, so it bends about "), 0);
+}
+
+constexpr int rows = 12;  ///< cells of what hangs
+
+/// Irregular cloth of 0.6 m that hangs by an edge.
+Scene hung(float stiffness, Sweep sweep) {
+  Fabric material;
+  material.area_density = 0.12f;
+  material.stretch_stiffness = stiffness;
+  TriangleMesh mesh = cells_of(rows, 0.6f, true);
+  for (Vec3f& x : mesh.positions) x = {x.x, -x.z, 0};
+  Scene scene = sheet_of(std::move(mesh), material);
+  std::vector<int> held;
+  for (int i = 0; i <= rows; ++i) held.push_back(i * (rows + 1));
+  scene.pin(0, held);
+  scene.objects[0].sweep = sweep;
+  scene.objects[0].damping = 8;
+  scene.settings.substeps = 5;
+  return scene;
+}
+
+/// How far its lower edge hangs down, over rho g L^2 / (2 Y).
+double stretch_of_hung(const Scene& scene, float stiffness) {
+  World world(scene);
+  for (int i = 0; i < 120; ++i) world.step(1.f / 60);
+  double down = 0;
+  for (int i = 0; i <= rows; ++i)
+    down += -0.6 - static_cast<double>(world.object(0).positions()[static_cast<std::size_t>(i * (rows + 1) + rows)].y);
+  return down / (rows + 1) / (0.12 * 9.81 * 0.36 / (2 * static_cast<double>(stiffness)));
+}
+
+TEST(ToldSheets, WhatHangsByMultigridStretchesAsFarAsIsTold) {
+  for (const float stiffness : {3000.f, 9000.f}) {
+    const Scene scene = hung(stiffness, Sweep::multigrid);
+    const double told = told_number(scene, "stretches about "), is = stretch_of_hung(scene, stiffness);
+    EXPECT_GT(is, 1.5) << "or this shows nothing";
+    EXPECT_GT(told, is / 1.5) << stiffness;
+    EXPECT_LT(told, is * 1.5) << stiffness;
+    EXPECT_EQ(told_number(hung(stiffness, Sweep::chains), "stretches about "), 0);
+  }
+  EXPECT_EQ(told_number(hung(300, Sweep::multigrid), "stretches about "), 0);
+}
+
+}  // namespace
+}  // namespace pliant
