@@ -7,7 +7,21 @@
 
 namespace pliant {
 
-Vec3d BodyPaths::displacement(int body) const { return convert<double>((*bodies_)[at(body)].velocity) * dt_; }
+namespace {
+
+/// The velocity of a body where another one is. Only what turns by itself turns like that for a whole frame [m/s].
+Vec3d velocity_at(const BodyState& body, const BodyState& other) {
+  const Vec3d velocity = convert<double>(body.velocity);
+  if (!body.is_driven_round) return velocity;
+  return velocity + cross(convert<double>(body.spin), other.pose.position - body.pose.position);
+}
+
+/// The displacement of b against a in a frame, in the world [m].
+Vec3d displacement(const BodyState& a, const BodyState& b, double dt) {
+  return (velocity_at(b, a) - velocity_at(a, b)) * dt;
+}
+
+}  // namespace
 
 bool BodyPaths::is_held(int body) const {
   const BodyState& state = (*bodies_)[at(body)];
@@ -20,7 +34,7 @@ bool BodyPaths::turns(int body, int pair) const { return turns_[at(body)].pair >
 void BodyPaths::note(int body, int other, const FirstTouch& touch, const Vec3d& normal) {
   Turn& turn = turns_[at(body)];
   if (is_held(body) || !(touch.time < turn.time)) return;
-  const double closing = std::min(dot(normal, displacement(body) - displacement(other)), 0.);
+  const double closing = std::min(dot(normal, displacement((*bodies_)[at(other)], (*bodies_)[at(body)], dt_)), 0.);
   const double share = is_held(other) ? 1 : 0.5;  // masses are not known here
   turn = {touch.pair, touch.time, normal * (-share * closing)};
 }
@@ -40,11 +54,11 @@ double BodyPaths::first_turn(int a, int b, int pair) const {
 }
 
 ContactPath BodyPaths::straight(const BodyState& a, const BodyState& b, float dt, const Quatd& axes) {
-  return ContactPath(rotate(conjugate(axes), convert<double>(b.velocity - a.velocity) * static_cast<double>(dt)));
+  return ContactPath(rotate(conjugate(axes), displacement(a, b, static_cast<double>(dt))));
 }
 
 ContactPath BodyPaths::between(int a, int b, int pair, const Quatd& axes) const {
-  ContactPath path(rotate(conjugate(axes), displacement(b) - displacement(a)));
+  ContactPath path(rotate(conjugate(axes), displacement((*bodies_)[at(a)], (*bodies_)[at(b)], dt_)));
   const Turn &of_a = turns_[at(a)], &of_b = turns_[at(b)];
   if (turns(b, pair)) path.turn(of_b.time, rotate(conjugate(axes), of_b.change));
   if (turns(a, pair)) path.turn(of_a.time, rotate(conjugate(axes), -of_a.change));

@@ -42,7 +42,6 @@ class BodyPaths {
     Vec3d change{};  ///< of the displacement that the whole frame would bring [m]
   };
   void note(int body, int other, const FirstTouch& touch, const Vec3d& normal);
-  Vec3d displacement(int body) const;
   bool is_held(int body) const;
 
   const std::vector<BodyState>* bodies_ = nullptr;

@@ -120,13 +120,6 @@ int triangle_above(const BodyMesh& mesh, const SolidInMesh& solid) {
   return dot(face.normal, solid.centre() - face.corners[0]) <= 0 ? triangle : -1;
 }
 
-/// True if a point is not over its triangle. Terrain is one smooth piece, of which only ends and ridges have sides.
-bool has_side(const BodyMesh& mesh, const std::vector<TrianglePoint>& points) {
-  return std::any_of(points.begin(), points.end(), [&](const TrianglePoint& at) {
-    return dot(at.normal, mesh.face(at.triangle).normal) < own_cosine;
-  });
-}
-
 std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& solid, double reach,
                                      const SolidPath* path, PathContact& first) {
   std::vector<TrianglePoint> points;
@@ -135,8 +128,7 @@ std::vector<TrianglePoint> points_on(const BodyMesh& mesh, const SolidInMesh& so
   if (plane < 0) {
     mesh.find(solid.box(reach + mesh.thickness()), near);
     for (const int triangle : near) touch_triangle(solid, mesh, triangle, reach, points);
-    if (path != nullptr && (!mesh.is_terrain() || has_side(mesh, points)))
-      first = put_on_path(solid, mesh, near, reach, *path, points);
+    if (path != nullptr) first = put_on_path(solid, mesh, near, reach, *path, points);
     // Deep inside a fine mesh no triangle may be below the solid's lowest points.
     if (points.empty()) plane = least_overlapped(solid, mesh, near);
   }

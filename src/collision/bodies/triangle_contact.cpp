@@ -245,6 +245,14 @@ void pass_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle,
     touch_triangle(solid, mesh, triangle, reach, nearest, points);
 }
 
+Vec3d direction_of_contact(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal) {
+  const MeshFace& face = mesh.face(triangle);
+  const double along = dot(normal, face.normal);
+  const bool is_behind = mesh.is_terrain() && along <= 0;
+  const bool is_its_own = !is_behind && (std::fabs(along) >= straight || is_in_normal_cone(mesh, triangle, normal));
+  return is_its_own ? normal : facing_normal(face, solid.centre(), mesh.is_terrain());
+}
+
 void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal, double reach,
                     std::vector<TrianglePoint>& points) {
   const MeshFace& face = mesh.face(triangle);
@@ -258,6 +266,16 @@ void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle
     at.add(points, {place - normal * separation, place, separation, static_cast<std::uint32_t>(i)});
   }
   at.add_deepest(points, first, -1e300);
+}
+
+void touch_beyond_valley(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
+                         std::vector<TrianglePoint>& points) {
+  const MeshFace& face = mesh.face(triangle);
+  const Vec3d normal = facing_normal(face, solid.centre(), mesh.is_terrain()), lowest = solid.support(-normal);
+  const bool is_flipped = dot(normal, face.normal) < 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (face.beyond(k, lowest, is_flipped) > 0 && face.sides[k].is_convex(is_flipped)) return;
+  touch_plane_of(solid, mesh, triangle, normal, reach, points);
 }
 
 int least_overlapped(const SolidInMesh& solid, const BodyMesh& mesh, const std::vector<int>& triangles) {

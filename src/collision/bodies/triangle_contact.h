@@ -34,10 +34,19 @@ void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle
 void pass_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
                    const TriangleNearest& nearest, std::vector<TrianglePoint>& points);
 
+/// The direction in which a triangle holds a solid to which it is nearest along `normal`: that, or its own normal where
+/// another triangle is nearer in that direction.
+Vec3d direction_of_contact(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal);
+
 /// Appends the points of a solid that are deepest below the plane of a triangle, as if that had no bounds. `normal` is
 /// that of the triangle, or its opposite: to the side to which the solid belongs.
 void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal, double reach,
                     std::vector<TrianglePoint>& points);
+
+/// Appends the points on the plane of a triangle that a solid is about to reach across a valley: one that overlaps the
+/// triangle before the valley touches the edge between them before it is over the triangle beyond.
+void touch_beyond_valley(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
+                         std::vector<TrianglePoint>& points);
 
 /// The triangle out of which the way along its normal is shortest, of those that a solid overlaps; -1: it overlaps
 /// none.

@@ -102,8 +102,10 @@ PathContact first_of(std::vector<Met>& met, const Way& way, const ContactPath& p
   PathContact first;
   for (Met& one : met) {
     one.at = way.meet(path, one.triangle);
-    if (one.at.touches && (!first.touches || one.at.time < first.time)) first = one.at;
-    if (is_enough && first.touches && first.time <= 0) return first;
+    if (!one.at.touches) continue;
+    one.at.normal = direction_of_contact(way.solid.moved(one.at.displacement), way.mesh, one.triangle, one.at.normal);
+    if (!first.touches || one.at.time < first.time) first = one.at;
+    if (is_enough && first.time <= 0) return first;
   }
   return first;
 }
@@ -115,6 +117,7 @@ void add_points(const Way& way, const Met& met, std::vector<TrianglePoint>& poin
   const SolidInMesh there = way.solid.moved(by);
   if (met.at.touches) {
     touch_triangle(there, way.mesh, met.triangle, way.reach, points);
+    if (points.size() == first) touch_beyond_valley(there, way.mesh, met.triangle, way.reach, points);
   } else {  // no direction is preferred where they pass
     TriangleNearest nearest = exactly_nearest_on(way.mesh.face(met.triangle), there, {});
     nearest.normal = met.at.normal;

@@ -1,8 +1,10 @@
 #include "solver/bodies/frame_contacts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "solver/bodies/body_math.h"
 #include "solver/substep.h"
@@ -12,7 +14,9 @@ namespace pliant {
 namespace {
 
 /// Contacts are found again in a frame if a body has turned by more than this since they were found [rad].
-constexpr float far_turned = 0.2f, soon_far_turned = 0.5f * far_turned;
+constexpr float far_turned = 0.2f;
+/// Bodies that have turned by this share of it are found again with those that have turned so far.
+constexpr float soon = 0.5f;
 /// The same if two bodies, of which some bounce, have moved against each other by more than this share of half of the
 /// smaller one's thickness: the direction of an impact is that of the place where they meet.
 constexpr float far_moved = 0.1f;
@@ -20,9 +24,21 @@ constexpr float far_moved = 0.1f;
 /// one that another one hits: nothing else would hold it on its new path.
 constexpr float far_strayed = 0.5f;
 
+/// The same if the place at which a tilted disc stands on its rim may have left the ground by more than this share of
+/// half of its thickness. More often than at each `least_turned` contacts are not found again.
+constexpr float risen = 0.01f, least_turned = 0.02f;
+/// Sines of the tilts between which a disc stands on its rim: less, it lies, and more, it rolls on its side.
+constexpr float least_tilt = 0.02f, most_tilt = 0.9f;
+
 }  // namespace
 
-FrameContacts::FrameContacts(ContactBodies& bodies) : bodies_(&bodies), finder_(bodies.take_parts()) {}
+FrameContacts::FrameContacts(ContactBodies& bodies) : bodies_(&bodies) {
+  std::vector<BodyPart> parts = bodies.take_parts();
+  has_rim_.assign(bodies.places().size(), 0);
+  for (const BodyPart& part : parts)
+    if (part.mesh == nullptr && part.shape.kind == ConvexShape::Kind::cylinder) has_rim_[at(part.body)] = 1;
+  finder_ = BodyContacts(std::move(parts));
+}
 
 void FrameContacts::read_states(const Substep& s) {
   left_ = static_cast<float>(time_left(s));
@@ -75,9 +91,29 @@ void FrameContacts::find(Substep& s, BodySleep& sleep) {
     }
     update(s, is_alone ? contacts_ : s.state.body_contacts);
   }
+  limit_turns();
   paths_.resize(states_.size());
   for (int body = 0; body < bodies_->dynamic(); ++body) begin_path(body);
   warn(s);
+}
+
+/// Where a disc of radius r, whose axis has the sine s to the normal, turns by an angle, its lowest place runs round the
+/// rim by the angle over s. What was lowest has then risen by r angle^2 / 2 s.
+void FrameContacts::limit_turns() {
+  most_turned_.assign(at(bodies_->dynamic()), far_turned);
+  for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
+    const auto& [a, b] = finder_.bodies()[at(i)];
+    const BodyContact& contact = contacts_[at(i)];
+    for (const auto& [body, arm] : {std::pair{a, contact.arm_a}, std::pair{b, contact.arm_b}}) {
+      const Vec3f round = body < bodies_->dynamic() && has_rim_[at(body)] != 0 ? bodies_->round_axes(body) : Vec3f{};
+      if (round.x + round.y + round.z != 1) continue;
+      const Vec3f axis = rotate(convert<float>(states_[at(body)].pose.rotation), round);
+      const float tilt = length(cross(axis, contact.normal)), radius = length(cross(axis, arm));
+      if (tilt < least_tilt || tilt > most_tilt || !(radius > 0)) continue;
+      const float limit = std::sqrt(2 * risen * size(i) * tilt / radius);
+      most_turned_[at(body)] = std::min(most_turned_[at(body)], std::max(limit, least_turned));
+    }
+  }
 }
 
 void FrameContacts::warn(Substep& s) {
@@ -147,7 +183,7 @@ bool FrameContacts::has_strayed(const BodyMotions& motions, int body) const {
 
 bool FrameContacts::are_outdated(const BodyMotions& motions, bool some_bounce) const {
   const auto turned = [&](int body) {
-    return body < bodies_->dynamic() && turned_[at(body)] + motions.turned(body) > far_turned;
+    return body < bodies_->dynamic() && turned_[at(body)] + motions.turned(body) > most_turned_[at(body)];
   };
   bool any = false;  // bodies first: they are fewer than contacts
   for (int body = 0; body < bodies_->dynamic(); ++body) {
@@ -167,7 +203,7 @@ void FrameContacts::find_outdated(const BodyMotions& motions, bool some_bounce) 
   for (int body = 0; body < bodies_->dynamic(); ++body) {
     float& turned = turned_[at(body)];
     turned += motions.turned(body);
-    is_outdated_[at(body)] = turned > soon_far_turned || has_strayed(motions, body) ? 1 : 0;
+    is_outdated_[at(body)] = turned > soon * most_turned_[at(body)] || has_strayed(motions, body) ? 1 : 0;
   }
   if (some_bounce)
     any_moved_far(motions, [&](int a, int b) {
@@ -191,6 +227,7 @@ void FrameContacts::renew(Substep& s, const BodyMotions& motions, bool some_boun
   finder_.renew(
       s.context.executor, states_, left_, faster_, [&](int a, int b) { return bodies_->meet(s, a, b); }, is_outdated_,
       some_bounce ? far_moved : 1e30f, contacts_);
+  limit_turns();
 }
 
 }  // namespace pliant

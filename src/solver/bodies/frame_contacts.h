@@ -51,6 +51,8 @@ class FrameContacts {
   void update(Substep& s, const std::vector<BodyContact>& before);
   void find_beside_sleepers(Substep& s, BodySleep& sleep);
   void warn(Substep& s);
+  /// How far each body may turn until its contacts are found again.
+  void limit_turns();
   void find_outdated(const BodyMotions& motions, bool some_bounce);
   void begin_path(int body);
   /// True if a body has left the path on which its contacts were found.
@@ -59,7 +61,8 @@ class FrameContacts {
   bool any_moved_far(const BodyMotions& motions, const Visit& visit) const;
 
   ContactBodies* bodies_;
-  BodyContacts finder_;
+  BodyContacts finder_{{}};
+  std::vector<char> has_rim_;  ///< [place] nonzero: a solid of it is a cylinder
   DeepOverlaps overlaps_;
   std::vector<BodyState> states_;
   /// The path on which the contacts of a body were found, and how far the body has come since.
@@ -75,6 +78,7 @@ class FrameContacts {
   std::vector<char> is_fixed_;
   std::vector<BodyContact> contacts_;
   std::vector<float> turned_;  ///< [place] rotation from when a body's contacts were found to the last renewal [rad]
+  std::vector<float> most_turned_;   ///< [place] how far it may turn until they are found again [rad]
   std::vector<char> is_outdated_;    ///< [place] nonzero: its contacts are found again
   std::vector<BodyContact> before_;  ///< of the frame before, where bodies sleep
 };
