@@ -37,7 +37,7 @@ struct RenderOptions {
   std::optional<int> frame;  ///< frame to draw, or length of a movie; default: the scene's last frame
   std::string out;           ///< file, .png or .mp4
   std::string size;          ///< WxH in pixels; empty: 1280x720, of a draft half of it
-  pliant::render::CameraOptions camera;
+  SceneCamera camera;  ///< overrides that of the scene
   std::vector<int> strip;  ///< frames drawn side by side in one picture; empty: one frame
   std::string resume;      ///< checkpoint of the scene to draw, or from which to go on; empty: none
   bool draft = false;      ///< smaller, and of a movie some 15 pictures a second
@@ -45,7 +45,7 @@ struct RenderOptions {
 };
 
 /// Draws a scene after some frames, or a movie of all frames.
-int render(const RenderOptions& options);
+int render(RenderOptions options);
 
 struct StudyOptions {
   std::string scene;

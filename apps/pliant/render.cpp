@@ -218,7 +218,7 @@ void draw_movie(const RenderOptions& options, const Scene& scene, Size size) {
 
 }  // namespace
 
-int render(const RenderOptions& options) {
+int render(RenderOptions options) {
   const bool is_movie = has_suffix(options.out, ".mp4");
   if (!is_movie && !has_suffix(options.out, ".png")) {
     Location where;
@@ -236,7 +236,9 @@ int render(const RenderOptions& options) {
   const Size size = parse_size(!options.size.empty() ? options.size : options.draft ? "640x360" : "1280x720");
   refuse_same_file_twice({options.scene, options.resume}, {options.out});
   refuse_unwritable(options.out);
-  Scene scene = read_scene_with(options.scene, options.overrides, options.quiet);
+  SceneFile file = read_file_with(options.scene, options.overrides, options.quiet);
+  options.camera = pliant::render::merged(options.camera, file.camera);
+  Scene& scene = file.scene;
   for (const int frame : options.strip) require_frame(scene, options.scene, frame);
   if (options.frame) require_frame(scene, options.scene, *options.frame);
   scene.frames = options.frame.value_or(scene.frames);

@@ -34,6 +34,22 @@ TEST_F(Render, TheCameraIsWhereItIsTold) {
     EXPECT_FALSE(draw(std::string("--size 160x120 ") + other) == plain) << other;
 }
 
+TEST_F(Render, TheSceneHasACameraThatOptionsOverride) {
+  if (const std::string why = why_nothing_is_drawn(); !why.empty()) GTEST_SKIP() << why;
+  const std::string size = "--size 160x120 ";
+  const auto from = [&](const std::string& camera, const std::string& options = "") {
+    return draw(size + "--set '/camera=" + camera + "' " + options);
+  };
+  const std::string plain = draw(size);
+  EXPECT_TRUE(from("{}") == plain);
+  EXPECT_TRUE(from(R"({"azimuth": 70, "elevation": 40, "distance": 3, "fov": 50, "look_at": [0, 0.1, 0]})") ==
+              draw(size + "--azimuth 70 --elevation 40 --distance 3 --fov 50 --look-at 0,0.1,0"));
+  EXPECT_TRUE(from(R"({"azimuth": 70, "fov": 50})", "--azimuth 28") == draw(size + "--fov 50"));
+  EXPECT_FALSE(from(R"({"position": [1, 2, 1]})") == plain);
+  EXPECT_TRUE(from(R"({"position": [0, 0, 3], "look_at": [0, 0, 0]})") ==
+              draw(size + "--azimuth 0 --elevation 0 --distance 3 --look-at 0,0,0"));
+}
+
 TEST_F(Render, DrawsACheckpointAndGoesOnFromIt) {
   if (const std::string why = why_nothing_is_drawn(); !why.empty()) GTEST_SKIP() << why;
   ASSERT_EQ(pliant("run small.json --frames 2 --checkpoint two.state --quiet").status, 0);
