@@ -114,7 +114,7 @@ void add_camera(CLI::App& app, pliant::SceneCamera& camera) {
 
 void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
   CLI::App* render_app = app.add_subcommand("render", "Draw a scene as a picture or movie, without a display");
-  render_app->add_option("SCENE", options.scene, "scene file (JSON)")->required();
+  render_app->add_option("SCENE", options.scene, "scene file (JSON), or an animation (.glb)")->required();
   render_app->add_option("--out", options.out, "picture (.png) or movie (.mp4)")->type_name("FILE")->required();
   render_app
       ->add_option("--frame", options.frame, "frame to draw, or last frame of a movie (default: the scene's last)")

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "command/command_fixture.h"
@@ -58,6 +59,27 @@ TEST_F(Render, DrawsACheckpointAndGoesOnFromIt) {
   expect_refused("render small.json --out a.png --resume two.state --frame 1", 1, "two.state: is of frame 2");
   expect_refused("render small.json --out a.mp4 --resume two.state", 1, "--resume");
   expect_refused("render small.json --out a.png --resume small.json", 1, "small.json");
+}
+
+TEST_F(Render, DrawsTheFramesOfAGlb) {
+  if (const std::string why = why_nothing_is_drawn(); !why.empty()) GTEST_SKIP() << why;
+  ASSERT_EQ(pliant("run small.json --out small.glb --quiet").status, 0);
+  const auto draw_glb = [&](const std::string& arguments) {
+    const Result result = pliant("render small.glb --quiet --out a.png --size 160x120 " + arguments);
+    EXPECT_EQ(result.status, 0) << arguments << ": " << result.err;
+    return slurp(folder_ / "a.png");
+  };
+  const std::string last = draw_glb("");
+  EXPECT_TRUE(draw_glb("--frame 4") == last);
+  EXPECT_FALSE(draw_glb("--frame 0") == last);
+  EXPECT_FALSE(draw_glb("--azimuth 80") == last);
+  EXPECT_FALSE(draw_glb("--strip 0,4") == last);
+  expect_refused("render small.glb --out a.png --frame 5", 1, "small.glb: has no frame 5; its last one is 4");
+  expect_refused("render small.glb --out a.png --strip 0,9", 1, "small.glb: has no frame 9");
+  expect_refused("render small.glb --out a.png --resume a.state", 1, "--resume");
+  std::ofstream(folder_ / "damaged.glb") << "glTF";
+  expect_refused("render damaged.glb --out a.png", 1, "damaged.glb: is no .glb file");
+  expect_refused("render none.glb --out a.png", 1, "none.glb");
 }
 
 TEST_F(Render, ADraftIsSmaller) {
