@@ -23,6 +23,13 @@ export async function filesOf(name) {
   return found;
 }
 
+/** Frames of a golden hash, as in tests/golden/cases.h and cases.cpp. */
+export function framesOf(name) {
+  const [plainFrames, contactFrames, tearingFrames] = [40, 16, 40];
+  if (name.startsWith("tears/") || name === "bags/seeping") return tearingFrames;
+  return name.includes("/") ? contactFrames : plainFrames;
+}
+
 export async function hashes() {
   const lines = (await readFile(new URL("tests/golden/hashes.txt", root), "utf8")).split("\n");
   return Object.fromEntries(lines.filter((line) => line && !line.startsWith("#")).map((line) => line.split(" ")));
