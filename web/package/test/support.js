@@ -18,7 +18,8 @@ export async function filesOf(name) {
   const folder = new URL(`scenes/${name}/../`, root);
   const text = await sceneText(name);
   const found = {};
-  for (const file of await readdir(folder))
+  const files = (await readdir(folder, { withFileTypes: true })).filter((one) => one.isFile()); // not the folder "bodies"
+  for (const { name: file } of files)
     if (!file.endsWith(".json") && text.includes(`"${file}"`)) found[file] = await readFile(new URL(file, folder));
   return found;
 }

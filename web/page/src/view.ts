@@ -46,7 +46,7 @@ export class View {
   private timedAt = -measured;
   private readonly chosen = new THREE.Mesh(
     new THREE.SphereGeometry(1, 16, 12),
-    new THREE.MeshBasicMaterial({ color: 0xff8c1a, transparent: true, opacity: 0.75, depthTest: false }),
+    new THREE.MeshBasicMaterial({ color: 0xe0218a, transparent: true, opacity: 0.85, depthTest: false }),
   );
 
   constructor(private readonly canvas: HTMLCanvasElement) {
@@ -178,7 +178,7 @@ export class View {
     if (!point && !this.chosen.visible) return;
     this.chosen.visible = point !== undefined;
     if (point) this.chosen.position.fromArray(point);
-    this.chosen.scale.setScalar(0.02 * this.extent);
+    this.chosen.scale.setScalar(0.025 * this.extent);
     this.draw();
   }
 
