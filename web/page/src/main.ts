@@ -51,6 +51,7 @@ function showError(error: unknown): void {
     byId<HTMLDetailsElement>("editor").open = true;
     selectPlace(error.line, error.column);
   }
+  place.scrollIntoView({ block: "nearest" });
 }
 
 /** Selects the rest of a line of the text, from a column on. */

@@ -327,7 +327,7 @@ export function drawCollider(collider: Parts["colliders"][number], extent: numbe
   const isPlane = collider.shape.kind === "plane";
   const mesh = new THREE.Mesh(
     shapeGeometry(collider.shape, extent),
-    material(isPlane ? [0.4, 0.41, 0.41] : collider.colour, { roughness: 0.9 }),
+    material(isPlane ? [0.5, 0.51, 0.51] : collider.colour, { roughness: 0.9 }),
   );
   mesh.castShadow = !isPlane;
   mesh.receiveShadow = true;

@@ -377,6 +377,8 @@ test("a wrong scene is explained, and a right one in the link is shown", async (
   await page.getByRole("button", { name: "Apply" }).click();
   const alert = page.getByRole("alert");
   await alert.waitFor();
+  const inside = (await alert.boundingBox()).y + (await alert.boundingBox()).height;
+  assert.ok(inside <= 701, `the error ends ${inside} pixels below the top of 700`);
   assert.match(await alert.textContent(), /scene:\d+:\d+: .*cloht.*did you mean 'cloth'/s);
   const selected = await editor.evaluate((area) => area.value.slice(area.selectionStart, area.selectionEnd));
   assert.match(selected, /^"cloht"/);
