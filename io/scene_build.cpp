@@ -430,6 +430,7 @@ SceneFile build(const JsonDocument& document, const MeshFolder& folder) {
   build_objects(document, folder, names, Fills::leave_out_solids, file, particles);  // which are known now
   for (const JsonValue& item : elements(root, "pairs")) scene.pairs.push_back(pair_of(document, item, scene));
   file.gauges = build_gauges(document, root, scene);
+  if (const JsonValue* camera = root.find("camera")) file.camera = build_camera(document, *camera);
   require_known(folder, document, scene);
   return file;
 }

@@ -57,6 +57,9 @@ void set_joints(const JsonDocument& document, const JsonValue& at, Object& objec
 /// Builds the gauges of the root, which measure objects and colliders of its scene.
 std::vector<Gauge> build_gauges(const JsonDocument& document, const JsonValue& root, const Scene& scene);
 
+/// Builds the camera of a record. Throws an Error if it has no direction, or two.
+SceneCamera build_camera(const JsonDocument& document, const JsonValue& at);
+
 /// Add the pins and attachments of a record, of an object or a part, to what it builds.
 void set_clusters(const JsonDocument& document, const JsonValue& at, BuiltObject& built);
 void set_stitches(const JsonDocument& document, const JsonValue& at, BuiltObject& built);

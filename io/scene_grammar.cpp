@@ -410,7 +410,8 @@ const Record& scene_record() {
        needed("objects", list(record(object_record())), "The objects, which move."),
        field("colliders", list(record(collider_record())), "none", "The colliders, which objects cannot push."),
        field("pairs", list(record(pair_record())), "none", "Contact properties of single pairs of objects."),
-       field("gauges", list(record(gauge_record())), "none", "Measurements of liquids; they change nothing.")},
+       field("gauges", list(record(gauge_record())), "none", "Measurements of liquids; they change nothing."),
+       field("camera", record(camera_record()), "shows the whole scene", "From where pictures show it.")},
       {}};
   return result;
 }

@@ -57,4 +57,7 @@ const Record& urdf_record();
 // Defined in scene_grammar_gauges.cpp.
 const Record& gauge_record();
 
+// Defined in scene_camera.cpp.
+const Record& camera_record();
+
 }  // namespace pliant::scene_file

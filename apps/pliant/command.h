@@ -32,19 +32,19 @@ struct RunOptions {
 int run(const RunOptions& options);
 
 struct RenderOptions {
-  std::string scene;
+  std::string scene;         ///< or a .glb file
   Overrides overrides;       ///< `frames` is not used
   std::optional<int> frame;  ///< frame to draw, or length of a movie; default: the scene's last frame
   std::string out;           ///< file, .png or .mp4
   std::string size;          ///< WxH in pixels; empty: 1280x720, of a draft half of it
-  pliant::render::CameraOptions camera;
-  std::vector<int> strip;  ///< frames drawn side by side in one picture; empty: one frame
-  std::string resume;      ///< checkpoint of the scene to draw, or from which to go on; empty: none
-  bool draft = false;      ///< smaller, and of a movie some 15 pictures a second
+  SceneCamera camera;        ///< overrides that of the scene
+  std::vector<int> strip;    ///< frames drawn side by side in one picture; empty: one frame
+  std::string resume;        ///< checkpoint of the scene to draw, or from which to go on; empty: none
+  bool draft = false;        ///< smaller, and of a movie some 15 pictures a second
   bool quiet = false;
 };
 
-/// Draws a scene after some frames, or a movie of all frames.
+/// Draws a scene after some frames, or a movie of all frames; or the frames of a .glb file.
 int render(const RenderOptions& options);
 
 struct StudyOptions {

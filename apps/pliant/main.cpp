@@ -83,37 +83,38 @@ void add_run(CLI::App& app, RunOptions& options, Chosen& chosen) {
 }
 
 /// Adds the options of a camera.
-void add_camera(CLI::App& app, pliant::render::CameraOptions& camera) {
-  app.add_option("--azimuth", camera.azimuth, "camera angle from the front towards the right, -360 to 360 [degrees]")
+void add_camera(CLI::App& app, pliant::SceneCamera& camera) {
+  app.add_option("--azimuth", camera.azimuth,
+                 "camera angle from the front towards the right, -360 to 360 [degrees] (default: the scene's, or 28)")
       ->type_name("A")
-      ->check(range(-360.f, 360.f))
-      ->capture_default_str();
-  app.add_option("--elevation", camera.elevation, "camera angle above the horizon, -89 to 89 [degrees]")
+      ->check(range(-360.f, 360.f));
+  app.add_option("--elevation", camera.elevation,
+                 "camera angle above the horizon, -89 to 89 [degrees] (default: the scene's, or 18)")
       ->type_name("A")
-      ->check(range(-89.f, 89.f))
-      ->capture_default_str();
+      ->check(range(-89.f, 89.f));
   app.add_option_function<std::vector<float>>(
          "--look-at",
          [&](const std::vector<float>& at) {
            camera.look_at = pliant::Vec3f{at[0], at[1], at[2]};
          },
-         "point in the middle of the picture [m] (default: the middle of the scene)")
+         "point in the middle of the picture [m] (default: the scene's, or its middle)")
       ->type_name("X,Y,Z")
       ->delimiter(',')
       ->expected(3)
       ->check(range(-1e9f, 1e9f));
-  app.add_option("--distance", camera.distance, "of the camera from that point [m] (default: so that the scene fits)")
+  app.add_option("--distance", camera.distance,
+                 "of the camera from that point [m] (default: the scene's, or so that it fits)")
       ->type_name("D")
       ->check(range(1e-6f, 1e9f));
-  app.add_option("--fov", camera.field_of_view, "vertical angle of view, 5 to 120 [degrees]")
+  app.add_option("--fov", camera.field_of_view,
+                 "vertical angle of view, 5 to 120 [degrees] (default: the scene's, or 30)")
       ->type_name("A")
-      ->check(range(5.f, 120.f))
-      ->capture_default_str();
+      ->check(range(5.f, 120.f));
 }
 
 void add_render(CLI::App& app, RenderOptions& options, Chosen& chosen) {
   CLI::App* render_app = app.add_subcommand("render", "Draw a scene as a picture or movie, without a display");
-  render_app->add_option("SCENE", options.scene, "scene file (JSON)")->required();
+  render_app->add_option("SCENE", options.scene, "scene file (JSON), or an animation (.glb)")->required();
   render_app->add_option("--out", options.out, "picture (.png) or movie (.mp4)")->type_name("FILE")->required();
   render_app
       ->add_option("--frame", options.frame, "frame to draw, or last frame of a movie (default: the scene's last)")

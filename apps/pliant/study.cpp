@@ -180,7 +180,7 @@ void run_side_by_side(std::size_t count, std::size_t jobs, const std::function<v
 /// Draws the last frame of each variant, from one camera, into one picture: as many to a row as the last member has
 /// values. Those that failed stay white.
 void draw_sheet(const StudyOptions& options, const std::vector<std::optional<RenderScene>>& pictures,
-                std::size_t columns) {
+                std::size_t columns, const SceneCamera& seen_from) {
   constexpr int width = 320, height = 240, gap = 4;
   const std::size_t rows = (pictures.size() + columns - 1) / columns;
   const auto whole = [](std::size_t count, int size) { return static_cast<int>(count) * (size + gap) - gap; };
@@ -190,7 +190,7 @@ void draw_sheet(const StudyOptions& options, const std::vector<std::optional<Ren
   for (const std::optional<RenderScene>& one : pictures)
     if (one) scenes.push_back(*one);
   if (scenes.empty()) throw Error({}, "there is nothing to draw: no variant succeeded", "see the column \"problem\"");
-  const render::Camera camera = render::frame_camera(scenes, width, height);
+  const render::Camera camera = render::frame_camera(scenes, width, height, seen_from);
   const render::Extent extent = render::extent_of(scenes);
   render::Renderer renderer(width, height);
   const std::size_t row_bytes = std::size_t{3} * static_cast<std::size_t>(full_width);
@@ -209,8 +209,8 @@ void draw_sheet(const StudyOptions& options, const std::vector<std::optional<Ren
   render::write_png(options.pictures, full_width, full_height, sheet);
 }
 
-/// Throws an Error for files that cannot be written, or a scene that cannot be read.
-void check_study(const StudyOptions& options) {
+/// Throws an Error for files that cannot be written, or a scene that cannot be read. Returns the scene's camera.
+SceneCamera check_study(const StudyOptions& options) {
   check_measures(options);
   std::vector<std::string> files{options.out};
   if (!options.pictures.empty()) files.push_back(options.pictures);
@@ -218,8 +218,9 @@ void check_study(const StudyOptions& options) {
     throw Error({}, "--pictures " + options.pictures + " is no .png", "give a name that ends in .png");
   refuse_same_file_twice({options.scene}, files);
   for (const std::string& file : files) refuse_unwritable(file);
-  (void)read_file_with(options.scene, options.overrides, options.quiet);
+  SceneCamera camera = read_file_with(options.scene, options.overrides, options.quiet).camera;
   for (const std::string& file : files) make_folder_of(file);
+  return camera;
 }
 
 }  // namespace
@@ -229,7 +230,7 @@ int study(const StudyOptions& options) {
   varied.reserve(options.vary.size());
   for (const std::string& text : options.vary) varied.push_back(parse_varied(text));
   const std::vector<Variant> variants = combinations(varied);
-  check_study(options);
+  const SceneCamera camera = check_study(options);
   constexpr std::size_t most_pictures = 400;
   if (!options.pictures.empty() && variants.size() > most_pictures)
     throw Error({}, "--pictures would draw " + std::to_string(variants.size()) + " pictures",
@@ -263,7 +264,7 @@ int study(const StudyOptions& options) {
     throw;
   }
   table.write();
-  if (!pictures.empty()) draw_sheet(options, pictures, varied.empty() ? 1 : varied.back().values.size());
+  if (!pictures.empty()) draw_sheet(options, pictures, varied.empty() ? 1 : varied.back().values.size(), camera);
   if (!options.quiet) {
     print(counted(variants.size(), "variant") + ", " + std::to_string(variants.size() - left.size()) +
           " of them from an earlier table, " + std::to_string(failed) + " failed; wrote " + one_line(options.out) +

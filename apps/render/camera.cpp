@@ -52,12 +52,43 @@ Camera fit_camera(const std::vector<RenderScene>& scenes, int width, int height,
   return camera;
 }
 
+/// The middle of what the camera shows by itself.
+Vec3f middle_of(const std::vector<RenderScene>& scenes) {
+  Bounds all;
+  for (const RenderScene& scene : scenes) all.include(bounds(points_of_interest(scene)));
+  return all.empty() ? Vec3f{} : all.centre();
+}
+
+/// The camera's place about its target as angles and a distance, where a position is given and they are not.
+SceneCamera with_angles(SceneCamera options, const std::vector<RenderScene>& scenes) {
+  if (!options.position) return options;
+  if (!options.look_at) options.look_at = middle_of(scenes);
+  const Vec3f away = *options.position - *options.look_at;
+  if (!(length(away) > 0)) return options;
+  if (!options.azimuth) options.azimuth = std::atan2(away.x, away.z) / degree;
+  if (!options.elevation) options.elevation = std::asin(away.y / length(away)) / degree;
+  if (!options.distance) options.distance = length(away);
+  return options;
+}
+
 }  // namespace
 
-Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, const CameraOptions& options) {
-  const float a = options.azimuth * degree, e = std::clamp(options.elevation, -89.f, 89.f) * degree;
+SceneCamera merged(const SceneCamera& wanted, const SceneCamera& otherwise) {
+  const auto either = [](const auto& one, const auto& other) { return one ? one : other; };
+  return {.azimuth = either(wanted.azimuth, otherwise.azimuth),
+          .elevation = either(wanted.elevation, otherwise.elevation),
+          .field_of_view = either(wanted.field_of_view, otherwise.field_of_view),
+          .look_at = either(wanted.look_at, otherwise.look_at),
+          .distance = either(wanted.distance, otherwise.distance),
+          .position = either(wanted.position, otherwise.position)};
+}
+
+Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, const SceneCamera& wanted) {
+  const SceneCamera options = with_angles(wanted, scenes);
+  const float a = options.azimuth.value_or(28) * degree;
+  const float e = std::clamp(options.elevation.value_or(18), -89.99f, 89.99f) * degree;
   const ViewFrame frame = view_frame(Vec3f{-std::sin(a) * std::cos(e), -std::sin(e), -std::cos(a) * std::cos(e)});
-  Camera camera = fit_camera(scenes, width, height, frame, options.field_of_view);
+  Camera camera = fit_camera(scenes, width, height, frame, options.field_of_view.value_or(30));
   if (!options.look_at && !options.distance) return camera;
   const float distance = options.distance.value_or(length(camera.eye - camera.target));
   camera.target = options.look_at.value_or(camera.target);

@@ -98,7 +98,7 @@ RenderScene make_render_scene(const Scene& scene, const World& world);
 /// A camera that shows every scene in `scenes` in a picture of this shape. Of liquids, free particles and bodies the
 /// few that lie far from the others (2.5 % on each side at most) may be outside. For a movie, give scenes between which
 /// the motion takes place (at least the first one), and keep the camera.
-Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, const CameraOptions& options = {});
+Camera frame_camera(const std::vector<RenderScene>& scenes, int width, int height, const SceneCamera& options = {});
 
 /// The extent of all scenes together. For a movie, give the same scenes as to frame_camera, and keep the extent.
 Extent extent_of(const std::vector<RenderScene>& scenes);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -58,6 +59,16 @@ TetrahedralMeshFile read_tetrahedral_mesh(const std::string& path);
 /// Writes a mesh as .obj or .ply. If writing fails, an existing file stays unchanged, and the Error names the path.
 void write_mesh(const std::string& path, const TriangleMesh& mesh);
 
+/// From where pictures show a scene: the "camera" of its file, or options of `pliant render`. What is absent is chosen.
+struct SceneCamera {
+  std::optional<float> azimuth{};        ///< angle about the vertical from the front (+z) to the right [degrees]; 28
+  std::optional<float> elevation{};      ///< angle above the horizon, -89..89 [degrees]; 18
+  std::optional<float> field_of_view{};  ///< vertical angle of view, 5..120 [degrees]; 30
+  std::optional<Vec3f> look_at{};        ///< the point in the middle of the picture [m]; the middle of the scene
+  std::optional<float> distance{};       ///< from that point, above 0 [m]; so that the scene fills the picture
+  std::optional<Vec3f> position{};       ///< [m]; where the three that say from where are absent
+};
+
 /// A scene that was read, and the repairs of its meshes and the doubts about its robots ("robot 'NAME', FILE:LINE:
 /// ...").
 struct SceneFile {
@@ -67,6 +78,7 @@ struct SceneFile {
   std::vector<Gauge> gauges;  ///< the file's "gauges"; they measure the scene and do not change it
   /// For each fill that leaves out solids: how many particles it left out, and what they would overlap.
   std::vector<std::string> left_out{};
+  SceneCamera camera{};  ///< the file's "camera"
 };
 
 /// Reads a scene in strict JSON (docs/reference/scene-format.md). Paths of meshes are relative to the scene's folder;

@@ -184,7 +184,7 @@ TEST_F(EveryField, MeetsItsLimits) {
     const bool may_be_negative = name.size() == 1 || name == "degrees" || name == "low" || name == "high" ||
                                  name == "speed" || name == "position" || name == "lift" || name == "start" ||
                                  name == "end" || name == "rest" || name == "torque" || name == "force" ||
-                                 name == "target" ||
+                                 name == "target" || name == "azimuth" || name == "elevation" ||
                                  at.to_string().find("/helix/") !=
                                      std::string::npos;  // parts of vectors, rest data, joints, balloons, times, coils
     Json changed = scene;

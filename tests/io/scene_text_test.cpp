@@ -10,6 +10,8 @@
 namespace pliant {
 namespace {
 
+using test::FullScene;
+
 std::string why_not(const std::string& text) {
   try {
     scene_from_json(text, "it");

@@ -45,6 +45,37 @@ TEST(CameraOptions, AWiderViewIsNearer) {
   EXPECT_GT(gap(narrow.eye, narrow.target), 3 * gap(wide.eye, wide.target));
 }
 
+TEST(CameraOptions, ThePositionIsWhereItSaysAndAnglesTurnItAbout) {
+  RenderScene scene;
+  scene.balls.push_back({.centres = cube_of_points()});
+  for (const Vec3f& position : {Vec3f{3, 1, -2}, Vec3f{1, 7, 3}, Vec3f{1, -4, 3}}) {
+    const SceneCamera from{.look_at = Vec3f{1, 2, 3}, .position = position};
+    const Camera camera = frame_camera({scene}, 300, 200, from);
+    EXPECT_EQ(camera.target, (Vec3f{1, 2, 3}));
+    EXPECT_NEAR(gap(camera.eye, position), 0, 2e-3f);
+    const Camera near = frame_camera({scene}, 300, 200, merged({.distance = 0.5f}, from));
+    EXPECT_NEAR(gap(near.eye, near.target), 0.5f, 1e-5f);
+    EXPECT_NEAR(gap(near.eye - near.target, (camera.eye - camera.target) * (0.5f / gap(camera.eye, camera.target))), 0,
+                1e-5f);
+  }
+  const Camera at_the_middle = frame_camera({scene}, 300, 200, {.position = Vec3f{0, 0, 5}});
+  EXPECT_NEAR(gap(at_the_middle.target, {}), 0, 1e-6f);
+  EXPECT_NEAR(gap(at_the_middle.eye, {0, 0, 5}), 0, 1e-5f);
+  const Camera in_it = frame_camera({scene}, 300, 200, {.position = Vec3f{}});
+  EXPECT_GT(gap(in_it.eye, in_it.target), 0.1f) << "no direction: that of no position";
+}
+
+TEST(CameraOptions, AreMergedOneByOne) {
+  const SceneCamera both = merged({.azimuth = 1.f, .look_at = Vec3f{1, 1, 1}},
+                                  {.azimuth = 2.f, .elevation = 3.f, .field_of_view = 50.f, .distance = 4.f});
+  EXPECT_EQ(both.azimuth, 1);
+  EXPECT_EQ(both.elevation, 3);
+  EXPECT_EQ(both.field_of_view, 50);
+  EXPECT_EQ(both.look_at, (Vec3f{1, 1, 1}));
+  EXPECT_EQ(both.distance, 4);
+  EXPECT_FALSE(both.position);
+}
+
 TEST(FrameCamera, LeavesOutWhatStraysFarFromTheRest) {
   RenderScene scene;
   scene.balls.push_back({.centres = cube_of_points()});

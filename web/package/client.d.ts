@@ -6,6 +6,8 @@ export interface WorkerFrame extends Frame {
   report: Record<string, any>;
   advice: string;
   contacts?: Contact[];
+  /** The frames that `seek` returns to, ascending. */
+  kept: number[];
 }
 
 export interface Loaded {
@@ -29,6 +31,8 @@ export class WorkerWorld {
   /** Gives the present state to `onframe`. */
   show(): Promise<void>;
   step(): Promise<void>;
+  /** Goes back to the last kept frame up to this one, and shows it; further steps replace what came after. */
+  seek(frame: number): Promise<number>;
   /** Steps in real time, or slower if a step takes longer. */
   play(on?: boolean): Promise<void>;
   recordContacts(on?: boolean): Promise<void>;

@@ -41,15 +41,6 @@ export class WorkerWorld {
   check(description, options = {}) {
     return this.call("check", { description, options });
   }
-  schema() {
-    return this.call("schema");
-  }
-  show() {
-    return this.call("show");
-  }
-  step() {
-    return this.call("step");
-  }
   play(on = true) {
     return this.call("play", on);
   }
@@ -65,18 +56,6 @@ export class WorkerWorld {
   grabCollider(id) {
     return this.call("grabCollider", { id });
   }
-  moveTo(target) {
-    return this.call("moveTo", target);
-  }
-  release() {
-    return this.call("release");
-  }
-  hash() {
-    return this.call("hash");
-  }
-  save() {
-    return this.call("save");
-  }
   record(frames, suffix = ".glb") {
     return this.call("record", { frames, suffix });
   }
@@ -84,6 +63,11 @@ export class WorkerWorld {
     this.worker.terminate();
   }
 }
+
+for (const name of ["schema", "show", "step", "seek", "moveTo", "release", "hash", "save"])
+  WorkerWorld.prototype[name] = function (value) {
+    return this.call(name, value);
+  };
 
 function errorOf({ name, message, ...parts }) {
   if (name === "PliantError") return new PliantError(message, parts);

@@ -1,9 +1,10 @@
 // A worker that holds a World: it steps, and posts what there is to draw. client.js is its other end.
+import { History } from "./history.js";
 import { createPliant, PliantError } from "./index.js";
 import { buffersOf, readFrame, readParts } from "./picture.js";
 
 const ready = createPliant();
-let world, parts, timer, drag;
+let world, parts, history, timer, drag;
 let contactsWanted = false;
 let liquidSurfaces = false;
 let playing = false;
@@ -15,6 +16,7 @@ function post(milliseconds) {
   frame.milliseconds = milliseconds;
   frame.report = world.report();
   frame.advice = world.advice();
+  frame.kept = history.frames;
   if (contactsWanted) frame.contacts = world.contacts();
   drawn = false;
   postMessage({ frame }, buffersOf(frame));
@@ -24,6 +26,7 @@ function step() {
   const start = performance.now();
   if (drag?.pose) world.collider(drag.id).setPose(drag.pose);
   world.step();
+  history.keep(world);
   post(performance.now() - start);
 }
 
@@ -59,11 +62,13 @@ const calls = {
       const findings = scene.check();
       made = scene.world();
       if (keepState && world) carry(world, made);
+      history?.free();
       world?.free();
       world = made;
       drag = undefined;
       world.recordContacts(contactsWanted);
       parts = readParts(world);
+      history = new History(world, parts);
       due = performance.now();
       return { parts, findings, info: world.info, version: pliant.version, summary: world.describe() };
     } finally {
@@ -81,6 +86,14 @@ const calls = {
   },
   async step() {
     step();
+  },
+  async seek(pliant, frame) {
+    drag?.release?.();
+    drag = undefined;
+    world = history.restore(world, frame, pliant);
+    world.recordContacts(contactsWanted);
+    post(0);
+    return world.info.frame;
   },
   async play(_, on) {
     playing = on;

@@ -33,6 +33,8 @@ class Scene(TypedDict, total=False):
     """Contact properties of single pairs of objects. Default: none."""
     gauges: Sequence[Gauge]
     """Measurements of liquids; they change nothing. Default: none."""
+    camera: Camera
+    """From where pictures show it. Default: shows the whole scene."""
 
 class Wind(TypedDict, total=False):
     """Moving air that pushes triangles by drag and lift, and bodies that are one capsule, as segments of rods are, by
@@ -1865,3 +1867,20 @@ class ForceGauge(TypedDict, total=False):
     """Name of a collider, or of an object that is no liquid."""
     direction: Sequence[float] | AnyArray
     """A force along it is positive. Default: [0, -1, 0]."""
+
+class Camera(TypedDict, total=False):
+    """From where pictures show the scene. What is absent is chosen so that the scene fills the picture; options of
+    `pliant render` override it (docs/reference/command.md)."""
+
+    look_at: Sequence[float] | AnyArray
+    """The point in the middle of the picture. [m] Default: the middle of the scene."""
+    distance: float
+    """From the camera to that point. [m] Default: so that the scene fits."""
+    azimuth: float
+    """Angle about the vertical from the front, +z, to the right. [degree] Default: 28."""
+    elevation: float
+    """Angle above the horizon. [degree] Default: 18."""
+    position: Sequence[float] | AnyArray
+    """Of the camera, instead of `distance`, `azimuth` and `elevation`. [m] Default: none."""
+    fov: float
+    """Vertical angle of view. [degree] Default: 30."""

@@ -2,12 +2,8 @@
 // PLIANT_GOLDEN=all runs every scene of tests/golden/hashes.txt, PLIANT_GOLDEN=drape,rope those.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { filesOf, hashes, pliant, sceneText } from "./support.js";
+import { filesOf, framesOf, hashes, pliant, sceneText } from "./support.js";
 
-// As in tests/golden/cases.h and cases.cpp.
-const plainFrames = 40;
-const contactFrames = 16;
-const tearingFrames = 40;
 /** Scenes that the golden cases change in C++: coarser distance grids. */
 const changed = ["contact/solids"];
 /** Needs tinyxml2, which the module has not. */
@@ -27,11 +23,6 @@ const chosen = [
   "rods/springs",
   "tears/block",
 ];
-
-function framesOf(name) {
-  if (name.startsWith("tears/") || name === "bags/seeping") return tearingFrames;
-  return name.includes("/") ? contactFrames : plainFrames;
-}
 
 async function names() {
   const wanted = process.env.PLIANT_GOLDEN;

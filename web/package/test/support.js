@@ -18,9 +18,17 @@ export async function filesOf(name) {
   const folder = new URL(`scenes/${name}/../`, root);
   const text = await sceneText(name);
   const found = {};
-  for (const file of await readdir(folder))
+  const files = (await readdir(folder, { withFileTypes: true })).filter((one) => one.isFile()); // not the folder "bodies"
+  for (const { name: file } of files)
     if (!file.endsWith(".json") && text.includes(`"${file}"`)) found[file] = await readFile(new URL(file, folder));
   return found;
+}
+
+/** Frames of a golden hash, as in tests/golden/cases.h and cases.cpp. */
+export function framesOf(name) {
+  const [plainFrames, contactFrames, tearingFrames] = [40, 16, 40];
+  if (name.startsWith("tears/") || name === "bags/seeping") return tearingFrames;
+  return name.includes("/") ? contactFrames : plainFrames;
 }
 
 export async function hashes() {

@@ -1,11 +1,11 @@
 // The page: it wires the controls, the picture and the World in its worker together.
 import { PliantError, type Parts } from "pliant";
 import { WorkerWorld, type WorkerFrame } from "pliant/client";
-import * as THREE from "three";
+import { Dragging } from "./drag";
 import { gallery, readScene, withFiles, type SceneSource } from "./gallery";
 import { makeLink, readLink } from "./link";
 import { applied, untouched, type Knobs } from "./settings";
-import { View } from "./view";
+import { View, type SceneCamera } from "./view";
 
 const first = "tablecloth";
 
@@ -27,6 +27,12 @@ let isPlaying = false;
 let parts: Parts | undefined;
 let last: WorkerFrame | undefined;
 let waitsFor: { keepCamera: boolean; done: () => void } | undefined;
+const dragging = new Dragging(canvas, view, world, {
+  parts: () => parts,
+  frame: () => last,
+  onstart: () => isPlaying || setPlaying(true),
+  say: (words) => say("chosen", words),
+});
 
 // ---- Words
 
@@ -45,6 +51,7 @@ function showError(error: unknown): void {
     byId<HTMLDetailsElement>("editor").open = true;
     selectPlace(error.line, error.column);
   }
+  place.scrollIntoView({ block: "nearest" });
 }
 
 /** Selects the rest of a line of the text, from a column on. */
@@ -58,14 +65,23 @@ function selectPlace(line: number, column: number): void {
 
 const percent = (share: number) => `${(100 * share).toPrecision(2)} %`;
 
+/** What the solve leaves of what it is to solve: the largest share, and of what. */
+function residualOf({ estimates }: WorkerFrame["report"]): string {
+  const found = Object.entries<any>(estimates ?? {}).map(([kind, { last }]) => ({ kind, excess: last.excess as number }));
+  if (found.length === 0) return "-";
+  const { kind, excess } = found.reduce((a, b) => (b.excess > a.excess ? b : a));
+  return excess < 5e-5 ? `below 0.01 % (${kind})` : `${percent(excess)} (${kind})`;
+}
+
 let saidAdvice = 0;
 function measure(frame: WorkerFrame): void {
   const { report } = frame;
-  say("time", `${frame.time.toFixed(2)} s, frame ${frame.frame}`);
+  showPast(frame);
   if (frame.frame === 0) return;
-  say("milliseconds", `${report.milliseconds.toFixed(1)} ms of ${(1000 * frame.frameTime).toFixed(1)}`);
+  if (report.milliseconds > 0) say("milliseconds", `${report.milliseconds.toFixed(1)} ms a step`);
   say("substeps-used", `${report.substeps}`);
   say("contacts", `${(report.contacts ?? 0) + (report.pairs?.contacts ?? 0)}`);
+  say("residual", residualOf(report));
   say("overstretch", report.overstretch ? percent(report.overstretch.p99) : "-");
   if (performance.now() - saidAdvice > 2000) {
     saidAdvice = performance.now();
@@ -76,7 +92,8 @@ function measure(frame: WorkerFrame): void {
 let counted = { pictures: 0, at: performance.now() };
 setInterval(() => {
   const now = performance.now();
-  say("rate", `${((1000 * (view.pictures - counted.pictures)) / (now - counted.at)).toFixed(0)} a second`);
+  const rate = ((1000 * (view.pictures - counted.pictures)) / (now - counted.at)).toFixed(0);
+  if (view.milliseconds > 0) say("rate", `${view.milliseconds.toFixed(0)} ms, ${rate} a second`);
   counted = { pictures: view.pictures, at: now };
 }, 1000);
 
@@ -87,12 +104,13 @@ world.onframe = (frame) => {
   if (waitsFor && parts) {
     const { keepCamera, done } = waitsFor;
     waitsFor = undefined;
-    view.show(parts, frame, keepCamera);
+    view.show(parts, frame, keepCamera ? undefined : cameraOf(source.text));
     view.showEdges(byId<HTMLInputElement>("show-edges").checked);
     done();
   } else {
     view.update(frame);
   }
+  dragging.show();
   measure(frame);
 };
 world.onfail = (error) => {
@@ -111,6 +129,7 @@ function setPlaying(on: boolean): void {
 async function load({ keepState = false, keepCamera = false } = {}): Promise<void> {
   const wasPlaying = isPlaying;
   showError(undefined);
+  dragging.cancel();
   say("loading", "Making the scene ...");
   try {
     await world.play(false);
@@ -130,15 +149,52 @@ async function load({ keepState = false, keepCamera = false } = {}): Promise<voi
   if (wasPlaying) setPlaying(true);
 }
 
-function describe(): void {
-  let words = "";
+/** A member of the scene's text. */
+function memberOf(sceneText: string, name: string): any {
   try {
-    words = JSON.parse(source.text).description ?? "";
+    return JSON.parse(sceneText)[name];
   } catch {
-    // The engine says what is wrong with the text.
+    return undefined; // the engine says what is wrong with the text
   }
-  say("description", words);
 }
+
+const cameraOf = (sceneText: string): SceneCamera => memberOf(sceneText, "camera") ?? {};
+
+function describe(): void {
+  say("description", memberOf(source.text, "description") ?? "");
+}
+
+// ---- The past
+
+const past = byId<HTMLInputElement>("past");
+let wanted: number | undefined;
+let isSeeking = false;
+
+function showPast(frame: WorkerFrame): void {
+  say("time", `${frame.time.toFixed(2)} s`);
+  past.min = `${frame.kept[0] ?? 0}`;
+  past.max = `${Math.max(frame.kept.at(-1) ?? 0, frame.frame)}`;
+  if (wanted === undefined) past.value = `${frame.frame}`;
+  past.setAttribute("aria-valuetext", `frame ${frame.frame}, ${frame.time.toFixed(2)} seconds`);
+}
+
+/** Goes to the frame where the slider is, until it stays there. */
+async function seek(): Promise<void> {
+  if (isSeeking) return;
+  isSeeking = true;
+  try {
+    for (let at = wanted; at !== undefined; at = wanted === at ? undefined : wanted) await world.seek(at);
+  } catch (error) {
+    showError(error);
+  }
+  wanted = undefined;
+  isSeeking = false;
+}
+past.addEventListener("input", () => {
+  if (isPlaying) setPlaying(false);
+  wanted = Number(past.value);
+  void seek();
+});
 
 function resetKnobs(): void {
   knobs = { ...untouched };
@@ -267,70 +323,25 @@ const keys: Record<string, () => void> = {
   " ": () => setPlaying(!isPlaying),
   s: () => byId("step").click(),
   r: () => byId("restart").click(),
+  n: () => dragging.chooseNext(1),
+  N: () => dragging.chooseNext(-1),
+  Escape: () => dragging.cancel(),
+};
+const pushed = 0.03; // share of the scene's size
+const shiftKeys: Record<string, () => void> = {
+  ArrowLeft: () => dragging.push(-pushed, 0, 0),
+  ArrowRight: () => dragging.push(pushed, 0, 0),
+  ArrowUp: () => dragging.push(0, pushed, 0),
+  ArrowDown: () => dragging.push(0, -pushed, 0),
+  PageUp: () => dragging.push(0, 0, -pushed),
+  PageDown: () => dragging.push(0, 0, pushed),
 };
 canvas.addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
+  const does = (event.shiftKey && shiftKeys[event.key]) || keys[event.key];
+  if (event.ctrlKey || event.metaKey || event.altKey || !does) return;
   event.preventDefault();
-  keys[event.key]();
+  does();
 });
-
-// ---- Dragging
-
-interface Hold {
-  pointer: number;
-  /** Where the pointer took hold. */
-  from: THREE.Vector3;
-  /** Where what it holds was then: a particle's position, or a collider's pose. */
-  held: number[];
-  /** Where the pointer is in the window. */
-  at: { x: number; y: number };
-}
-let hold: Hold | undefined;
-
-canvas.addEventListener(
-  "pointerdown",
-  async (event) => {
-    if (event.button !== 0 || hold || event.shiftKey) return;
-    const pick = view.pick(event.clientX, event.clientY);
-    if (!pick) return;
-    view.controls.enabled = false;
-    canvas.setPointerCapture(event.pointerId);
-    const { grip, point } = pick;
-    hold = { pointer: event.pointerId, from: point, held: [], at: { x: event.clientX, y: event.clientY } };
-    const radius = grip.particle === undefined ? 0.22 * view.extent : 0;
-    const held = grip.isCollider
-      ? await world.grabCollider(grip.id)
-      : await world.grab(grip.id, { particle: grip.particle, point: point.toArray(), radius });
-    if (!hold) return void world.release();
-    hold.held = held;
-    pull(hold); // the pointer may have moved while the worker answered
-    if (!isPlaying) setPlaying(true);
-  },
-  { capture: true },
-);
-function pull({ at, from, held }: Hold): void {
-  const to = view.pointAt(at.x, at.y, from);
-  if (!to || held.length === 0) return;
-  const moved = to.sub(from).toArray();
-  void world.moveTo(held.map((x, k) => x + (moved[k] ?? 0)));
-}
-
-canvas.addEventListener("pointermove", (event) => {
-  if (!hold || event.pointerId !== hold.pointer) {
-    if (event.buttons === 0) canvas.style.cursor = view.pick(event.clientX, event.clientY) ? "pointer" : "grab";
-    return;
-  }
-  hold.at = { x: event.clientX, y: event.clientY };
-  pull(hold);
-});
-for (const end of ["pointerup", "pointercancel"] as const) {
-  canvas.addEventListener(end, (event) => {
-    if (!hold || event.pointerId !== hold.pointer) return;
-    hold = undefined;
-    view.controls.enabled = true;
-    void world.release();
-  });
-}
 
 // ---- Start
 

@@ -327,7 +327,7 @@ export function drawCollider(collider: Parts["colliders"][number], extent: numbe
   const isPlane = collider.shape.kind === "plane";
   const mesh = new THREE.Mesh(
     shapeGeometry(collider.shape, extent),
-    material(isPlane ? [0.62, 0.63, 0.62] : collider.colour, { roughness: 0.9 }),
+    material(isPlane ? [0.5, 0.51, 0.51] : collider.colour, { roughness: 0.9 }),
   );
   mesh.castShadow = !isPlane;
   mesh.receiveShadow = true;

@@ -7,6 +7,20 @@ import { ContactMarks, drawCollider, drawMeshCollider, drawObject, type Drawn, t
 
 const sky = 0xdfe4e8;
 
+/** The "camera" of a scene's text. */
+export interface SceneCamera {
+  look_at?: number[];
+  distance?: number;
+  azimuth?: number;
+  elevation?: number;
+  position?: number[];
+  fov?: number;
+}
+
+const usual = { azimuth: 28, elevation: 18, fov: 30 }; // [degrees]
+const filled = 0.86; // share of the picture that the scene fills
+const measured = 1000; // how often drawing is timed to its end, which makes the page wait [ms]
+
 export interface Pick {
   grip: Grip;
   point: THREE.Vector3;
@@ -27,6 +41,13 @@ export class View {
   /** Half of the size of what is there [m]. */
   extent = 1;
   pictures = 0;
+  /** Of the last picture whose drawing was timed. */
+  milliseconds = 0;
+  private timedAt = -measured;
+  private readonly chosen = new THREE.Mesh(
+    new THREE.SphereGeometry(1, 16, 12),
+    new THREE.MeshBasicMaterial({ color: 0xe0218a, transparent: true, opacity: 0.85, depthTest: false }),
+  );
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
@@ -39,6 +60,9 @@ export class View {
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8d8a84, 1.5), this.sun, this.sun.target);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
+    this.chosen.visible = false;
+    this.chosen.renderOrder = 2;
+    this.scene.add(this.chosen);
     new ResizeObserver(() => this.resize()).observe(canvas);
     const loop = () => {
       requestAnimationFrame(loop);
@@ -54,8 +78,14 @@ export class View {
 
   private render(): void {
     this.dirty = false;
+    const start = performance.now();
     this.renderer.render(this.scene, this.camera);
     ++this.pictures;
+    if (start - this.timedAt < measured) return;
+    const context = this.renderer.getContext();
+    context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4)); // waits for the picture
+    this.timedAt = performance.now();
+    this.milliseconds = this.timedAt - start;
   }
 
   private resize(): void {
@@ -68,8 +98,8 @@ export class View {
     this.draw();
   }
 
-  /** Replaces what is drawn. */
-  show(parts: Parts, frame: WorkerFrame, keepCamera: boolean): void {
+  /** Replaces what is drawn, seen from a camera; none: from where it was seen. */
+  show(parts: Parts, frame: WorkerFrame, camera?: SceneCamera): void {
     this.scene.remove(this.content);
     this.content.traverse((thing) => {
       if (thing instanceof THREE.Mesh || thing instanceof THREE.Points || thing instanceof THREE.LineSegments) {
@@ -90,7 +120,7 @@ export class View {
     this.scene.add(this.content);
     this.scene.fog = new THREE.Fog(sky, 12 * this.extent, 40 * this.extent);
     this.light(middle);
-    if (!keepCamera) this.frame(middle);
+    if (camera) this.frame(box, camera);
     this.update(frame);
   }
 
@@ -106,14 +136,55 @@ export class View {
     this.sun.shadow.normalBias = 0.004 * this.extent;
   }
 
-  private frame(middle: THREE.Vector3): void {
-    const narrow = Math.min(1, this.camera.aspect);
-    const away = (1.02 * this.extent) / Math.sin(THREE.MathUtils.degToRad(this.camera.fov / 2)) / narrow;
-    this.controls.target.copy(middle);
-    this.camera.position.copy(middle).add(new THREE.Vector3(0.55, 0.42, 1).normalize().multiplyScalar(away));
-    [this.camera.near, this.camera.far] = [0.01 * away, 60 * away];
+  /** Puts the camera where the scene wants it, or else where it shows all of a box. */
+  private frame(box: THREE.Box3, wanted: SceneCamera): void {
+    const target = wanted.look_at ? new THREE.Vector3().fromArray(wanted.look_at) : box.getCenter(new THREE.Vector3());
+    const away = new THREE.Vector3();
+    if (wanted.position) {
+      away.fromArray(wanted.position).sub(target);
+    } else {
+      const [azimuth, elevation] = [wanted.azimuth ?? usual.azimuth, wanted.elevation ?? usual.elevation];
+      const polar = THREE.MathUtils.degToRad(90 - elevation);
+      away.setFromSphericalCoords(1, polar, THREE.MathUtils.degToRad(azimuth));
+    }
+    this.camera.fov = wanted.fov ?? usual.fov;
+    const distance = wanted.position ? away.length() : (wanted.distance ?? this.fit(box, target, away));
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(away.normalize(), distance);
+    const far = Math.max(distance, this.extent);
+    [this.camera.near, this.camera.far] = [0.01 * far, 60 * far];
     this.camera.updateProjectionMatrix();
     this.controls.update();
+  }
+
+  /** How far from the target, in a direction, the camera shows all of a box. */
+  private fit(box: THREE.Box3, target: THREE.Vector3, back: THREE.Vector3): number {
+    const upright = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)) * filled;
+    const across = upright * this.camera.aspect;
+    const right = new THREE.Vector3(0, 1, 0).cross(back).normalize();
+    const up = back.clone().cross(right);
+    let distance = 1e-3;
+    for (let corner = 0; corner < 8; ++corner) {
+      const side = (k: number, axis: "x" | "y" | "z") => (corner & k ? box.max : box.min)[axis];
+      const point = new THREE.Vector3(side(1, "x"), side(2, "y"), side(4, "z")).sub(target);
+      const [x, y] = [Math.abs(point.dot(right)) / across, Math.abs(point.dot(up)) / upright];
+      distance = Math.max(distance, point.dot(back) + Math.max(x, y));
+    }
+    return distance;
+  }
+
+  /** Marks a point; none: no mark. */
+  mark(point?: ArrayLike<number>): void {
+    if (!point && !this.chosen.visible) return;
+    this.chosen.visible = point !== undefined;
+    if (point) this.chosen.position.fromArray(point);
+    this.chosen.scale.setScalar(0.025 * this.extent);
+    this.draw();
+  }
+
+  /** A vector by its parts to the right, up and towards the viewer. */
+  alongView(right: number, up: number, near: number): THREE.Vector3 {
+    return new THREE.Vector3(right, up, near).applyQuaternion(this.camera.quaternion);
   }
 
   update(frame: WorkerFrame): void {

@@ -1,0 +1,57 @@
+// What a World was like at earlier frames, so that it can go back to them.
+
+const most = 240; // frames that are kept
+const budget = 96e6; // [bytes]
+const bytesOfParticle = 100; // of a State, about
+
+/** Frames of a World from its start: each one, then every second, fourth, ... as they become too many. */
+export class History {
+  constructor(world, parts) {
+    this.kept = [];
+    this.stride = 1;
+    // A State fits its World only as long as nothing tears; the World's own bytes always do.
+    this.whole = parts.objects.some((part) => part.changes);
+    const particles = world.objects().reduce((sum, object) => sum + object.info.particles, 0);
+    const size = this.whole ? world.bytes().length : bytesOfParticle * particles;
+    this.room = Math.min(most, Math.max(16, Math.floor(budget / Math.max(size, 1))));
+    this.keep(world);
+  }
+
+  get frames() {
+    return this.kept.map(({ frame }) => frame);
+  }
+
+  /** Keeps the present, and forgets what was after it. */
+  keep(world) {
+    const { frame } = world.info;
+    while (this.kept.length > 0 && this.kept.at(-1).frame >= frame) this.forget(this.kept.pop());
+    if (frame % this.stride !== 0) return;
+    this.kept.push({ frame, held: this.whole ? world.bytes() : world.copyState() });
+    if (this.kept.length > this.room) this.thin();
+  }
+
+  thin() {
+    this.stride *= 2;
+    const stays = (one) => one === this.kept[0] || one.frame % this.stride === 0;
+    for (const one of this.kept.filter((one) => !stays(one))) this.forget(one);
+    this.kept = this.kept.filter(stays);
+  }
+
+  /** The World at the last kept frame up to `frame`: the same one, or a new one, which replaces it. */
+  restore(world, frame, pliant) {
+    const found = this.kept.filter((one) => one.frame <= frame).at(-1) ?? this.kept[0];
+    if (!found) return world;
+    if (!this.whole) world.restore(found.held);
+    const now = this.whole ? pliant.worldFromBytes(found.held) : world;
+    if (now !== world) world.free();
+    return now;
+  }
+
+  forget({ held }) {
+    if (!this.whole) held.free();
+  }
+  free() {
+    this.kept.forEach((one) => this.forget(one));
+    this.kept = [];
+  }
+}
