@@ -1,8 +1,8 @@
 #include "solver/bodies/body_solver.h"
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
