@@ -154,9 +154,12 @@ void limit_to(const Substep& s, int object, const MovingCollider& solid) {
 }
 
 /// The same for the objects of edges and triangles that pass through a solid, deeper than their thickness and than a
-/// share of its own.
-void limit_elements(const Substep& s, const std::vector<Contact>& contacts, const std::vector<MovingCollider>& solids) {
+/// share of its own; not of fields, which have no sides. `bodies`: null: `solids` are colliders; else the bodies of which
+/// they are, whose own flesh is excepted.
+void limit_elements(const Substep& s, const std::vector<Contact>& contacts, const std::vector<MovingCollider>& solids,
+                    const BodySolids* bodies) {
   for (const Contact& c : contacts) {
+    if (bodies != nullptr && bodies->body_of(c).object == s.model.object_of(c.point[0])) continue;
     if (!(c.gap < -least_motion_out * s.h) || c.weight[1] == 0) continue;
     const MovingCollider& solid = solids[at(c.collider)];
     const Vec3f place = to_local(solid.before, relative(c, s.state.positions.data()));
@@ -172,34 +175,39 @@ void note_speeds(Substep& s) {
   std::vector<SpeedLimit>& limits = s.own->speed_limits;
   limits.clear();
   for (const WayOut& way : s.ways_out) limit_to(s, way.object, s.own->colliders[at(way.solid)]);
-  if (!s.own->colliders.empty()) limit_elements(s, s.own->shape_contacts, s.own->colliders);
+  if (!s.own->colliders.empty()) limit_elements(s, s.own->shape_contacts, s.own->colliders, nullptr);
   if (s.bodies != nullptr) {
     const std::vector<MovingCollider>& solids = s.bodies->solids().moving();
     for (const PointDepenetration::Inside& inside : s.bodies->points_inside())
       limit_to(s, inside.way.object, solids[at(inside.way.solid)]);
-    limit_elements(s, s.bodies->point_contacts(), solids);
+    limit_elements(s, s.bodies->point_contacts(), solids, &s.bodies->solids());
   }
   for (SpeedLimit& limit : limits) {
     const Vec3f gained = gravity_for(s, s.work.gravity[at(limit.object)].begun);
     const auto first = s.state.velocities.begin() + s.model.first[at(limit.object)];
     const auto last = first + s.model.objects[at(limit.object)].particles;
     limit.speeds.reserve(at(static_cast<int>(last - first)));
-    for (auto v = first; v != last; ++v) limit.speeds.push_back(length(xyz(*v) + gained));
+    const float falls = s.h * length(s.model.gravity);
+    for (auto v = first; v != last; ++v) limit.speeds.push_back(length(xyz(*v) + gained) + falls);
   }
 }
 
 void limit_speeds(Substep& s, FunctionRef<Vec3f(int object)> missing) {
   for (const SpeedLimit& limit : s.own->speed_limits) {
     const Vec3f lacks = missing(limit.object);
+    const CompiledBodies& bodies = s.model.objects[at(limit.object)].bodies;
+    Vec3f lost{};
     Record* const velocities = s.state.velocities.data() + s.model.first[at(limit.object)];
     const Record* const positions = s.state.positions.data() + s.model.first[at(limit.object)];
     for (std::size_t i = 0; i < limit.speeds.size(); ++i) {
       const Vec3f velocity = xyz(velocities[i]) + lacks;
       const float is = length(velocity), most = max(limit.speeds[i], limit.most);
-      if (positions[i].w == 0 || !(is > most)) continue;
+      if (positions[i].w == 0 || !(is > most) || bodies.has_centre(static_cast<int>(i))) continue;
       const Vec3f kept = velocity * (most / is) - lacks;
+      lost += (velocity - lacks - kept) * (1 / positions[i].w);
       velocities[i] = {kept.x, kept.y, kept.z, velocities[i].w};
     }
+    s.report.lost_momentum.guards += length(lost);
   }
 }
 

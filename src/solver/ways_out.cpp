@@ -16,6 +16,8 @@ constexpr float share_moved_as_a_whole = 0.3f;
 /// Nearer to a surface it is so as well if the way out is at most so many times the depth: where the ways of all points
 /// differ, as those of a belt around a body do, the nearest side of each is right.
 constexpr float most_ways_over_depth = 1.5f;
+/// But not nearer than this share of the half thickness: so deep is what rests with a thickness of 0.
+constexpr float least_share = 1e-3f;
 /// A way down, into the ground, counts as so many times as long.
 constexpr float length_of_way_down = 2;
 /// Contacts whose normals are nearer to the way out than this are on the side on which something leaves.
@@ -144,7 +146,8 @@ bool find_way_out(const TouchedSolid& solid, const std::vector<Vec3f>& places, f
     out.direction = n;
     out.reach = ways.reach;
   }
-  return inside.deepest > share_moved_as_a_whole * half_thickness || way < most_ways_over_depth * inside.deepest;
+  const bool is_on_one_side = way < most_ways_over_depth * inside.deepest;
+  return inside.deepest > (is_on_one_side ? least_share : share_moved_as_a_whole) * half_thickness;
 }
 
 Contact contact_along(const TouchedSolid& solid, const WayOut& out, const Vec3f& position, float thickness, float h) {

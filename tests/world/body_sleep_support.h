@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "pliant/body.h"
 #include "pliant/world.h"
 #include "world/world_support.h"
@@ -64,6 +66,17 @@ inline bool fall_asleep(World& world, int bodies) {
   for (int frame = 0; frame < four_seconds; ++frame)
     if (step(world).sleeping_bodies == bodies) return true;
   return false;
+}
+
+inline bool are_same(const Records& a, const Records& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0;
+}
+
+inline bool has_same_poses(const State& a, const State& b) {
+  return are_same(a.positions, b.positions) && are_same(a.remainders, b.remainders) &&
+         are_same(a.velocities, b.velocities) && are_same(a.frames.orientations, b.frames.orientations) &&
+         are_same(a.frames.angular_velocities, b.frames.angular_velocities) &&
+         are_same(a.frames.inverse_inertias, b.frames.inverse_inertias);
 }
 
 }  // namespace pliant::testing_support

@@ -18,17 +18,6 @@ namespace {
 
 using namespace testing_support;
 
-bool are_same(const Records& a, const Records& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Record)) == 0;
-}
-
-bool has_same_poses(const State& a, const State& b) {
-  return are_same(a.positions, b.positions) && are_same(a.remainders, b.remainders) &&
-         are_same(a.velocities, b.velocities) && are_same(a.frames.orientations, b.frames.orientations) &&
-         are_same(a.frames.angular_velocities, b.frames.angular_velocities) &&
-         are_same(a.frames.inverse_inertias, b.frames.inverse_inertias);
-}
-
 TEST(BodySleep, IsOffByDefault) {
   Scene scene;
   scene.add(ground());

@@ -19,13 +19,13 @@ namespace {
 
 using testing_support::dt;
 
-enum class Solid { box, sphere, capsule, grid };
-constexpr Solid all_solids[] = {Solid::box, Solid::sphere, Solid::capsule, Solid::grid};
+enum class SolidKind { box, sphere, capsule, grid };
+constexpr SolidKind all_solids[] = {SolidKind::box, SolidKind::sphere, SolidKind::capsule, SolidKind::grid};
 const char* const solid_names[] = {"box", "sphere", "capsule", "grid"};
 
 /// A solid of 10 cm to all sides, and more for a capsule.
-void add_solid(Scene& scene, Solid kind) {
-  if (kind == Solid::grid) {
+void add_solid(Scene& scene, SolidKind kind) {
+  if (kind == SolidKind::grid) {
     MeshCollider grid;
     grid.name = "solid";
     grid.mesh = testing_support::box_mesh({0.2f, 0.2f, 0.2f});
@@ -36,8 +36,8 @@ void add_solid(Scene& scene, Solid kind) {
   Collider collider;
   collider.name = "solid";
   collider.shape = Box{{0.1f, 0.1f, 0.1f}};
-  if (kind == Solid::sphere) collider.shape = Sphere{0.1f};
-  if (kind == Solid::capsule) collider.shape = Capsule{0.1f, 0.2f};
+  if (kind == SolidKind::sphere) collider.shape = Sphere{0.1f};
+  if (kind == SolidKind::capsule) collider.shape = Capsule{0.1f, 0.2f};
   scene.add(collider);
 }
 
@@ -89,7 +89,7 @@ ComingOut come_out(const Scene& scene, int frames) {
   return out;
 }
 
-Scene without_gravity(const Object& object, Solid solid) {
+Scene without_gravity(const Object& object, SolidKind solid) {
   Scene scene;
   scene.gravity = {};
   scene.add(object);
@@ -104,7 +104,7 @@ void expect_told(const ComingOut& seen, const std::string& who) {
 
 /// Before: 51, 25, 28 and 90 m/s of the patch, 28 of the rope, 183 of the jelly.
 TEST(ColliderDepenetration, OfWhatIsInsideIsSlow) {
-  for (const Solid solid : all_solids)
+  for (const SolidKind solid : all_solids)
     for (const Object& object : {patch(5, 0.1f, 0.01f), rope(-0.04f, 0.04f, 10, 0.01f), jelly(0.1f, {0, 0.01f, 0})}) {
       SCOPED_TRACE(solid_names[static_cast<int>(solid)] + (" and " + object.name));
       const ComingOut seen = come_out(without_gravity(object, solid), 40);
@@ -117,11 +117,11 @@ TEST(ColliderDepenetration, OfWhatIsInsideIsSlow) {
 /// Before: 279, 90, 327 and 147 m/s of the sheet, 867, 140, 140 and 64 m/s of the rope. What is outside is dragged
 /// along.
 TEST(ColliderDepenetration, OfWhatGoesRightThroughIsSlow) {
-  for (const Solid solid : all_solids)
+  for (const SolidKind solid : all_solids)
     for (const Object& object : {patch(13, 0.4f, 0), rope(-0.3f, 0.31f, 40, 0)}) {
       SCOPED_TRACE(solid_names[static_cast<int>(solid)] + (" and " + object.name));
       const ComingOut seen = come_out(without_gravity(object, solid), 60);
-      EXPECT_LT(seen.fastest, solid == Solid::box || solid == Solid::grid ? 16.f : 2.5f);
+      EXPECT_LT(seen.fastest, solid == SolidKind::box || solid == SolidKind::grid ? 16.f : 2.5f);
       expect_told(seen, object.name);
     }
 }
@@ -130,12 +130,12 @@ TEST(ColliderDepenetration, OfWhatGoesRightThroughIsSlow) {
 TEST(ColliderDepenetration, LeavesWhatIsPinnedInside) {
   Object object = patch(9, 0.3f, 0);
   object.pins.push_back({40, {}});  // the middle
-  EXPECT_EQ(come_out(without_gravity(object, Solid::sphere), 2).warnings.find("is inside of"), std::string::npos);
+  EXPECT_EQ(come_out(without_gravity(object, SolidKind::sphere), 2).warnings.find("is inside of"), std::string::npos);
 }
 
 /// Half of the thickness is ordinary contact.
 TEST(ColliderDepenetration, LeavesShallowOverlapsToContact) {
-  for (const Solid solid : {Solid::box, Solid::grid})
+  for (const SolidKind solid : {SolidKind::box, SolidKind::grid})
     EXPECT_EQ(come_out(without_gravity(patch(5, 0.1f, 0.099f), solid), 2).warnings.find("is inside of"),
               std::string::npos);
 }

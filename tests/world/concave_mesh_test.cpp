@@ -89,7 +89,11 @@ TEST_P(BallInAPipe, FollowsTheWall) {
     deepest = std::max(deepest, std::hypot(p.x, p.y) + radius - 1);
   }
   EXPECT_LT(deepest, 1.5e-3f);
-  EXPECT_NEAR(length(world.object(0).velocities()[0]), speed, 0.006f * speed);
+  // Without restitution each strip takes the part of the speed that is across it.
+  const float turn = 6.2831853f / 192, strips = 2 * speed / (turn * (1 - radius));
+  const float now = length(world.object(0).velocities()[0]);
+  EXPECT_GT(now, 0.96f * speed * std::pow(std::cos(turn), strips));
+  EXPECT_LT(now, 1.0001f * speed);
 }
 
 class BallInAValley : public testing::TestWithParam<std::tuple<MeshCollider::As, float>> {};
@@ -103,7 +107,7 @@ TEST_P(BallInAValley, StaysOnTheGround) {
   constexpr float depth = 2;
   Scene scene;
   scene.add(valley(depth, kind));
-  scene.add(ball(radius, {-2.5f, depth * 0.93f + radius, 0}, {}));
+  scene.add(ball(radius, {-2.5f, 1.8661f + 1.4f * radius, 0}, {}));
   World world(scene);
   float deepest = 0, fastest = 0;
   for (int frame = 0; frame < 240; ++frame) {

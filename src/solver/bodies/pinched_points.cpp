@@ -16,6 +16,8 @@ constexpr float opposite = -0.8f;
 /// The weight from which a contact is one of a single vertex.
 constexpr float whole_weight = 0.999f;
 constexpr int rounds_of_pinches = 4;
+/// Vertices that slide along the ground more slowly lie still [m/s].
+constexpr float pulled = 0.05f;
 
 bool has_single_vertex(const Contact& c) { return c.weight[0] > whole_weight; }
 
@@ -117,8 +119,24 @@ float lost_room(const PinchSide& a, const PinchSide& b) {
   return max(min(at_start, 0.f) - (room_at(a, a.moved) + room_at(b, b.moved)), 0.f);
 }
 
-/// Gives both sides of a vertex of inverse mass `w` their impulses. Returns that along the normal [N s^2].
-float join(const PinchSide& a, const PinchSide& b, float w) {
+/// True if the vertex is pulled along between both sides, as that of a rug is beneath a load. Each side then has its own
+/// friction with the vertex, and none with the other side. `is_held`: something fixed is in its object, whose forces reach
+/// the vertex; so the load rides on it if it slides along the ground, the side that yields less, more than beneath the
+/// load. Else it is pulled only if it slides against both sides in one direction.
+bool is_pulled(const PinchSide& a, const PinchSide& b, const Vec3f& n, float h, bool is_held) {
+  const bool a_yields = a.motion.inverse_mass > b.motion.inverse_mass;
+  const PinchSide &ground = a_yields ? b : a, &load = a_yields ? a : b;
+  const Vec3f along_ground = ground.slip - n * dot(n, ground.slip), beneath_load = load.slip - n * dot(n, load.slip);
+  const float on_ground = length_squared(along_ground), on_load = length_squared(beneath_load);
+  if (!(on_ground > (pulled * h) * (pulled * h))) return false;
+  if (is_held && on_ground > on_load) return true;
+  const float least = min(on_ground, on_load);
+  return dot(along_ground, beneath_load) > 0.5f * least && least > (pulled * h) * (pulled * h);
+}
+
+/// Gives both sides of a vertex of inverse mass `w` their impulses, across the normal only if the vertex sticks to both.
+/// Returns that along the normal [N s^2].
+float join(const PinchSide& a, const PinchSide& b, float w, float h, bool is_held, bool sticks) {
   const float lost = lost_room(a, b);
   if (!(lost > 0) && !(a.contact->push > 0 && b.contact->push > 0)) return 0;
   const Vec3f n = unit_or(a.normal - b.normal, a.normal), slip = b.slip - a.slip;
@@ -127,6 +145,7 @@ float join(const PinchSide& a, const PinchSide& b, float w) {
   const float scale_a = w + dot(n, response(a, n)), scale_b = w + dot(n, response(b, n));
   answer(a, along, n, {}, scale_a);  // opposite ones, also where normals are not: momentum is kept
   answer(b, along, -n, {}, scale_b);
+  if (!sticks || is_pulled(a, b, n, h, is_held)) return along;
   const Vec3f sticking = impulse - n * dot(n, impulse);
   const Vec3f across = sticking * min(share_in_cone(*a.contact, sticking * (scale_a * a.sign)),
                                       share_in_cone(*b.contact, sticking * (-scale_b * b.sign)));
@@ -136,6 +155,11 @@ float join(const PinchSide& a, const PinchSide& b, float w) {
 }
 
 }  // namespace
+
+std::vector<PinchedPoints::Touch>::const_iterator PinchedPoints::first_touch_from(int vertex) const {
+  return std::lower_bound(touches_.begin(), touches_.end(), vertex,
+                          [](const Touch& touch, int v) { return touch.vertex < v; });
+}
 
 void PinchedPoints::find_between_bodies(const BodySolids& solids, const std::vector<Contact>& contacts) {
   for (std::size_t i = 0; i < touches_.size(); ++i)
@@ -161,8 +185,7 @@ void PinchedPoints::find_at_meshes(const Substep& s, const std::vector<Contact>&
     }
     if (movable != 1 || !(std::abs(weight) > whole_weight)) continue;
     const float side = weight > 0 ? 1.f : -1.f;
-    auto touch =
-        std::lower_bound(touches_.begin(), touches_.end(), vertex, [](const Touch& t, int v) { return t.vertex < v; });
+    auto touch = first_touch_from(vertex);
     for (; touch != touches_.end() && touch->vertex == vertex; ++touch)
       if (side * dot(contacts[at(touch->contact)].normal, all[n].normal) < opposite)
         pinches_.push_back({touch->contact, static_cast<int>(n), Other::mesh, side});
@@ -171,20 +194,36 @@ void PinchedPoints::find_at_meshes(const Substep& s, const std::vector<Contact>&
 
 /// At primitive colliders, distance grids and heightfields, whose contacts each tile has.
 void PinchedPoints::find_at_colliders(const Substep& s, const std::vector<Contact>& contacts) {
-  const int colliders = static_cast<int>(s.own->colliders.size());
-  auto touch = touches_.begin();
+  std::vector<int> colliders;
   for_each_tile(s, [&](int task) {
     std::vector<Contact>& of_tile = s.work.tiles[at(task)].contacts;
     const int first = s.model.first[at(s.model.tiles()[at(task)].object)];
-    const int begin = first + tile_of(s, task).first_particle, end = first + tile_of(s, task).last_particle;
-    while (touch != touches_.end() && touch->vertex < begin) ++touch;
+    const int end = first + tile_of(s, task).last_particle;
+    auto touch = first_touch_from(first + tile_of(s, task).first_particle);
+    if (of_tile.empty() || touch == touches_.end() || touch->vertex >= end) return;
+    colliders.clear();
+    for (const Contact& c : of_tile)
+      if (colliders.empty() || colliders.back() != c.collider) colliders.push_back(c.collider);
     for (; touch != touches_.end() && touch->vertex < end; ++touch)
-      for (int c = 0; c < colliders && !of_tile.empty(); ++c) {
+      for (const int c : colliders) {
         const Contact* const other = contact_in_tile(of_tile, c, touch->vertex - first);
         if (other != nullptr && dot(contacts[at(touch->contact)].normal, other->normal) < opposite)
           pinches_.push_back({touch->contact, c, Other::collider, 1, task});
       }
   });
+}
+
+/// Which objects of pinched vertices have particles that are fixed, or follow pins.
+void PinchedPoints::find_held(const Substep& s) {
+  is_held_.assign(s.model.objects.size(), 0);
+  int last = -1;
+  for (const Touch& touch : touches_) {
+    const int object = s.model.object_of(touch.vertex);
+    if (object == std::exchange(last, object)) continue;
+    const auto all = s.state.positions.begin();
+    const auto is_fixed = [](const Record& position) { return !(position.w > 0); };
+    is_held_[at(object)] = std::any_of(all + s.model.first[at(object)], all + s.model.end_of(object), is_fixed) ? 1 : 0;
+  }
 }
 
 void PinchedPoints::find(const Substep& s, const BodySolids& solids, const std::vector<Contact>& contacts) {
@@ -199,6 +238,7 @@ void PinchedPoints::find(const Substep& s, const BodySolids& solids, const std::
   if (touches_.empty()) return;
   if (s.has_pairs()) find_at_meshes(s, contacts);
   if (!s.own->colliders.empty()) find_at_colliders(s, contacts);
+  find_held(s);
 }
 
 void PinchedPoints::project(Substep& s, const Parts& parts, const Pinch& pinch) const {
@@ -216,7 +256,10 @@ void PinchedPoints::project(Substep& s, const Parts& parts, const Pinch& pinch) 
     if (other == nullptr) return;
     b = side_of(*other, pinch.side, s.work.displacements.data() + begin);
   }
-  const float along = join(a, b, s.state.positions[at(vertex)].w) / s.h;
+  const bool is_held = is_held_[at(s.model.object_of(vertex))] != 0;
+  // Contacts of tiles are solved with the chains that pull at what is held, those of surfaces only after them.
+  const bool sticks = !is_held || pinch.kind != Other::collider;
+  const float along = join(a, b, s.state.positions[at(vertex)].w, s.h, is_held, sticks) / s.h;
   parts.impulses[at(pinch.contact)] += along;
   if (pinch.kind == Other::body) parts.impulses[at(pinch.other)] += along;
 }

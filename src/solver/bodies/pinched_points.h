@@ -4,7 +4,8 @@
 // have to be projected a thousand times until its weight and its friction reach the table beneath the cloth. So both
 // sides get one impulse in addition, as if the vertex joined them: along the normal as much as keeps the room between
 // them from shrinking, and across it what keeps them from sliding on one another, within the cones of both contacts.
-// Nothing is left for the vertex, so momentum is kept.
+// Nothing is left for the vertex, so momentum is kept. Where cloth is pulled along between both, as a rug beneath a load,
+// they do not hold one another: each has friction with the cloth alone.
 #pragma once
 
 #include <cstddef>
@@ -57,13 +58,16 @@ class PinchedPoints {
     int vertex = 0, contact = 0;
   };
 
+  std::vector<Touch>::const_iterator first_touch_from(int vertex) const;
   void find_between_bodies(const BodySolids& solids, const std::vector<Contact>& contacts);
   void find_at_meshes(const Substep& s, const std::vector<Contact>& contacts);
   void find_at_colliders(const Substep& s, const std::vector<Contact>& contacts);
+  void find_held(const Substep& s);
   void project(Substep& s, const Parts& parts, const Pinch& pinch) const;
 
   std::vector<Pinch> pinches_;
   std::vector<Touch> touches_;  ///< of single vertices and bodies, by vertex
+  std::vector<char> is_held_;   ///< [object] nonzero: it has pinched vertices, and particles that are fixed
 };
 
 }  // namespace pliant
