@@ -21,7 +21,8 @@ const Record& stiffness_record() {
        either("stiffness", share(),
               "PBD: the share k of the error that a step removes. The result depends on the time step and the masses."),
        field("damping", number("N s/m for a distance", 0), Stiffness{}.damping,
-             "XPBD damping beta; only together with `compliance`.")},
+             "XPBD damping beta; only together with `compliance`. A damping time beta * compliance below a "
+             "substep acts as one.")},
       {"compliance", "stiffness"}};
   return result;
 }

@@ -203,6 +203,16 @@ void draw_glb(const RenderOptions& options, const Size& size) {
   movie.finish();
 }
 
+/// Refuses options that change what is simulated, where the pictures are in a file already.
+void refuse_changes_of_glb(const RenderOptions& options) {
+  const Overrides& given = options.overrides;
+  const bool is_changed = given.substeps || given.iterations || !given.sweep.empty() || !given.meshes.empty() ||
+                          !given.values.empty();  // threads and the like change no picture
+  if (!is_changed) return;
+  throw Error({.file = options.scene}, "is drawn as it is: nothing is simulated that options could change",
+              "leave out --set, --mesh, --substeps, --iterations and --sweep, or give the scene");
+}
+
 void check_render(const RenderOptions& options) {
   if (!is_movie(options) && !has_suffix(options.out, ".png")) {
     Location where;
@@ -220,6 +230,7 @@ void check_render(const RenderOptions& options) {
   if (!options.resume.empty() && is_glb(options))
     throw Error({}, "--resume goes on with a scene, and " + options.scene + " is none",
                 "give the scene, or no --resume");
+  if (is_glb(options)) refuse_changes_of_glb(options);
   refuse_same_file_twice({options.scene, options.resume}, {options.out});
   refuse_unwritable(options.out);
 }

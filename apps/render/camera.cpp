@@ -52,21 +52,23 @@ Camera fit_camera(const std::vector<RenderScene>& scenes, int width, int height,
   return camera;
 }
 
-/// The middle of what the camera shows by itself.
-Vec3f middle_of(const std::vector<RenderScene>& scenes) {
+/// What the camera shows by itself.
+Bounds shown_by_itself(const std::vector<RenderScene>& scenes) {
   Bounds all;
   for (const RenderScene& scene : scenes) all.include(bounds(points_of_interest(scene)));
-  return all.empty() ? Vec3f{} : all.centre();
+  return all;
 }
 
 /// The camera's place about its target as angles and a distance, where a position is given and they are not.
 SceneCamera with_angles(SceneCamera options, const std::vector<RenderScene>& scenes) {
   if (!options.position) return options;
-  if (!options.look_at) options.look_at = middle_of(scenes);
+  const Bounds shown = shown_by_itself(scenes);
+  if (!options.look_at) options.look_at = shown.empty() ? Vec3f{} : shown.centre();
   const Vec3f away = *options.position - *options.look_at;
-  if (!(length(away) > 0)) return options;
+  const float least = shown.empty() ? 0 : 1e-6f * shown.radius();  // else no direction follows from the position
+  if (!(length(away) > least)) return options;
   if (!options.azimuth) options.azimuth = std::atan2(away.x, away.z) / degree;
-  if (!options.elevation) options.elevation = std::asin(away.y / length(away)) / degree;
+  if (!options.elevation) options.elevation = std::asin(std::clamp(away.y / length(away), -1.f, 1.f)) / degree;
   if (!options.distance) options.distance = length(away);
   return options;
 }

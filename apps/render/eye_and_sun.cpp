@@ -12,6 +12,8 @@ Eye make_eye(const Camera& camera, int width, int height, const Extent& extent) 
   const float size = std::max(extent.radius, 1e-4f);
   const float distance = dot(eye.frame.back, camera.eye - extent.centre);
   eye.near = 0.05f * size;  // less than the distance of objects, because the ground comes nearer
+  // A camera may be told to look at something nearby.
+  if (const float gap = length(camera.target - camera.eye); gap > 0) eye.near = std::min(eye.near, gap / 2);
   eye.far = std::max(distance, 0.f) + 40 * size;
   eye.view_projection =
       perspective(eye.half_width, eye.half_height, eye.near, eye.far) * view_matrix(eye.frame, camera.eye);

@@ -28,6 +28,8 @@ struct Affine {
   Affine of(const Affine& inner) const {
     return {{turned(inner.axes[0]), turned(inner.axes[1]), turned(inner.axes[2])}, of(inner.origin)};
   }
+  /// By how much it lengthens, in the mean of all directions.
+  float scale() const { return std::cbrt(std::abs(dot(axes[0], cross(axes[1], axes[2])))); }
 };
 
 /// The values of a channel at a time: those of the keys around it, mixed.
@@ -47,6 +49,15 @@ struct Keys {
       result[i] = values[low * parts + i] + share * (values[high * parts + i] - values[low * parts + i]);
     return result;
   }
+
+  /// q and -q are one rotation: of each key the one is taken that is nearer to the key before, the short way round.
+  void take_shorter_rotations() {
+    for (std::size_t i = 4; i + 3 < values.size(); i += 4) {
+      float product = 0;
+      for (std::size_t k = i; k < i + 4; ++k) product += values[k] * values[k - 4];
+      for (std::size_t k = i; k < i + 4 && product < 0; ++k) values[k] = -values[k];
+    }
+  }
 };
 
 /// A part of a mesh.
@@ -56,6 +67,11 @@ struct Primitive {
   std::vector<std::size_t> targets;  ///< accessors of differences of positions
   std::vector<int> indices;
   Vec3f colour{0.7f, 0.7f, 0.7f};
+};
+
+struct Mesh {
+  std::vector<Primitive> primitives;
+  std::vector<float> weights;  ///< of nodes that have none of their own
 };
 
 /// Pairs of points as polylines: a pair that begins where the last one ended goes on with it.
@@ -91,13 +107,15 @@ struct GlbFile::Channel {
 
 struct GlbFile::Implementation {
   GlbBytes bytes;
-  std::vector<std::vector<Primitive>> meshes{};
+  std::vector<Mesh> meshes{};
   std::map<std::size_t, std::vector<Channel>> channels{};  // by node
   std::vector<float> times{};                              // of the frames
 
   explicit Implementation(const std::string& path) : bytes(path) {
     for (std::size_t m = 0; m < bytes.count("meshes"); ++m) meshes.push_back(read_mesh(bytes.item("meshes", m)));
     if (bytes.count("animations") > 0) read_animation(bytes.item("animations", 0));
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
     if (times.empty()) times = {0};
   }
 
@@ -126,13 +144,19 @@ struct GlbFile::Implementation {
     return primitive;
   }
 
-  std::vector<Primitive> read_mesh(const Json& mesh) const {
-    std::vector<Primitive> result;
+  /// The weights of a node or mesh; none if it says none.
+  std::vector<float> weights_of(const Json& of) const {
+    const auto found = of.find("weights");
+    return bytes.numbers_of(of, "weights", std::vector<float>(found == of.end() ? 0 : found->size()));
+  }
+
+  Mesh read_mesh(const Json& mesh) const {
+    Mesh result{.primitives = {}, .weights = weights_of(mesh)};
     const Json primitives = mesh.value("primitives", Json::array());
     if (!primitives.is_array()) bytes.refuse("has a mesh without primitives");
     for (const Json& from : primitives) {
       if (!from.is_object()) bytes.refuse("has a primitive that is none");
-      result.push_back(read_primitive(from));
+      result.primitives.push_back(read_primitive(from));
     }
     return result;
   }
@@ -165,7 +189,8 @@ struct GlbFile::Implementation {
                       (path == "weights" || keys.values.size() == parts * keys.times.size());
     if (!fits || !std::is_sorted(keys.times.begin(), keys.times.end()))
       bytes.refuse("has an animation whose keys do not fit their times");
-    if (keys.times.size() > times.size()) times = keys.times;
+    if (path == "rotation") keys.take_shorter_rotations();
+    times.insert(times.end(), keys.times.begin(), keys.times.end());
     channels[node].push_back({path, std::move(keys)});
   }
 
@@ -206,14 +231,16 @@ struct GlbFile::Implementation {
     return positions;
   }
 
-  void draw(const Primitive& primitive, std::vector<Vec3f> positions, RenderScene& into) const {
+  /// `scale`: of what the node shows, at rest.
+  void draw(const Primitive& primitive, std::vector<Vec3f> positions, float scale, RenderScene& into) const {
     if (positions.empty()) return;
     if (primitive.mode == glb_points) {
-      const float radius = radius_of_points(primitive.positions);
+      const float radius = scale * radius_of_points(primitive.positions);
       into.balls.push_back({.centres = std::move(positions), .radius = radius, .colour = primitive.colour});
     } else if (primitive.mode == glb_lines || primitive.mode == glb_line_strip) {
+      const float radius = 0.004f * scale * bounds(primitive.positions).radius();
       for (const std::vector<int>& line : lines_of(primitive)) {
-        RenderTube tube{.points = {}, .radius = 0.004f * bounds(positions).radius(), .colour = primitive.colour};
+        RenderTube tube{.points = {}, .radius = radius, .colour = primitive.colour};
         for (const int i : line) tube.points.push_back(positions[static_cast<std::size_t>(i)]);
         into.tubes.push_back(std::move(tube));
       }
@@ -228,27 +255,38 @@ struct GlbFile::Implementation {
     }
   }
 
-  void add_node(std::size_t index, const Affine& around, float time, int depth, RenderScene& into) const {
+  /// A picture in the making.
+  struct Drawing {
+    float time = 0;
+    std::vector<char> seen{};  ///< by node: 1 if it is drawn
+    RenderScene scene{};
+  };
+
+  /// Refuses nodes with two parents: by a few of them a small file would ask for billions of meshes.
+  void add_node(std::size_t index, const Affine& around, int depth, Drawing& into) const {
     constexpr int deepest = 200;
-    if (depth > deepest) bytes.refuse("has nodes that contain themselves");
+    if (depth > deepest) bytes.refuse("has nodes nested deeper than " + std::to_string(deepest));
     const Json& node = bytes.item("nodes", index);
-    const Affine place = around.of(place_of(index, time));
-    if (const std::size_t mesh = bytes.index_of(node, "mesh", no_index); mesh != no_index) {
-      if (mesh >= meshes.size()) bytes.refuse("has a node with a mesh that is not there");
-      for (const Primitive& primitive : meshes[mesh]) {
-        std::vector<Vec3f> positions = shape_of(primitive, value_of(index, "weights", time, {}));
+    if (into.seen[index]++ != 0) bytes.refuse("has node " + std::to_string(index) + " in two places");
+    const Affine place = around.of(place_of(index, into.time));
+    if (const std::size_t number = bytes.index_of(node, "mesh", no_index); number != no_index) {
+      if (number >= meshes.size()) bytes.refuse("has a node with a mesh that is not there");
+      const Mesh& mesh = meshes[number];
+      const std::vector<float> at_rest = node.contains("weights") ? weights_of(node) : mesh.weights;
+      for (const Primitive& primitive : mesh.primitives) {
+        std::vector<Vec3f> positions = shape_of(primitive, value_of(index, "weights", into.time, at_rest));
         for (Vec3f& p : positions) p = place.of(p);
-        draw(primitive, std::move(positions), into);
+        draw(primitive, std::move(positions), place.scale(), into.scene);
       }
     }
-    add_nodes(node.value("children", Json::array()), place, time, depth + 1, into);
+    add_nodes(node.value("children", Json::array()), place, depth + 1, into);
   }
 
-  void add_nodes(const Json& list, const Affine& around, float time, int depth, RenderScene& into) const {
+  void add_nodes(const Json& list, const Affine& around, int depth, Drawing& into) const {
     if (!list.is_array()) bytes.refuse("has a list of nodes that is none");
     for (const Json& index : list) {
       if (!index.is_number_unsigned()) bytes.refuse("has a list of nodes that is none");
-      add_node(index.get<std::size_t>(), around, time, depth, into);
+      add_node(index.get<std::size_t>(), around, depth, into);
     }
   }
 };
@@ -267,10 +305,12 @@ double GlbFile::frame_time() const {
 }
 
 RenderScene GlbFile::frame(int number) const {
-  RenderScene scene;
+  Implementation::Drawing drawing{.time = self_->times[static_cast<std::size_t>(number)]};
+  drawing.seen.resize(self_->bytes.count("nodes"));
   const std::size_t shown = self_->bytes.index_of(self_->bytes.root(), "scene", 0);
   const Json& nodes = self_->bytes.item("scenes", shown);
-  self_->add_nodes(nodes.value("nodes", Json::array()), {}, self_->times[static_cast<std::size_t>(number)], 0, scene);
+  self_->add_nodes(nodes.value("nodes", Json::array()), {}, 0, drawing);
+  RenderScene scene = std::move(drawing.scene);
   // Colliders are not in the file. What reaches below 0 is not drawn through a ground there.
   const Bounds box = bounds(points_of_interest(scene));
   if (!box.empty() && box.low.y < -0.02f * box.radius()) scene.ground.reset();

@@ -22,7 +22,8 @@ class GlbFile {
   GlbFile(GlbFile&&) noexcept;
   GlbFile& operator=(GlbFile&&) noexcept;
 
-  /// The number of the last frame: a frame for each key of the animation, from 0. 0 if nothing moves.
+  /// The number of the last frame: a frame for each time at which any channel of the animation has a key, from 0.
+  /// 0 if nothing moves.
   int last_frame() const;
   /// Seconds between two frames, on average.
   double frame_time() const;

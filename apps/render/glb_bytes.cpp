@@ -11,6 +11,7 @@ namespace pliant::render {
 namespace {
 
 constexpr std::size_t header = 12, chunk_header = 8;
+constexpr int deepest_json = 64;
 
 std::uint32_t word_at(const std::string& bytes, std::size_t at) {
   std::uint32_t word = 0;
@@ -39,7 +40,13 @@ GlbBytes::GlbBytes(const std::string& path) : path_(path), bytes_(read_file_byte
   if (word_at(bytes_, 4) != 2) refuse("is glTF of another version than 2");
   const std::size_t size = word_at(bytes_, header), text = header + chunk_header;
   if (bytes_.compare(header + 4, 4, "JSON") != 0 || size > bytes_.size() - text) refuse("is damaged or cut off");
-  root_ = Json::parse(bytes_.begin() + text, bytes_.begin() + static_cast<std::ptrdiff_t>(text + size), nullptr, false);
+  // Values of Json are copied by recursion, which a hostile text would let overflow the stack.
+  const auto limit_depth = [&](int depth, Json::parse_event_t /*event*/, const Json& /*parsed*/) {
+    if (depth >= deepest_json) refuse("has JSON nested deeper than " + std::to_string(deepest_json));
+    return true;
+  };
+  const auto first = bytes_.begin() + text;
+  root_ = Json::parse(first, first + static_cast<std::ptrdiff_t>(size), limit_depth, false);
   if (!root_.is_object()) refuse("has JSON that is not valid");
   const std::size_t next = text + size;
   if (next + chunk_header > bytes_.size()) return;  // no binary part

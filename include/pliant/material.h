@@ -19,7 +19,7 @@ struct Stiffness {
   enum class Kind { compliance, pbd };
   Kind kind = Kind::compliance;
   float value = 0;  ///< compliance alpha >= 0, or k in [0, 1]
-  /// Damping coefficient beta >= 0 of a compliance, in N s/m (the type's own unit), eq. 26 of the paper.
+  /// Damping beta >= 0 of a compliance [N s/m for a distance] (eq. 26): a time alpha beta below a substep acts as one.
   float damping = 0;
 
   static Stiffness rigid() { return {}; }

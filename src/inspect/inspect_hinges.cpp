@@ -35,12 +35,15 @@ struct SoftHinges {
 };
 
 SoftHinges words_of_hinges(const Object& object, double excess, int substeps) {
-  const double factor = std::sqrt(excess / wanted_excess);
+  const double factor = std::sqrt(excess / wanted_excess), needed = std::ceil(factor * substeps);
+  const std::string first = needed > most_substeps_of_frame
+                                ? "give it less bending stiffness"
+                                : "use " + std::to_string(std::llround(needed)) + " substeps";
   return {&object,
           "its hinges bend about " + digits_of_bend(1 + excess) + " times as far as their stiffness says, with " +
               std::to_string(substeps) + " substeps a frame",
-          "use " + std::to_string(std::llround(std::min(std::ceil(factor * substeps), 1e9))) + " substeps, or edges " +
-              digits_of_bend(std::sqrt(factor)) + " times as long; a flat rest shape without plasticity needs neither"};
+          first + ", or edges " + digits_of_bend(std::sqrt(factor)) +
+              " times as long; a flat rest shape without plasticity needs neither"};
 }
 
 std::vector<SoftHinges> find_soft_hinges(const Scene& scene, const Settings& settings) {

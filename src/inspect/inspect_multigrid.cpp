@@ -57,7 +57,7 @@ struct SpringStretch {
   double needed = 0;  ///< substeps of chains with which it is wanted_of_springs too much
 };
 
-SpringStretch stretch_of_springs(const Object& object, const Scene& scene, int substeps) {
+SpringStretch stretch_of_springs(const Object& object, const Scene& scene, double substeps) {
   const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
   const SpringFacts springs = facts_of_springs(object);
   const double mass = finite_mass(object),
@@ -77,6 +77,18 @@ SpringStretch stretch_of_springs(const Object& object, const Scene& scene, int s
           std::sqrt(excess_of_chains * rate / wanted_of_springs)};
 }
 
+std::string advice_of_springs(double needed) {
+  if (needed > most_substeps_of_frame)
+    return "no sweep has substeps enough for such stiff springs: make them softer, or the edges longer";
+  return "use the sweep \"chains\" with " + std::to_string(std::llround(std::ceil(needed))) +
+         " substeps where that counts";
+}
+
+bool has_free_particles(const Object& object, double gravity) {
+  const std::vector<char> held = held_particles(object, gravity);
+  return std::find(held.begin(), held.end(), 0) != held.end();
+}
+
 struct SoftSprings {
   const Object* object = nullptr;
   std::string problem, advice;
@@ -84,22 +96,24 @@ struct SoftSprings {
 
 std::vector<SoftSprings> find_soft_springs(const Scene& scene, const Settings& settings) {
   std::vector<SoftSprings> found;
-  if (!(length_squared(scene.gravity) > 0)) return found;
+  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  if (!(gravity > 0)) return found;
   const std::vector<Sweep> sweeps = chosen_sweeps(scene, settings);
-  const std::vector<int> substeps_of = chosen_substeps(scene, settings);
+  std::vector<int> substeps_of;  // empty until an object needs it
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const Object& object = scene.objects[o];
-    if (sweeps[o] != Sweep::multigrid || !has_fixed(object)) continue;
+    if (sweeps[o] != Sweep::multigrid || !has_fixed(object) || !has_free_particles(object, gravity)) continue;
+    if (substeps_of.empty()) substeps_of = chosen_substeps(scene, settings);
     const int substeps = substeps_of[o] > 0 ? substeps_of[o] : std::max(least_by_state, settings.least_substeps);
-    const SpringStretch stretch = stretch_of_springs(object, scene, substeps * settings.iterations);
+    const SpringStretch stretch =
+        stretch_of_springs(object, scene, static_cast<double>(substeps) * settings.iterations);
     if (stretch.times <= tolerated_of_springs) continue;
-    found.push_back(
-        {&object,
-         "is solved by multigrid, by which it stretches about " + words(std::round(10 * stretch.times) / 10) +
-             " times as far under its weight as its stiffness says, " + words(std::round(1e4 * stretch.strain) / 100) +
-             " % of strain too much",
-         "use the sweep \"chains\" with " + std::to_string(std::llround(std::min(std::ceil(stretch.needed), 1e9))) +
-             " substeps where that counts"});
+    found.push_back({&object,
+                     "is solved by multigrid, by which it stretches about " +
+                         words(std::round(10 * stretch.times) / 10) +
+                         " times as far under its weight as its stiffness says, " +
+                         words(std::round(1e4 * stretch.strain) / 100) + " % of strain too much",
+                     advice_of_springs(stretch.needed)});
   }
   return found;
 }

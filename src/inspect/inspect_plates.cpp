@@ -10,6 +10,7 @@
 #include "inspect/inspect_scene.h"
 #include "inspect/problems.h"
 #include "matter/advice_settings.h"
+#include "model/attachments.h"
 #include "model/sheet_bending.h"
 #include "model/sheet_choice.h"
 
@@ -24,13 +25,6 @@ constexpr double tolerated_of_plates = 1.1, wanted_of_plates = 0.05;
 constexpr double excess_of_regular[] = {2, 5}, excess_of_irregular[] = {8, 11};
 /// A mesh is irregular if more than this share of its free vertices has not six triangles.
 constexpr double share_of_irregular = 0.1;
-
-std::vector<char> held_particles(const Object& object) {
-  std::vector<char> held(object.positions.size(), 0);
-  for (std::size_t i = 0; i < held.size(); ++i) held[i] = std::isinf(object.masses[i]) ? 1 : 0;
-  for (const Pin& pin : object.pins) held[static_cast<std::size_t>(pin.particle)] = 1;
-  return held;
-}
 
 /// A sheet whose border is held.
 struct Plate {
@@ -58,14 +52,27 @@ double area_of(const Object& object, const std::array<int, 3>& t) {
   return std::sqrt(static_cast<double>(length_squared(cross(at(1) - at(0), at(2) - at(0))))) / 2;
 }
 
-Plate plate_of(const Object& object) {
-  const std::vector<char> held = held_particles(object);
+bool is_free_triangle(const std::array<int, 3>& t, const std::vector<char>& held) {
+  return std::any_of(t.begin(), t.end(), [&](int i) { return held[static_cast<std::size_t>(i)] == 0; });
+}
+
+/// True if so many triangles are free that no such sheet bends too far to be told.
+bool is_fine(const Object& object, const std::vector<char>& held) {
+  constexpr double told_triangles = 2 * excess_of_irregular[1] / (tolerated_of_plates - 1);
+  const auto free = std::count_if(object.triangles.begin(), object.triangles.end(),
+                                  [&](const auto& t) { return is_free_triangle(t, held); });
+  return static_cast<double>(free) >= told_triangles;
+}
+
+Plate plate_of(const Object& object, double gravity) {
+  const std::vector<char> held = held_particles(object, gravity);
   Plate plate;
-  if (std::count(held.begin(), held.end(), 1) == 0 || !has_held_border(object, held)) return plate;
+  if (std::count(held.begin(), held.end(), 1) == 0 || is_fine(object, held) || !has_held_border(object, held))
+    return plate;
   std::vector<int> triangles_at(held.size(), 0);
   double area = 0, triangles = 0, wholly_held = 0;
   for (const auto& t : object.triangles) {
-    const bool is_free = std::any_of(t.begin(), t.end(), [&](int i) { return held[static_cast<std::size_t>(i)] == 0; });
+    const bool is_free = is_free_triangle(t, held);
     for (const int i : t) ++triangles_at[static_cast<std::size_t>(i)];
     area += is_free ? area_of(object, t) : 0;
     triangles += is_free ? 1 : 0;
@@ -98,7 +105,7 @@ std::vector<SoftPlate> find_soft_plates(const Scene& scene, const Settings& sett
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const Object& object = scene.objects[o];
     if (object.triangles.empty() || object.volume || has_long_edges(object, gravity)) continue;
-    const Plate plate = plate_of(object);
+    const Plate plate = plate_of(object, gravity);
     if (!plate.is_one) continue;
     if (substeps_of.empty()) substeps_of = chosen_substeps(scene, settings);
     const double h = static_cast<double>(scene.frame_time) / std::max(substeps_of[o], least_substeps_of_sheets);
@@ -118,6 +125,17 @@ std::vector<SoftPlate> find_soft_plates(const Scene& scene, const Settings& sett
 }
 
 }  // namespace
+
+std::vector<char> held_particles(const Object& object, double gravity) {
+  std::vector<char> held(object.positions.size(), 0);
+  const std::vector<int> targets = held_by_targets(object, gravity);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const bool is_attached = !targets.empty() && targets[i] != static_cast<int>(i);
+    held[i] = std::isinf(object.masses[i]) || is_attached ? 1 : 0;
+  }
+  for (const Pin& pin : object.pins) held[static_cast<std::size_t>(pin.particle)] = 1;
+  return held;
+}
 
 void doubt_plates(Problems& problems, const Scene& scene) {
   for (const SoftPlate& found : find_soft_plates(scene, scene.settings)) {

@@ -10,6 +10,12 @@ namespace pliant {
 
 /// Least length of a substep [s]: compliance divided by the square of a shorter one could overflow a float.
 constexpr double shortest_substep = 1e-12;
+/// Most substeps of a frame that can be set (Settings::substeps).
+constexpr double most_substeps_of_frame = 10000;
+
+/// For each particle of the user: 1 if a pin, an infinite mass or a rigid attachment holds it, else 0. `gravity`: its
+/// magnitude [m/s^2].
+std::vector<char> held_particles(const Object& object, double gravity);
 
 /// Throws an Error for the first grave finding of inspect(scene); it names object and element. It makes no other
 /// checks, so it costs one pass over the data. Afterwards the scene can be compiled without checks of indices, sizes

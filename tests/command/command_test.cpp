@@ -81,6 +81,8 @@ TEST_F(Command, ErrorsGiveOneAndOneLine) {
   EXPECT_EQ(slurp(folder_ / "small.json"), small_scene(4)) << "what was read is written over";
   expect_refused("check missing.obj", 1, "missing.obj");
   expect_refused("render small.json --out picture.gif", 1, "picture.gif");
+  for (const char* change : {"--set /settings/substeps=2", "--mesh a=b.obj", "--substeps 2", "--sweep chains"})
+    expect_refused(std::string("render small.glb --out picture.png ") + change, 1, "nothing is simulated");
   expect_refused("render small.json --out picture.png --size big", 1, "big");
   expect_refused("render small.json --out picture.mp4 --strip 0,2", 1, "--strip");
   expect_refused("render small.json --out picture.png --strip 0,2 --frame 3", 1, "--strip");

@@ -490,7 +490,7 @@ TEST(InspectScene, NamesAnAccelerationThatNeverBegins) {
   scene.objects.push_back(make_rope({{0, 0, 0}, {0.1f, 0, 0}, {0.2f, 0, 0}}));
   scene.settings.sweep_options.acceleration = SweepOptions::Acceleration::chebyshev;
   scene.settings.iterations = 10;
-  EXPECT_NE(finding(scene, "acceleration, has no effect: a substep has 10 iterations, and the first 10 are plain"), "");
+  EXPECT_NE(finding(scene, "acceleration: has no effect: a substep has 10 iterations, and the first 10 are plain"), "");
   scene.settings.iterations = 11;
   EXPECT_EQ(finding(scene, "has no effect"), "");
 }

@@ -2,8 +2,10 @@
 // formulas.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -116,6 +118,17 @@ TEST(ToldSheets, NothingIsToldOfASheetThatIsNotHeldAllAround) {
   EXPECT_EQ(told_number(scene, "across, so it bends about "), 0);
 }
 
+TEST(ToldSheets, RigidAttachmentsHoldABorderAsPinsDo) {
+  Scene scene = plate(6, true, true);
+  const double told = told_number(scene, "across, so it bends about ");
+  Object& object = scene.objects[0];
+  for (const Pin& pin : object.pins)
+    object.attachments.push_back({pin.particle, object.positions[static_cast<std::size_t>(pin.particle)], {}, {}});
+  object.pins.clear();
+  EXPECT_GT(told, 1);
+  EXPECT_EQ(told_number(scene, "across, so it bends about "), told);
+}
+
 constexpr int rows = 12;  ///< cells of what hangs
 
 /// Irregular cloth of 0.6 m that hangs by an edge.
@@ -155,6 +168,40 @@ TEST(ToldSheets, WhatHangsByMultigridStretchesAsFarAsIsTold) {
     EXPECT_EQ(told_number(hung(stiffness, Sweep::chains), "stretches about "), 0);
   }
   EXPECT_EQ(told_number(hung(300, Sweep::multigrid), "stretches about "), 0);
+}
+
+/// All that `inspect` says of a scene.
+std::string all_told(const Scene& scene) {
+  std::string all;
+  for (const Finding& found : inspect(scene)) all += found.message + "; " + found.advice + "\n";
+  return all;
+}
+
+TEST(ToldSheets, NothingIsToldOfMultigridWithManySubstepsAndIterations) {
+  Scene scene = hung(9000, Sweep::multigrid);
+  scene.settings.substeps = 8192;  // times 8 is 2^16, whose square does not fit an int
+  scene.settings.iterations = 8;
+  EXPECT_EQ(all_told(scene).find("stretches about "), std::string::npos) << all_told(scene);
+}
+
+TEST(ToldSheets, NothingIsToldOfMultigridWhereNoParticleCanMove) {
+  Scene pinned = hung(9000, Sweep::multigrid), heavy = pinned;
+  for (int i = 0; i < static_cast<int>(pinned.objects[0].positions.size()); ++i) pinned.pin(0, {i});
+  std::fill(heavy.objects[0].masses.begin(), heavy.objects[0].masses.end(), std::numeric_limits<float>::infinity());
+  for (const Scene& scene : {pinned, heavy})
+    EXPECT_EQ(all_told(scene).find("stretches about "), std::string::npos) << all_told(scene);
+}
+
+TEST(ToldSheets, NoAdviceIsForMoreSubstepsThanCanBeSet) {
+  const std::string springs = all_told(hung(1e12f, Sweep::multigrid));
+  EXPECT_NE(springs.find("no sweep has substeps enough"), std::string::npos) << springs;
+  Fabric material;
+  material.area_density = 0.01f;
+  material.bending_stiffness = 1e4f;
+  TriangleMesh mesh = cells_of(rows, 0.05f, true);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i].y = 0.001f * noise(static_cast<int>(i));
+  const std::string hinges = all_told(sheet_of(std::move(mesh), material));
+  EXPECT_NE(hinges.find("give it less bending stiffness, or edges"), std::string::npos) << hinges;
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "pliant/body.h"
+#include "render/eye_and_sun.h"
+#include "render/matrix.h"
 #include "render/render.h"
 
 namespace pliant::render {
@@ -61,8 +63,21 @@ TEST(CameraOptions, ThePositionIsWhereItSaysAndAnglesTurnItAbout) {
   const Camera at_the_middle = frame_camera({scene}, 300, 200, {.position = Vec3f{0, 0, 5}});
   EXPECT_NEAR(gap(at_the_middle.target, {}), 0, 1e-6f);
   EXPECT_NEAR(gap(at_the_middle.eye, {0, 0, 5}), 0, 1e-5f);
-  const Camera in_it = frame_camera({scene}, 300, 200, {.position = Vec3f{}});
-  EXPECT_GT(gap(in_it.eye, in_it.target), 0.1f) << "no direction: that of no position";
+  for (const Vec3f& middle : {Vec3f{}, Vec3f{1e-8f, 0, 0}}) {
+    const Camera in_it = frame_camera({scene}, 300, 200, {.position = middle});
+    EXPECT_GT(gap(in_it.eye, in_it.target), 0.1f) << "no direction: that of no position";
+  }
+}
+
+TEST(CameraOptions, WhatIsLookedAtFromNearIsNotCutOff) {
+  RenderScene scene;
+  scene.balls.push_back({.centres = cube_of_points()});
+  const auto near = [&](float distance) {
+    const Camera camera = frame_camera({scene}, 300, 200, {.look_at = Vec3f{}, .distance = distance});
+    return make_eye(camera, 300, 200, extent_of({scene})).near;
+  };
+  for (const float distance : {1e-3f, 1e-2f, 0.04f}) EXPECT_LT(near(distance), 0.51f * distance) << distance;
+  EXPECT_EQ(near(5), near(50)) << "by the size of what is there";
 }
 
 TEST(CameraOptions, AreMergedOneByOne) {

@@ -4,6 +4,8 @@ export interface WorkerFrame extends Frame {
   /** Of the step and of reading it, in the worker. */
   milliseconds: number;
   report: Record<string, any>;
+  /** True if the last step made this state: after `seek` and `load` the report is of another one, or of none. */
+  isStep: boolean;
   advice: string;
   contacts?: Contact[];
   /** The frames that `seek` returns to, ascending. */

@@ -2,18 +2,26 @@
 
 const most = 240; // frames that are kept
 const budget = 96e6; // [bytes]
-const bytesOfParticle = 100; // of a State, about
+const [bytesOfParticle, bytesOfContact] = [100, 350]; // of a State, about
+
+/** Contacts that a State may hold. */
+function contactsOf({ contacts = 0, pairs }) {
+  return contacts + (pairs?.contacts ?? 0);
+}
+
+function isOutOfMemory({ name, status }) {
+  return status === "PLIANT_NO_MEMORY" || name === "RangeError"; // the latter of arrays of JavaScript
+}
 
 /** Frames of a World from its start: each one, then every second, fourth, ... as they become too many. */
 export class History {
   constructor(world, parts) {
     this.kept = [];
     this.stride = 1;
+    this.size = 0; // of what is kept [bytes], about
     // A State fits its World only as long as nothing tears; the World's own bytes always do.
     this.whole = parts.objects.some((part) => part.changes);
-    const particles = world.objects().reduce((sum, object) => sum + object.info.particles, 0);
-    const size = this.whole ? world.bytes().length : bytesOfParticle * particles;
-    this.room = Math.min(most, Math.max(16, Math.floor(budget / Math.max(size, 1))));
+    this.particles = world.objects().reduce((sum, object) => sum + object.info.particles, 0);
     this.keep(world);
   }
 
@@ -24,10 +32,27 @@ export class History {
   /** Keeps the present, and forgets what was after it. */
   keep(world) {
     const { frame } = world.info;
-    while (this.kept.length > 0 && this.kept.at(-1).frame >= frame) this.forget(this.kept.pop());
+    while (this.kept.length > 0 && this.kept.at(-1).frame >= frame) {
+      this.forget(this.kept.pop());
+      if (this.kept.length === 1) this.stride = 1; // all anew from the first frame
+    }
     if (frame % this.stride !== 0) return;
-    this.kept.push({ frame, held: this.whole ? world.bytes() : world.copyState() });
-    if (this.kept.length > this.room) this.thin();
+    try {
+      this.kept.push(this.copy(world, frame));
+    } catch (error) {
+      if (!isOutOfMemory(error)) throw error;
+      return this.thin();
+    }
+    this.size += this.kept.at(-1).size;
+    while (this.kept.length > most || (this.size > budget && this.kept.length > 2)) this.thin();
+  }
+
+  copy(world, frame) {
+    const held = this.whole ? world.bytes() : world.copyState();
+    const size = this.whole
+      ? held.length
+      : bytesOfParticle * this.particles + bytesOfContact * contactsOf(world.report());
+    return { frame, held, size };
   }
 
   thin() {
@@ -47,7 +72,8 @@ export class History {
     return now;
   }
 
-  forget({ held }) {
+  forget({ held, size }) {
+    this.size -= size;
     if (!this.whole) held.free();
   }
   free() {

@@ -9,12 +9,14 @@ let contactsWanted = false;
 let liquidSurfaces = false;
 let playing = false;
 let drawn = true; // the client has drawn the last frame
+let isStep = false; // the present is what the last step made, so the report is of it
 let due = 0;
 
 function post(milliseconds) {
   const frame = readFrame(world, parts, { liquidSurfaces });
   frame.milliseconds = milliseconds;
   frame.report = world.report();
+  frame.isStep = isStep;
   frame.advice = world.advice();
   frame.kept = history.frames;
   if (contactsWanted) frame.contacts = world.contacts();
@@ -26,6 +28,7 @@ function step() {
   const start = performance.now();
   if (drag?.pose) world.collider(drag.id).setPose(drag.pose);
   world.step();
+  isStep = true;
   history.keep(world);
   post(performance.now() - start);
 }
@@ -66,6 +69,7 @@ const calls = {
       world?.free();
       world = made;
       drag = undefined;
+      isStep = false;
       world.recordContacts(contactsWanted);
       parts = readParts(world);
       history = new History(world, parts);
@@ -91,6 +95,7 @@ const calls = {
     drag?.release?.();
     drag = undefined;
     world = history.restore(world, frame, pliant);
+    isStep = false;
     world.recordContacts(contactsWanted);
     post(0);
     return world.info.frame;
@@ -113,6 +118,7 @@ const calls = {
   },
   async grab(_, { id, particle, point, radius }) {
     drag?.release?.();
+    drag = undefined; // if what follows fails
     const object = world.object(id);
     drag = object.drag(particle ?? object.nearest(point), { radius });
     return drag.target;
@@ -138,6 +144,7 @@ const calls = {
     return world.bytes();
   },
   async record(_, { frames, suffix }) {
+    isStep = frames > 0;
     return world.record(frames, suffix);
   },
 };

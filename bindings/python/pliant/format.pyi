@@ -113,7 +113,8 @@ class SweepOptions(TypedDict, total=False):
     acceleration: Literal['none', 'chebyshev']
     """Chebyshev semi-iteration, useful from about 20 iterations per substep; rejected with `natural`. Default: none."""
     plain_iterations: int
-    """Iterations of a substep before acceleration starts; at least 2 if the spectral radius is estimated. Default: 10."""
+    """Iterations of a substep before acceleration starts; at least 2 if the spectral radius is estimated. A substep
+    with no more iterations than these is not accelerated. Default: 10."""
     spectral_radius: float
     """Spectral radius of the sweep, below 1; 0: estimated in every substep. Default: 0."""
     tethers: bool
@@ -416,7 +417,8 @@ class Stiffness(TypedDict, total=False):
     stiffness: float
     """PBD: the share k of the error that a step removes. The result depends on the time step and the masses."""
     damping: float
-    """XPBD damping beta; only together with `compliance`. [N s/m for a distance] Default: 0."""
+    """XPBD damping beta; only together with `compliance`. A damping time beta * compliance below a substep acts as
+    one. [N s/m for a distance] Default: 0."""
 
 class StrainLimit(TypedDict, total=False):
     """How far edges may become shorter or longer: the object yields freely until there, and hardly beyond."""
@@ -515,8 +517,8 @@ class BoxOfTetrahedra(TypedDict, total=False):
     cells: Required[Sequence[int] | AnyArray]
     """Number of cubes along x, y and z."""
     cut: Literal['alike', 'mirrored']
-    """Whether all cubes are cut along the same diagonal, or those on both sides of the middle as mirror images, so that
-    what is dropped level bounces up and not aside. Give even numbers of cubes then. Default: alike."""
+    """Whether all cubes are cut along the same diagonal, or those on both sides of the middle as mirror images, so
+    that what is dropped level bounces up and not aside. Give even numbers of cubes then. Default: alike."""
 
 class ElasticSolid(TypedDict, total=False):
     """An elastic solid in SI units, independent of the mesh. Missing members come from `base`, or else from the

@@ -12,6 +12,11 @@ interface Choice {
   where: (frame: Frame) => ArrayLike<number> | undefined;
 }
 
+/** False where something is gone that was chosen: a particle of a liquid, or a point of what was torn. */
+function isPlace(at: ArrayLike<number> | undefined): at is ArrayLike<number> {
+  return at !== undefined && at.length >= 3;
+}
+
 const manyBodies = 60; // of an object; the keyboard chooses one after another
 
 /** Vertices by which an object can be taken, and what to call them: its middle and where it reaches farthest. */
@@ -110,7 +115,13 @@ export class Dragging {
     this.hold = hold;
     const radius = grip.particle === undefined ? 0.22 * this.view.extent : 0;
     const what = { particle: grip.particle, point: point.toArray(), radius };
-    const held = await (grip.isCollider ? this.world.grabCollider(grip.id) : this.world.grab(grip.id, what));
+    let held: number[] = [];
+    try {
+      held = await (grip.isCollider ? this.world.grabCollider(grip.id) : this.world.grab(grip.id, what));
+    } catch (error) {
+      if (this.hold === hold) this.letGo();
+      return this.around.say(`It cannot be dragged: ${(error as Error).message}`);
+    }
     if (this.hold !== hold) return void (this.hold ?? this.world.release());
     hold.held = held;
     this.pull(hold); // it may have been moved while the worker answered
@@ -174,7 +185,7 @@ export class Dragging {
     if (!this.chosen) this.chooseNext(1);
     const frame = this.around.frame();
     const at = frame && this.chosen?.where(frame);
-    if (!at || !this.chosen) return;
+    if (!isPlace(at) || !this.chosen) return;
     const way = this.view.alongView(right, up, near).multiplyScalar(this.view.extent);
     if (!this.hold) void this.take(this.chosen.grip, new THREE.Vector3().fromArray(at));
     const hold = this.hold!;
@@ -190,6 +201,7 @@ export class Dragging {
   /** Marks what is chosen, where it is now. */
   show(): void {
     const frame = this.around.frame();
-    this.view.mark(frame && this.chosen?.where(frame));
+    const at = frame && this.chosen?.where(frame);
+    this.view.mark(isPlace(at) ? at : undefined);
   }
 }

@@ -77,7 +77,7 @@ let saidAdvice = 0;
 function measure(frame: WorkerFrame): void {
   const { report } = frame;
   showPast(frame);
-  if (frame.frame === 0) return;
+  if (!frame.isStep) return ["contacts", "residual", "overstretch"].forEach((id) => say(id, "-"));
   if (report.milliseconds > 0) say("milliseconds", `${report.milliseconds.toFixed(1)} ms a step`);
   say("substeps-used", `${report.substeps}`);
   say("contacts", `${(report.contacts ?? 0) + (report.pairs?.contacts ?? 0)}`);
@@ -192,6 +192,7 @@ async function seek(): Promise<void> {
 }
 past.addEventListener("input", () => {
   if (isPlaying) setPlaying(false);
+  dragging.letGo(); // as the worker does
   wanted = Number(past.value);
   void seek();
 });

@@ -140,19 +140,19 @@ export class View {
   private frame(box: THREE.Box3, wanted: SceneCamera): void {
     const target = wanted.look_at ? new THREE.Vector3().fromArray(wanted.look_at) : box.getCenter(new THREE.Vector3());
     const away = new THREE.Vector3();
-    if (wanted.position) {
-      away.fromArray(wanted.position).sub(target);
-    } else {
+    if (wanted.position) away.fromArray(wanted.position).sub(target);
+    const isPlaced = away.length() > 1e-6 * this.extent; // else no direction follows from the position
+    if (!isPlaced) {
       const [azimuth, elevation] = [wanted.azimuth ?? usual.azimuth, wanted.elevation ?? usual.elevation];
       const polar = THREE.MathUtils.degToRad(90 - elevation);
       away.setFromSphericalCoords(1, polar, THREE.MathUtils.degToRad(azimuth));
     }
     this.camera.fov = wanted.fov ?? usual.fov;
-    const distance = wanted.position ? away.length() : (wanted.distance ?? this.fit(box, target, away));
+    const distance = isPlaced ? away.length() : (wanted.distance ?? this.fit(box, target, away));
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(away.normalize(), distance);
     const far = Math.max(distance, this.extent);
-    [this.camera.near, this.camera.far] = [0.01 * far, 60 * far];
+    [this.camera.near, this.camera.far] = [Math.min(0.01 * far, distance / 2), 60 * far];
     this.camera.updateProjectionMatrix();
     this.controls.update();
   }

@@ -225,6 +225,53 @@ test("the keyboard chooses a point or a body, and drags it", async () => {
   }
 });
 
+test("the keyboard drags on after the slider, which shows no report of another frame", async () => {
+  const { page, errors, context } = await open("#scene=drape");
+  await page.locator("#view").focus();
+  await page.keyboard.press("n");
+  const drag = async () => {
+    for (let i = 0; i < 8; ++i) await page.keyboard.press("Shift+ArrowUp");
+    const frame = await page.evaluate(() => pliantPage.frame().frame);
+    await runTo(page, frame + 20);
+  };
+  const height = () => page.evaluate(() => pliantPage.view.chosen.position.y);
+  await drag();
+  const residual = page.locator("#residual");
+  await page.waitForFunction(() => document.querySelector("#residual").textContent !== "-");
+  await page.getByLabel("Frame", { exact: true }).fill("2");
+  await page.waitForFunction(() => pliantPage.frame().frame === 2);
+  assert.equal(await residual.textContent(), "-");
+  assert.equal(await page.locator("#contacts").textContent(), "-");
+  const before = await height();
+  await page.locator("#view").focus();
+  await drag();
+  assert.ok((await height()) > before + 0.02, `${before} to ${await height()}`);
+  assert.notEqual(await residual.textContent(), "-");
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
+test("what cannot be grabbed is let go, and the next drag works", async () => {
+  const { page, errors, context } = await open("#scene=drape");
+  await page.locator("#view").focus();
+  await page.keyboard.press("n");
+  await page.evaluate(() => {
+    pliantPage.world.grab = () => {
+      delete pliantPage.world.grab;
+      return Promise.reject(new Error("it is gone"));
+    };
+  });
+  await page.keyboard.press("Shift+ArrowUp");
+  await page.waitForFunction(() => document.querySelector("#chosen").textContent.includes("it is gone"));
+  const height = () => page.evaluate(() => pliantPage.view.chosen.position.y);
+  const before = await height();
+  for (let i = 0; i < 8; ++i) await page.keyboard.press("Shift+ArrowUp");
+  await runTo(page, 20);
+  assert.ok((await height()) > before + 0.02, `${before} to ${await height()}`);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
 test("a scene's camera is where it says", async () => {
   const { page, errors, context } = await open("#scene=rope");
   await page.locator("summary").click();
@@ -249,6 +296,13 @@ test("a scene's camera is where it says", async () => {
   const [x, y, z, ...rest] = await look({ distance: 2, azimuth: 90, elevation: 30, look_at: [0, 1, 0] });
   assert.deepEqual([x, y, z], [1.732, 2, 0]);
   assert.deepEqual(rest.slice(0, 3), [0, 1, 0]);
+  await look({});
+  const middle = await page.evaluate(() => pliantPage.view.controls.target.toArray());
+  const inside = await look({ position: middle });
+  const away = Math.hypot(...middle.map((x, k) => x - inside[k]));
+  assert.ok(inside.every(Number.isFinite) && away > 0.1, `${inside}`);
+  await look({ distance: 1e-3, look_at: [0, 1, 0] });
+  assert.ok(await page.evaluate(() => pliantPage.view.controls.object.near < 0.9e-3), "what it looks at is seen");
   assert.deepEqual(errors, []);
   await context.close();
 });
