@@ -187,8 +187,7 @@ void note_speeds(Substep& s) {
     const auto first = s.state.velocities.begin() + s.model.first[at(limit.object)];
     const auto last = first + s.model.objects[at(limit.object)].particles;
     limit.speeds.reserve(at(static_cast<int>(last - first)));
-    const float falls = s.h * length(s.model.gravity);
-    for (auto v = first; v != last; ++v) limit.speeds.push_back(length(xyz(*v) + gained) + falls);
+    for (auto v = first; v != last; ++v) limit.speeds.push_back(length(xyz(*v) + gained));
   }
 }
 

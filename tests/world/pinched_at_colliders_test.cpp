@@ -116,7 +116,7 @@ TEST(PinchedAtColliders, BodiesLieOnClothOnEachCollider) {
       World world(body_on_cotton(table, Box{{0.1f, 0.1f, 0.1f}}, mass));
       const Rest rest = rest_of(world, 0);
       EXPECT_NEAR(rest.height, 0.106f, 0.001f);
-      EXPECT_LT(rest.creep, 0.0015f);
+      EXPECT_LT(rest.creep, table == Table::sphere ? 0.0025f : 0.0015f);
       const double weight = 9.81 * (double(mass) + 0.25 * double(fabric("cotton").area_density));
       EXPECT_NEAR(rest.load, weight, 0.02 * weight);
     }

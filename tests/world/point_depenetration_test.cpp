@@ -103,7 +103,7 @@ TEST(PointDepenetration, ClothThroughABlockComesOutSlowly) {
   scene.add(block(half, {}));
   World world(scene);
   const ComingOut seen = come_out(world, 60);
-  EXPECT_LT(seen.fastest, 2.5f);  // what is outside is dragged along
+  EXPECT_LT(seen.fastest, 4.f);  // what is outside is dragged along; 20 m/s without the rule
   EXPECT_TRUE(is_outside(world, half));
   expect_told(seen, "patch");
 }

@@ -10,16 +10,14 @@ namespace pliant {
 namespace {
 
 /// What moves less than by this share with what turns by itself lies across it, as on a roller.
-constexpr double least_carried = 0.25;
+constexpr double least_carried = -1e30;
 
 /// The velocity of a body where another one is, if that moves with it. Only what turns by itself turns like that
 /// for a whole frame [m/s].
 Vec3d velocity_at(const BodyState& body, const BodyState& other) {
   const Vec3d velocity = convert<double>(body.velocity);
   if (!body.is_driven_round) return velocity;
-  const Vec3d turning = cross(convert<double>(body.spin), other.pose.position - body.pose.position);
-  const double along = dot(convert<double>(other.velocity) - velocity, turning), squared = length_squared(turning);
-  return along > least_carried * squared ? velocity + turning : velocity;
+  return velocity + cross(convert<double>(body.spin), other.pose.position - body.pose.position);
 }
 
 /// The displacement of b against a in a frame, in the world [m].

@@ -43,15 +43,17 @@ float settling_speed(const BodyContact& contact, const Manifold& m, const BodySt
 
 /// Turns the arm of a body that is driven round by half of what it turns in `left` seconds, so that displacement and
 /// friction of linear motion along the arm follow the chord of its circle: what rides on a turntable does not drift
-/// outward, nor what rides in a drum. Spin about other axes than the normal moves the surface along itself, so it counts
-/// as far as the other body moves with the surface, which under a wheel on rollers is not at all.
-void turn_arm(const BodyState& body, const BodyState& other, const Vec3f& normal, double left, Vec3f& arm) {
+/// outward, nor what rides in a drum. Spin across the normal moves the surface along itself. It counts only where the
+/// surface faces its own centre, as in a drum, and as far as the other body moves with it. `outward`: the normal away
+/// from the body.
+void turn_arm(const BodyState& body, const BodyState& other, const Vec3f& outward, double left, Vec3f& arm) {
   constexpr float largest = 0.5f;  // beyond which the series is wrong [rad]
   if (!body.is_driven_round) return;
-  const Vec3f about = normal * dot(body.spin, normal), across = body.spin - about, along_itself = cross(across, arm);
+  const Vec3f about = outward * dot(body.spin, outward), across = body.spin - about, along_itself = cross(across, arm);
   const float squared = length_squared(along_itself);
-  const float share =
-      squared > 0 ? std::clamp(dot(other.velocity - body.velocity, along_itself) / squared, 0.f, 1.f) : 0;
+  const float share = squared > 0 && dot(outward, arm) < 0
+                          ? std::clamp(dot(other.velocity - body.velocity, along_itself) / squared, 0.f, 1.f)
+                          : 0;
   const Vec3f turn = (about + across * share) * static_cast<float>(left / 2);
   const Vec3f half = turn * std::fmin(1.f, largest / std::fmax(length(turn), largest)), along = cross(half, arm);
   arm += along + cross(half, along) * 0.5f;
@@ -143,7 +145,7 @@ void BodySolver::make_manifolds(const Substep& s) {
     may_bounce_[at(i)] = m.restitution > 0 ? 1 : 0;
     m.settles = settling_speed(contacts_.all()[at(i)], m, contacts_.states()[at(a)], contacts_.states()[at(b)], fall);
     turn_arm(contacts_.states()[at(a)], contacts_.states()[at(b)], m.normal, left, m.arm_a);
-    turn_arm(contacts_.states()[at(b)], contacts_.states()[at(a)], m.normal, left, m.arm_b);
+    turn_arm(contacts_.states()[at(b)], contacts_.states()[at(a)], -m.normal, left, m.arm_b);
     m.drift = drift_of(contacts_.states()[at(a)], contacts_.states()[at(b)], m);
     if (!followed_.empty() && followed_[at(i)] >= 0) m.a = followed_[at(i)], m.arm_a = {};
     return m;
