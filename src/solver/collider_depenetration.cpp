@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "math/record.h"
-#include "solver/bodies/body_solver.h"
 
 namespace pliant {
 
@@ -13,6 +12,8 @@ namespace {
 
 /// How much faster than the solid the object may be that is led out of it [m/s].
 constexpr float speed_beside_solid = 2;
+/// Cloth that is pressed on a collider goes in by up to this share of half of the collider's thickness.
+constexpr float pressed_share = 0.1f;
 /// Edges and triangles that are deeper than this share of half a solid's thickness have not been pressed in by others.
 constexpr float share_of_half_thickness = 0.3f;
 /// Contacts of what overlaps more than this speed undoes ask for less than their thickness [m/s].
@@ -88,7 +89,7 @@ void find_points_inside(Substep& s) {
     const float thickness = material_of(s.model.objects[at(object)], collider).thickness;
     const Vec3f down = rotate(conjugate(collider.before.rotation), unit_or(s.model.gravity, Vec3f{}));
     WayOut way{object, number};
-    if (inside.is_held || !find_way_out({collider}, inside.places, thickness, down, way)) continue;
+    if (inside.is_held || !find_way_out({collider}, inside.places, thickness, down, pressed_share, way)) continue;
     s.ways_out.push_back(way);
     const auto primitives = static_cast<int>(s.model.colliders.size());
     const std::string& name = number < primitives
@@ -154,14 +155,12 @@ void limit_to(const Substep& s, int object, const MovingCollider& solid) {
 }
 
 /// The same for the objects of edges and triangles that pass through a solid, deeper than their thickness and than a
-/// share of its own; not of fields, which have no sides. `bodies`: null: `solids` are colliders; else the bodies of which
-/// they are, whose own flesh is excepted.
-void limit_elements(const Substep& s, const std::vector<Contact>& contacts, const std::vector<MovingCollider>& solids,
-                    const BodySolids* bodies) {
-  for (const Contact& c : contacts) {
-    if (bodies != nullptr && bodies->body_of(c).object == s.model.object_of(c.point[0])) continue;
+/// share of its own; not of fields, which have no sides. Not at bodies: what a fast one hits is as deep for a moment, and
+/// their momentum is kept.
+void limit_elements(const Substep& s) {
+  for (const Contact& c : s.own->shape_contacts) {
     if (!(c.gap < -least_motion_out * s.h) || c.weight[1] == 0) continue;
-    const MovingCollider& solid = solids[at(c.collider)];
+    const MovingCollider& solid = s.own->colliders[at(c.collider)];
     const Vec3f place = to_local(solid.before, relative(c, s.state.positions.data()));
     const Vec3f half = half_sides<float>(solid.shape);
     const float deep = max(c.thickness, share_of_half_thickness * min(half.x, min(half.y, half.z)));
@@ -175,13 +174,7 @@ void note_speeds(Substep& s) {
   std::vector<SpeedLimit>& limits = s.own->speed_limits;
   limits.clear();
   for (const WayOut& way : s.ways_out) limit_to(s, way.object, s.own->colliders[at(way.solid)]);
-  if (!s.own->colliders.empty()) limit_elements(s, s.own->shape_contacts, s.own->colliders, nullptr);
-  if (s.bodies != nullptr) {
-    const std::vector<MovingCollider>& solids = s.bodies->solids().moving();
-    for (const PointDepenetration::Inside& inside : s.bodies->points_inside())
-      limit_to(s, inside.way.object, solids[at(inside.way.solid)]);
-    limit_elements(s, s.bodies->point_contacts(), solids, &s.bodies->solids());
-  }
+  if (!s.own->colliders.empty()) limit_elements(s);
   for (SpeedLimit& limit : limits) {
     const Vec3f gained = gravity_for(s, s.work.gravity[at(limit.object)].begun);
     const auto first = s.state.velocities.begin() + s.model.first[at(limit.object)];

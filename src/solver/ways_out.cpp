@@ -16,8 +16,6 @@ constexpr float share_moved_as_a_whole = 0.3f;
 /// Nearer to a surface it is so as well if the way out is at most so many times the depth: where the ways of all points
 /// differ, as those of a belt around a body do, the nearest side of each is right.
 constexpr float most_ways_over_depth = 1.5f;
-/// But not nearer than this share of the half thickness: so deep is what rests with a thickness of 0.
-constexpr float least_share = 1e-3f;
 /// A way down, into the ground, counts as so many times as long.
 constexpr float length_of_way_down = 2;
 /// Contacts whose normals are nearer to the way out than this are on the side on which something leaves.
@@ -131,7 +129,7 @@ float distance_from(const TouchedSolid& solid, const Vec3f& place) {
 /// Ways that differ by a twentieth are alike, and the one that is most against gravity is taken, so that symmetric ones
 /// do not take turns.
 bool find_way_out(const TouchedSolid& solid, const std::vector<Vec3f>& places, float thickness, const Vec3f& down,
-                  WayOut& out) {
+                  float least_share, WayOut& out) {
   const Within inside = within(solid, places, thickness);
   if (!(inside.deepest > thickness)) return false;
   float least = 1e30f, way = 0, half_thickness = 1e30f;

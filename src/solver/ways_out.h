@@ -33,8 +33,9 @@ float distance_from(const TouchedSolid& solid, const Vec3f& place);
 
 /// Finds the direction for points inside of a solid at `places` in its frame, which keep `thickness`. False where they
 /// are not so deep that the nearest side of each would tear them. `down`: the direction of gravity in that frame.
+/// `least_share`: what is not deeper than this share of half of the solid's thickness is not deep.
 bool find_way_out(const TouchedSolid& solid, const std::vector<Vec3f>& places, float thickness, const Vec3f& down,
-                  WayOut& out);
+                  float least_share, WayOut& out);
 
 /// The contact that moves a point along its way out in a substep of `h`. Its points and shares are left to the caller.
 Contact contact_along(const TouchedSolid& solid, const WayOut& out, const Vec3f& position, float thickness, float h);

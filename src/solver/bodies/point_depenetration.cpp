@@ -11,6 +11,9 @@ namespace pliant {
 
 namespace {
 
+/// What rests on a body with a thickness of 0 is inside by rounding: up to this share of half of the body's thickness.
+constexpr float resting_share = 1e-3f;
+
 bool is_of_a_point(const Contact& c) { return c.weight[1] == 0 && c.weight[2] == 0 && c.weight[3] == 0; }
 
 }  // namespace
@@ -44,7 +47,7 @@ void PointDepenetration::find(const Substep& s, const BodySolids& solids, const 
     for (const int point : inside.points) places.push_back(to_local(pose, xyz(s.state.positions[at(point)])));
     const float thickness = thickness_of(s.model.objects[at(inside.way.object)], solid.moving);
     const Vec3f down = rotate(conjugate(pose.rotation), unit_or(s.model.gravity, Vec3f{}));
-    if (!find_way_out(solid, places, thickness, down, inside.way)) continue;
+    if (!find_way_out(solid, places, thickness, down, resting_share, inside.way)) continue;
     std::sort(inside.points.begin(), inside.points.end());
     inside.points.erase(std::unique(inside.points.begin(), inside.points.end()), inside.points.end());
     inside_.push_back(std::move(inside));
