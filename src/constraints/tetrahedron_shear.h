@@ -42,6 +42,32 @@ struct TetrahedronShear : TetrahedronStrain {
     return value;
   }
 
+  /// The two parts |F| and J - 2 of C^2 = |F|^2 + (J - 2)^2 - 4, and their derivatives by F. Returns C.
+  template <class R>
+  PLIANT_HD static R split(const ByColumns<R>& f, R (&value)[2], ByColumns<R> (&gradient)[2]) {
+    value[0] = sqrt(f.squares());
+    gradient[0] = f * (R(1) / max(value[0], R(1e-7f)));
+    gradient[1] = {cross(f.y, f.z), cross(f.z, f.x), cross(f.x, f.y)};
+    value[1] = dot(f.x, gradient[1].x) - R(2);
+    return sqrt(max(f.squares() + value[1] * value[1] - R(4), R(1e-14f)));
+  }
+
+  /// Where a step along dC/dF that takes C to be linear would go far beyond the least energy: with G = F + (J - 2) dJ/dF
+  /// = C dC/dF, C^2 / 2 changes along G by |G|^2 at first, and that by about |G|^2 + (dJ/dF . G)^2, where a linear C has
+  /// |G|^4 / C^2. In the dilation of a cube at rest (dJ/dF . G)^2 is twice that and without effect, hence 3. None where
+  /// the strain is small.
+  template <class R>
+  PLIANT_HD static auto needs_split(const ByColumns<R>& f) {
+    const Vec3<R> k0 = cross(f.y, f.z), k1 = cross(f.z, f.x), k2 = cross(f.x, f.y);
+    const R j = dot(f.x, k0), of_k = j - R(2), lengths = f.squares(), areas = dot(k0, k0) + dot(k1, k1) + dot(k2, k2);
+    const R force = min(lengths + R(6) * (j * of_k) + areas * (of_k * of_k), R(1e18f));
+    const R along = min(abs(R(3) * j + areas * of_k), R(1e15f));
+    const R linear = R(3) * force * (force / max(force + along * along, R(1e-30f)));
+    const R squared = lengths + j * (j - R(4));
+    const R most = select(lengths < R(4), select(j > R(0.5f), R(0), squared), select(lengths < R(1e8f), squared, R(0)));
+    return linear < most;
+  }
+
  private:
   /// |F|^2 + J^2 - 4 J. Near rest three large terms cancel there, so it is computed from Green's strain E = (F^T F - 1) / 2 with
   /// the invariants of E: 2 d^2 - 4 I2 - 8 I3, where d = J - 1 and J^2 - 1 = 2 I1 + 4 I2 + 8 I3.

@@ -47,6 +47,13 @@ inline constexpr bool measures_strain = [] {
     return false;
 }();
 
+/// True if C^2 is the sum of the squares of two parts and a constant, and a projection along the gradient of C fails
+/// where T::needs_split says so.
+template <class T>
+inline constexpr bool can_split = requires {
+  T::template needs_split<float>;
+};
+
 /// True if every gradient has length one unless it vanishes, so the driver skips its norm.
 template <class T>
 inline constexpr bool has_unit_gradients = [] {

@@ -8,6 +8,9 @@
 
 namespace pliant {
 
+/// What `any` of a mask of lanes is for one.
+PLIANT_HD bool any(bool mask) { return mask; }
+
 /// The bits of `from` as a `To` of the same size (std::bit_cast, which not all supported compilers have).
 template <class To, class From>
 PLIANT_HD To bits_as(const From& from) {

@@ -124,24 +124,12 @@ PLIANT_HD void damp_across(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_
     correction[slot] = correction[slot] + gradient[slot] * (w[slot] * change);
 }
 
-/// Computes the corrections of one constraint, or of one in each lane.
-///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
-///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18,
-///   26)
-///          with a = alpha / h^2 and g = alpha beta / h, less what damper.h says; that of a solid or a woven triangle
-///          in a sweep of one pass: see `led`
-///          With Integrator::energy C is C^ of energy_law.h, and the 1 of (1 + g) is a.
-///   Types that measure the length of a strain are projected by project_strain in the first pass. With Integrator::energy they are
-///   damped across it apart:
-///          dlambda = -g C' / (g sum w |grad C'|^2 + a), C' being strain_across of the motion since the substep's start
-///   correction_i = w_i grad_i C dlambda
-///   In a general sweep dlambda is multiplied by the relaxation.
-/// `coast` has the displacements in a substep at the velocities of its start, with Integrator::energy; else it is null.
-template <class T, Law law, bool keeps_multiplier, bool general = false, class R>
-PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
-                       const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],
-                       ConstraintResponse<R>& response, const SweepArguments& a, Vec3<R> (&correction)[slot_count<T>],
-                       const Vec3<R>* coast = nullptr) {
+/// `project` where the constraint need not be split.
+template <class T, Law law, bool keeps_multiplier, bool general, class R>
+PLIANT_HD void project_whole(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
+                             const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],
+                             ConstraintResponse<R>& response, const SweepArguments& a,
+                             Vec3<R> (&correction)[slot_count<T>], const Vec3<R>* coast) {
   if constexpr (law == Law::damped && measures_strain<T>) {
     if (coast == nullptr && a.first_pass)
       return project_strain<T, keeps_multiplier, general>(x, w, params, motion, response, a, correction);
@@ -184,6 +172,96 @@ PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_coun
   if constexpr (law == Law::damped && measures_strain<T>) {
     if (coast != nullptr) damp_across<T, general>(x, w, params, motion, response, a, correction);
   }
+}
+
+/// The two parts C_i of a constraint of `can_split`, with their gradients.
+template <class T, class R>
+struct SplitConstraint {
+  R c[2], whole;
+  Vec3<R> gradient[2][slot_count<T>];
+  R mass[3];  ///< sum w grad C_i . grad C_j: of both parts, and between them
+
+  template <class F>
+  PLIANT_HD SplitConstraint(const F& f, const typename T::template Params<R>& params, const R (&w)[slot_count<T>]) {
+    F of_f[2];
+    whole = T::split(f, c, of_f);
+    for (int i = 0; i < 2; ++i) {
+      T::to_corners(of_f[i], params, gradient[i]);
+      mass[i] = generalised_inverse_mass<T>(gradient[i], w);
+    }
+    mass[2] = w[0] * dot(gradient[0][0], gradient[1][0]);
+    for (int slot = 1; slot < slot_count<T>; ++slot)
+      mass[2] = mass[2] + w[slot] * dot(gradient[0][slot], gradient[1][slot]);
+  }
+
+  /// Their share of the multiplier of C, whose gradient is the sum of C_i / C grad C_i.
+  PLIANT_HD R share(int i) const { return c[i] / whole; }
+};
+
+/// Projects both parts of a constraint together, in the lanes that need it, with M of SplitConstraint::mass:
+///   ((1 + g) M + a) dlambda = -C - a lambda - g grad C . (x - x_start),   a and g as in `project`
+/// `multiplier` is lambda before. The other lanes keep their correction.
+template <class T, Law law, bool keeps_multiplier, bool general, class R>
+PLIANT_HD void project_parts(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
+                             const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],
+                             const R& multiplier, ConstraintResponse<R>& response, const SweepArguments& a,
+                             Vec3<R> (&correction)[slot_count<T>]) {
+  const auto f = T::deformation(x, params);
+  const auto needed = T::needs_split(f);
+  if (!any(needed)) return;
+  const SplitConstraint<T, R> part(f, params, w);
+  const R compliance = min(response.softness * R(a.inverse_h2), R(largest_compliance));
+  R gamma(0.f), wanted[2] = {-part.c[0], -part.c[1]};
+  if constexpr (law == Law::damped)
+    gamma = viscous_share(min(response.softness * response.damping * R(a.inverse_h), R(most_damping)));
+  for (int i = 0; i < 2; ++i) {
+    if constexpr (law == Law::damped) wanted[i] = wanted[i] - gamma * motion_along<T>(part.gradient[i], motion);
+    if (keeps_multiplier && response.is_kept) wanted[i] = wanted[i] - compliance * (multiplier * part.share(i));
+  }
+  const R least(smallest_denominator), factor = R(1.f) + gamma;
+  const R first = max(factor * part.mass[0] + compliance, least), between = factor * part.mass[2] / first;
+  const R second = factor * part.mass[1] + compliance;
+  const R left = max(second - between * (factor * part.mass[2]), max(second * R(1e-6f), least));
+  R change[2];
+  change[1] = (wanted[1] - between * wanted[0]) / left;
+  change[0] = wanted[0] / first - between * change[1];
+  if constexpr (general)
+    for (R& each : change) each = each * R(a.relaxation);
+  if constexpr (keeps_multiplier) {
+    const R along = change[0] * part.share(0) + change[1] * part.share(1);
+    response.multiplier = select(needed, multiplier + (general ? along * response.share : along), response.multiplier);
+  }
+  PLIANT_UNROLL
+  for (int slot = 0; slot < slot_count<T>; ++slot) {
+    const Vec3<R> both = (part.gradient[0][slot] * change[0] + part.gradient[1][slot] * change[1]) * w[slot];
+    correction[slot] = {select(needed, both.x, correction[slot].x), select(needed, both.y, correction[slot].y),
+                        select(needed, both.z, correction[slot].z)};
+  }
+}
+
+/// Computes the corrections of one constraint, or of one in each lane.
+///   PBD:   dlambda = -k' C / sum w |grad C|^2                                              (Mueller 2007, eq. 5 and 3.3)
+///   XPBD:  dlambda = (-C - a lambda - g grad C . (x - x_start)) / ((1 + g) sum w |grad C|^2 + a)   (Macklin 2016, eq. 18,
+///   26)
+///          with a = alpha / h^2 and g = alpha beta / h, less what damper.h says; that of a solid or a woven triangle
+///          in a sweep of one pass: see `led`
+///          With Integrator::energy C is C^ of energy_law.h, and the 1 of (1 + g) is a.
+///   Types that measure the length of a strain are projected by project_strain in the first pass. With Integrator::energy they are
+///   damped across it apart:
+///          dlambda = -g C' / (g sum w |grad C'|^2 + a), C' being strain_across of the motion since the substep's start
+///   correction_i = w_i grad_i C dlambda
+///   Where T::needs_split says so, a type of can_split is projected by project_parts.
+///   In a general sweep dlambda is multiplied by the relaxation.
+/// `coast` has the displacements in a substep at the velocities of its start, with Integrator::energy; else it is null.
+template <class T, Law law, bool keeps_multiplier, bool general = false, class R>
+PLIANT_HD void project(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slot_count<T>],
+                       const typename T::template Params<R>& params, const Vec3<R> (&motion)[slot_count<T>],
+                       ConstraintResponse<R>& response, const SweepArguments& a, Vec3<R> (&correction)[slot_count<T>],
+                       const Vec3<R>* coast = nullptr) {
+  const R multiplier = response.multiplier;
+  project_whole<T, law, keeps_multiplier, general>(x, w, params, motion, response, a, correction, coast);
+  if constexpr (can_split<T> && law != Law::pbd)
+    project_parts<T, law, keeps_multiplier, general>(x, w, params, motion, multiplier, response, a, correction);
 }
 
 }  // namespace pliant

@@ -13,12 +13,12 @@ namespace {
 
 using namespace testing_support;
 
-constexpr float poisson_ratio = 0.4f;
+constexpr float ratio_of_clay = 0.4f;
 
 /// A bar of 1 m along x, without weight.
 Scene bar_of(const Plasticity& plasticity, int substeps) {
   SoftBodyOptions options;
-  options.material = solid_of(1e5f, poisson_ratio);
+  options.material = solid_of(1e5f, ratio_of_clay);
   options.material.plasticity = plasticity;
   Object object = make_soft_body(box_tetrahedra({1, 0.2f, 0.2f}, {8, 2, 2}), options);
   object.collides = false;
@@ -130,7 +130,7 @@ TEST(Plasticity, TheVolumeDoesNotFlow) {
 /// A plastic ball that has fallen on a floor.
 Scene dented() {
   SoftBodyOptions options;
-  options.material = solid_of(5e3f, poisson_ratio);
+  options.material = solid_of(5e3f, ratio_of_clay);
   options.material.plasticity = Plasticity{.yield = 0.02f, .rate = 5};
   Object object = make_soft_body(box_tetrahedra({0.3f, 0.3f, 0.3f}, {3, 3, 3}), options);
   for (Vec3f& p : object.positions) p.y += 0.5f;
