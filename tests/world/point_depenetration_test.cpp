@@ -103,7 +103,8 @@ TEST(PointDepenetration, ClothThroughABlockComesOutSlowly) {
   scene.add(block(half, {}));
   World world(scene);
   const ComingOut seen = come_out(world, 60);
-  EXPECT_LT(seen.fastest, 4.f);  // what is outside is dragged along; 20 m/s without the rule
+  // What is outside is dragged along and buckles: 1.4 to 3.8 m/s with other heights and dampings; 20 without the rule.
+  EXPECT_LT(seen.fastest, 4.f);
   EXPECT_TRUE(is_outside(world, half));
   expect_told(seen, "patch");
 }
