@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Parts } from "pliant";
 import type { WorkerFrame } from "pliant/client";
-import { ContactMarks, drawCollider, drawMeshCollider, drawObject, type Drawn, type Grip } from "./matter";
+import { ContactMarks, drawCollider, drawMeshCollider, drawObject, drawPlainly, type Drawn, type Grip } from "./matter";
 
 const sky = 0xdfe4e8;
 
@@ -20,6 +20,12 @@ export interface SceneCamera {
 const usual = { azimuth: 28, elevation: 18, fov: 30 }; // [degrees]
 const filled = 0.86; // share of the picture that the scene fills
 const measured = 1000; // how often drawing is timed to its end, which makes the page wait [ms]
+
+/** True where the processor draws, for want of a graphics card: there shading is what takes the time. */
+function drawsInSoftware(context: WebGLRenderingContext | WebGL2RenderingContext): boolean {
+  const name = context.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? context.RENDERER;
+  return /SwiftShader|llvmpipe|softpipe|Basic Render/i.test(context.getParameter(name));
+}
 
 export interface Pick {
   grip: Grip;
@@ -51,8 +57,10 @@ export class View {
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    const isSlow = drawsInSoftware(this.renderer.getContext());
+    if (isSlow) drawPlainly();
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.renderer.shadowMap.type = isSlow ? THREE.BasicShadowMap : THREE.PCFShadowMap;
     this.scene.background = new THREE.Color(sky);
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
