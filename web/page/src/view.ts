@@ -34,6 +34,7 @@ export interface Pick {
 
 export class View {
   private readonly renderer: THREE.WebGLRenderer;
+  private readonly isSlow: boolean;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(38, 1, 0.01, 1000);
   readonly controls: OrbitControls;
@@ -57,10 +58,10 @@ export class View {
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
-    const isSlow = drawsInSoftware(this.renderer.getContext());
-    if (isSlow) drawPlainly();
+    this.isSlow = drawsInSoftware(this.renderer.getContext());
+    if (this.isSlow) drawPlainly();
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = isSlow ? THREE.BasicShadowMap : THREE.PCFShadowMap;
+    this.renderer.shadowMap.type = this.isSlow ? THREE.BasicShadowMap : THREE.PCFShadowMap;
     this.scene.background = new THREE.Color(sky);
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
@@ -99,7 +100,7 @@ export class View {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(this.isSlow ? 1 : Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
