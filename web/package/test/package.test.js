@@ -136,10 +136,16 @@ test("a drag moves a free particle to its target, and lets go", () => {
   const drag = object.drag(particle, { radius: 0.25 });
   const target = drag.target.map((x, k) => x + [0, 0.1, -0.15][k]); // nearer to the pins, so that cloth can reach it
   drag.moveTo(target);
-  world.run(40);
-  const at = object.positions().subarray(3 * particle, 3 * particle + 3);
-  const away = Math.hypot(...at.map((x, k) => x - target[k]));
-  assert.ok(away < 0.03, `${away} m away`);
+  world.run(20);
+  // Cloth that is pulled aside swings about the target: its mean place is there.
+  const off = [0, 0, 0];
+  let at;
+  for (let frame = 0; frame < 40; ++frame) {
+    world.step();
+    at = object.positions().subarray(3 * particle, 3 * particle + 3);
+    at.forEach((x, k) => (off[k] += (x - target[k]) / 40));
+  }
+  assert.ok(Math.hypot(...off) < 0.02, `${off} m away`);
   drag.release();
   const y = at[1];
   world.run(20);

@@ -21,8 +21,18 @@ export function colourOf([r, g, b]: readonly number[]): THREE.Color {
   return new THREE.Color().setRGB(r, g, b, THREE.LinearSRGBColorSpace);
 }
 
-function material(colour: readonly number[], more: THREE.MeshStandardMaterialParameters = {}): THREE.MeshStandardMaterial {
-  return new THREE.MeshStandardMaterial({ color: colourOf(colour), roughness: 0.75, metalness: 0, ...more });
+let isPlain = false;
+
+/** Draws what is made from now on without highlights. */
+export function drawPlainly(): void {
+  isPlain = true;
+}
+
+type Look = THREE.MeshStandardMaterial | THREE.MeshLambertMaterial;
+
+function material(colour: readonly number[], { roughness = 0.75, ...more }: THREE.MeshStandardMaterialParameters = {}): Look {
+  const all = { color: colourOf(colour), ...more };
+  return isPlain ? new THREE.MeshLambertMaterial(all) : new THREE.MeshStandardMaterial({ ...all, roughness, metalness: 0 });
 }
 
 function geometryOf(mesh: Mesh): THREE.BufferGeometry {

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Parts } from "pliant";
 import type { WorkerFrame } from "pliant/client";
-import { ContactMarks, drawCollider, drawMeshCollider, drawObject, type Drawn, type Grip } from "./matter";
+import { ContactMarks, drawCollider, drawMeshCollider, drawObject, drawPlainly, type Drawn, type Grip } from "./matter";
 
 const sky = 0xdfe4e8;
 
@@ -21,6 +21,12 @@ const usual = { azimuth: 28, elevation: 18, fov: 30 }; // [degrees]
 const filled = 0.86; // share of the picture that the scene fills
 const measured = 1000; // how often drawing is timed to its end, which makes the page wait [ms]
 
+/** True where the processor draws, for want of a graphics card: there shading is what takes the time. */
+function drawsInSoftware(context: WebGLRenderingContext | WebGL2RenderingContext): boolean {
+  const name = context.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? context.RENDERER;
+  return /SwiftShader|llvmpipe|softpipe|Basic Render/i.test(context.getParameter(name));
+}
+
 export interface Pick {
   grip: Grip;
   point: THREE.Vector3;
@@ -28,6 +34,7 @@ export interface Pick {
 
 export class View {
   private readonly renderer: THREE.WebGLRenderer;
+  private readonly isSlow: boolean;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(38, 1, 0.01, 1000);
   readonly controls: OrbitControls;
@@ -51,8 +58,10 @@ export class View {
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+    this.isSlow = drawsInSoftware(this.renderer.getContext());
+    if (this.isSlow) drawPlainly();
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.renderer.shadowMap.type = this.isSlow ? THREE.BasicShadowMap : THREE.PCFShadowMap;
     this.scene.background = new THREE.Color(sky);
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
@@ -91,7 +100,7 @@ export class View {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(this.isSlow ? 1 : Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();

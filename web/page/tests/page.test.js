@@ -197,6 +197,20 @@ test("a flag of 64 x 64: simulation and drawing are timed apart", async (t) => {
   await context.close();
 });
 
+test("where the processor renders, the page draws without highlights, and coarsely on fine displays", async () => {
+  const { page, errors, context } = await open("#scene=drape", { viewport: { width: 600, height: 500 }, deviceScaleFactor: 2 });
+  const { looks, wide, shown } = await page.evaluate(() => {
+    const { scene, canvas } = pliantPage.view;
+    const looks = [];
+    scene.traverse((thing) => thing.isMesh && thing.visible && looks.push(thing.material.type));
+    return { looks, wide: canvas.width, shown: canvas.clientWidth };
+  });
+  assert.ok(looks.length > 0 && looks.every((look) => look === "MeshLambertMaterial"), `${looks}`);
+  assert.equal(wide, shown);
+  assert.deepEqual(errors, []);
+  await context.close();
+});
+
 test("the keyboard chooses a point or a body, and drags it", async () => {
   for (const [scene, words] of [["drape", /the middle of/], ["bodies/pyramid", /^Chosen: the body/]]) {
     const { page, errors, context } = await open(`#scene=${scene}`);
