@@ -7,8 +7,8 @@
 //   x = P^-1 (r + J^T f),   f >= 0,   room + J x + y f >= 0,   one of the two 0
 //   d = u + x
 //
-// `room` is the gap at u and y the inverse mass of a body that yields. At rest r = -J^T f, hence x = 0 whatever P is: the
-// sag depends on neither cycles nor substeps. Contacts with colliders continue from these forces, so that friction
+// `room` is the gap at u and y the inverse mass of a body that yields. At rest r = -J^T f, hence x = 0 whatever P is:
+// the sag depends on neither cycles nor substeps. Contacts with colliders continue from these forces, so that friction
 // knows the whole load. Those with bodies take d = u + x - M^-1 J^T f instead: their projection pushes against what is
 // given back, and so gives the body its impulse. Between few edges and triangles of colliders that made sheets hum.
 #pragma once
