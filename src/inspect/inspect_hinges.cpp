@@ -34,7 +34,7 @@ struct SoftHinges {
   std::string problem{}, advice{};
 };
 
-/// The substeps with which a sheet bends as a whole that is too stiff for floats in those that it has; 0: it never does.
+/// The substeps with which a sheet that is too stiff for floats in its substeps bends as a whole; 0: it never does.
 double substeps_to_bend_as_sheet(const Object& object, const Scene& scene, double share) {
   const auto frame_time = static_cast<double>(scene.frame_time) * share;
   const double needed =
