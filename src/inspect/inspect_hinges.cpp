@@ -31,34 +31,60 @@ std::string digits_of_bend(double value) {
 
 struct SoftHinges {
   const Object* object = nullptr;
-  std::string problem, advice;
+  std::string problem{}, advice{};
 };
 
-SoftHinges words_of_hinges(const Object& object, double excess, int substeps) {
+/// The substeps with which a sheet that is too stiff for floats in its substeps bends as a whole; 0: it never does.
+double substeps_to_bend_as_sheet(const Object& object, const Scene& scene, double share) {
+  const auto frame_time = static_cast<double>(scene.frame_time) * share;
+  const double needed =
+      std::ceil(frame_time * std::sqrt(facts_of_sheet(object).stiffness / most_stiffness_of_sheets) + 1e-6);
+  const bool would = needed <= most_substeps_of_frame && bends_as_sheet(object, frame_time / std::max(needed + 1, 1.));
+  return would ? needed + 1 : 0;
+}
+
+/// What hinges do, and what helps. `as_sheet`: substeps_to_bend_as_sheet; `keeps_energy`: they are hinges because of
+/// the integrator alone.
+SoftHinges words_of_hinges(const Object& object, double excess, int substeps, double as_sheet, bool keeps_energy) {
   const double factor = std::sqrt(excess / wanted_excess), needed = std::ceil(factor * substeps);
-  const std::string first = needed > most_substeps_of_frame
-                                ? "give it less bending stiffness"
-                                : "use " + std::to_string(std::llround(needed)) + " substeps";
-  return {&object,
-          "its hinges bend about " + digits_of_bend(1 + excess) + " times as far as their stiffness says, with " +
-              std::to_string(substeps) + " substeps a frame",
-          first + ", or edges " + digits_of_bend(std::sqrt(factor)) +
-              " times as long; a flat rest shape without plasticity needs neither"};
+  const std::string few = std::to_string(std::llround(needed)) + " substeps";
+  const std::string cause = keeps_energy ? "bends by hinges, since the integrator is \"energy\": " : "";
+  SoftHinges out{&object, cause + "its hinges bend about " + digits_of_bend(1 + excess) +
+                              " times as far as their stiffness says, with " + std::to_string(substeps) +
+                              " substeps a frame"};
+  if (keeps_energy) {
+    out.problem += ", and by up to 1.5 times more on coarse meshes";
+    const std::string more = excess <= tolerated_excess || needed > most_substeps_of_frame ? "" : ", or " + few;
+    out.advice = "use the integrator \"pbd\", by which the sheet bends as a whole" + more;
+  } else if (as_sheet > 0) {
+    out.advice = "use " + std::to_string(std::llround(as_sheet)) +
+                 " substeps, with which it bends as a whole and as far as its stiffness says";
+  } else {
+    out.advice = (needed > most_substeps_of_frame ? "give it less bending stiffness" : "use " + few) + ", or edges " +
+                 digits_of_bend(std::sqrt(factor)) +
+                 " times as long; a flat rest shape without plasticity needs neither";
+  }
+  return out;
 }
 
 std::vector<SoftHinges> find_soft_hinges(const Scene& scene, const Settings& settings) {
   std::vector<SoftHinges> found;
   const std::vector<int> substeps_of = chosen_substeps(scene, settings);
+  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
     const Object& object = scene.objects[o];
     if (object.volume) continue;
     const int substeps = substeps_of[o] > 0 ? substeps_of[o] : substeps_by_state;
-    const double h = static_cast<double>(scene.frame_time) /
-                     (substeps * std::sqrt(static_cast<double>(std::max(1, settings.iterations))));
-    const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
-    const double excess = has_long_edges(object, gravity) ? error_of_hinges * h * h * facts_of_sheet(object).stiffness
-                                                          : excess_of_hinges(object, h);
-    if (excess > tolerated_excess) found.push_back(words_of_hinges(object, excess, substeps));
+    const double share = 1 / std::sqrt(static_cast<double>(std::max(1, settings.iterations)));
+    const double h = static_cast<double>(scene.frame_time) / substeps * share;
+    const bool is_coarse = has_long_edges(object, gravity);
+    const bool keeps_energy =
+        settings.integrator == Settings::Integrator::energy && !is_coarse && bends_as_sheet(object, h);
+    const double excess = is_coarse || keeps_energy ? error_of_hinges * h * h * facts_of_sheet(object).stiffness
+                                                    : excess_of_hinges(object, h);
+    if (excess > (keeps_energy ? 0 : tolerated_excess))
+      found.push_back(words_of_hinges(object, excess, substeps,
+                                      is_coarse ? 0 : substeps_to_bend_as_sheet(object, scene, share), keeps_energy));
   }
   return found;
 }

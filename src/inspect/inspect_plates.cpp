@@ -1,4 +1,5 @@
-// Flat sheets held at all edges that bend too far, because few edges lie between (docs/internals/bending.md).
+// Flat sheets held at all edges that bend too far, because few edges lie between, and sheets whose curvature is lost
+// because they are nearly flat (docs/internals/bending.md).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -98,8 +99,30 @@ struct SoftPlate {
   std::string problem, advice;
 };
 
+/// Appends the sheets whose rest shapes are bowed by so little that they are taken as flat.
+void find_bowed_sheets(const Scene& scene, const Settings& settings, std::vector<SoftPlate>& found) {
+  if (settings.integrator == Settings::Integrator::energy || settings.sweep == Sweep::natural) return;
+  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  std::vector<int> substeps_of;
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const Object& object = scene.objects[o];
+    if (object.triangles.empty() || object.volume || has_long_edges(object, gravity)) continue;
+    const double bow = bow_of_sheet(object);
+    if (!(bow > 0)) continue;
+    if (substeps_of.empty()) substeps_of = chosen_substeps(scene, settings);
+    const double h = static_cast<double>(scene.frame_time) / std::max(substeps_of[o], least_substeps_of_sheets);
+    if (!bends_as_sheet(object, h)) continue;
+    found.push_back({&object,
+                     "has a rest shape that is bowed by " + words(std::round(1e6 * bow) / 1e6) +
+                         " m, so little that it bends as a flat sheet does: at rest without load it is flat",
+                     "bow it by more than a fiftieth of an edge, or take the weight that bows it instead, if that "
+                     "counts"});
+  }
+}
+
 std::vector<SoftPlate> find_soft_plates(const Scene& scene, const Settings& settings) {
   std::vector<SoftPlate> found;
+  find_bowed_sheets(scene, settings, found);
   const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
   std::vector<int> substeps_of;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {

@@ -17,8 +17,6 @@ namespace {
 
 /// B / (rho g e^3) below which the edges of a sheet are long.
 constexpr double least_self_support = 11;
-/// Beyond this, l / e = 18, floats of M + h^2 K have no room for M: measured up to 16.
-constexpr double most_of_floats = 1e5;
 /// Hinges at a vertex that differ by more in their stiffness are a crease, or a seam of another material.
 constexpr double largest_ratio = 4;
 /// A rest shape is flat if no hinge is folded by more [rad]; or by no more than the second, which rounding in a mesh
@@ -62,30 +60,43 @@ struct PieceSums {
   double vertices = 0;
 };
 
-/// True if the vertices of each piece lie in one plane, up to a share of the mean edge.
-bool lies_in_planes(const Object& object) {
+/// How far each vertex lies from the plane of its piece, and the mean edge [m].
+struct PlaneOffsets {
+  std::vector<double> of_vertex;
+  double edge = 0;
+};
+
+PlaneOffsets offsets_from_planes(const Object& object) {
   DisjointSets pieces(object.positions.size());
   for (const auto& [a, b, c] : object.triangles) pieces.join(at(a), at(b)), pieces.join(at(b), at(c));
   std::vector<PieceSums> sums(object.positions.size());
-  double edges = 0;
+  PlaneOffsets out;
   for (const auto& [a, b, c] : object.triangles) {
     const Vec3d x = rest_position(object, a), y = rest_position(object, b), z = rest_position(object, c);
     const Vec3d normal = cross(y - x, z - x);
     Vec3d& sum = sums[pieces.root(at(a))].normals;
     sum += dot(sum, normal) < 0 ? -normal : normal;  // triangles need not be wound alike
-    edges += length(y - x) / static_cast<double>(object.triangles.size());
+    out.edge += length(y - x) / static_cast<double>(object.triangles.size());
   }
   for (std::size_t v = 0; v < object.positions.size(); ++v) {
     PieceSums& piece = sums[pieces.root(v)];
     piece.positions += rest_position(object, static_cast<int>(v));
     piece.vertices += 1;
   }
+  out.of_vertex.reserve(object.positions.size());
   for (std::size_t v = 0; v < object.positions.size(); ++v) {
     const PieceSums& piece = sums[pieces.root(v)];
     const Vec3d away = rest_position(object, static_cast<int>(v)) - piece.positions * (1 / piece.vertices);
-    if (std::fabs(dot(away, piece.normals)) > largest_offset * edges * length(piece.normals)) return false;
+    out.of_vertex.push_back(dot(away, piece.normals) / std::max(length(piece.normals), 1e-300));
   }
-  return true;
+  return out;
+}
+
+/// True if the vertices of each piece lie in one plane, up to a share of the mean edge.
+bool lies_in_planes(const Object& object) {
+  const PlaneOffsets offsets = offsets_from_planes(object);
+  return std::all_of(offsets.of_vertex.begin(), offsets.of_vertex.end(),
+                     [&](double offset) { return std::fabs(offset) <= largest_offset * offsets.edge; });
 }
 
 bool is_flat(const Object& object) {
@@ -239,12 +250,26 @@ float damping_time(const Object& object) {
 
 bool bends_as_sheet(const Object& object, double h) {
   const double stiffness = sheet_stiffness(object);
-  if (!(stiffness > 0 && h * h * stiffness < most_of_floats)) return false;
+  if (!(stiffness > 0 && h * h * stiffness < most_stiffness_of_sheets)) return false;
   const auto can_be_sheet = [&](const ConstraintGroup& group) {
     return !is_hinge(group.type) || group.particles.empty() || is_of_material(group);
   };
   return object.bodies.empty() && std::all_of(object.constraints.begin(), object.constraints.end(), can_be_sheet) &&
          is_flat(object) && has_hinges_everywhere(object) && is_at_rest(object) && is_alike(object);
+}
+
+double bow_of_sheet(const Object& object) {
+  constexpr double least_share = 1e-3, least_shared = 0.5;
+  const PlaneOffsets offsets = offsets_from_planes(object);
+  double most = 0, own = 0, shared = 0;
+  for (const double offset : offsets.of_vertex) most = std::max(most, std::fabs(offset));
+  if (!(most > least_share * offsets.edge)) return 0;
+  for (const Edge& edge : find_edges(object.triangles, static_cast<int>(object.positions.size()))) {
+    const double a = offsets.of_vertex[at(edge.a)], b = offsets.of_vertex[at(edge.b)];
+    own += (a * a + b * b) / 2;
+    shared += a * b;
+  }
+  return shared > least_shared * own ? most : 0;
 }
 
 bool has_long_edges(const Object& object, double gravity) {

@@ -129,6 +129,83 @@ TEST(ToldSheets, RigidAttachmentsHoldABorderAsPinsDo) {
   EXPECT_EQ(told_number(scene, "across, so it bends about "), told);
 }
 
+/// A cantilever of a sheet of 1 kg/m^2, its length 10 of its 12 cells.
+Scene cantilever(float bending, float cell, float bow = 0) {
+  Fabric material;
+  material.area_density = 1;
+  material.stretch_stiffness = 20000;
+  material.bending_stiffness = bending;
+  TriangleMesh mesh = cells_of(12, 12 * cell, false);
+  for (Vec3f& x : mesh.positions) {
+    const float along = (x.x - 6 * cell) / (6 * cell);
+    x.y = bow * (1 - along * along);
+  }
+  Scene scene = sheet_of(std::move(mesh), material);
+  std::vector<int> held;
+  for (int i = 0; i < static_cast<int>(scene.objects[0].positions.size()); ++i)
+    if (scene.objects[0].positions[static_cast<std::size_t>(i)].x < 2.01f * cell) held.push_back(i);
+  scene.pin(0, held);
+  scene.objects[0].damping = 8;
+  return scene;
+}
+
+/// The mean sag of its free end over that of the beam.
+double sag_of(const Scene& scene, float bending, float cell) {
+  World world(scene);
+  for (int i = 0; i < 90; ++i) world.step(scene.frame_time);
+  const std::vector<Vec3f> places = world.object(0).positions();
+  const double length = 10 * static_cast<double>(cell);
+  double sag = 0;
+  for (int j = 0; j < 13; ++j)
+    sag -= static_cast<double>(places[places.size() - 1 - static_cast<std::size_t>(j)].y) / 13;
+  return sag / (9.81 * std::pow(length, 4) / (8 * static_cast<double>(bending)));
+}
+
+TEST(ToldSheets, TheIntegratorThatKeepsEnergySaysThatSheetsHaveHinges) {
+  for (const float bending : {2.f, 8.f}) {
+    constexpr float cell = 0.05f;
+    Scene scene = cantilever(bending, cell);
+    scene.settings.substeps = 20;
+    EXPECT_EQ(told_number(scene, "hinges bend about "), 0) << bending;
+    scene.settings.integrator = Settings::Integrator::energy;
+    const double told = told_number(scene, "hinges bend about "), is = sag_of(scene, bending, cell);
+    EXPECT_GT(told, 1) << bending;
+    EXPECT_GT(is / told, 0.8) << bending << ", " << is << ", " << told;
+    EXPECT_LT(is / told, 1.6) << bending << ", " << is << ", " << told;  // the mesh adds up to 1.5
+  }
+}
+
+TEST(ToldSheets, AdviceOnASheetThatIsTooStiffForItsSubstepsHelps) {
+  constexpr float bending = 20, cell = 0.004f;  // (l / e)^4 = 2e5 with 12 substeps of 1/30 s
+  Scene scene = cantilever(bending, cell);
+  scene.frame_time = 1.f / 30;
+  scene.settings.substeps = 12;
+  EXPECT_GT(told_number(scene, "hinges bend about "), 1);
+  const double advised = [&] {
+    for (const Finding& found : inspect(scene))
+      if (const std::size_t at = found.advice.find("use "); at != std::string::npos)
+        if (found.message.find("hinges bend about ") != std::string::npos)
+          return std::atof(found.advice.c_str() + at + 4);
+    return 0.0;
+  }();
+  EXPECT_GT(advised, 12);
+  EXPECT_LT(advised, 60);
+  scene.settings.substeps = static_cast<int>(advised);
+  EXPECT_EQ(told_number(scene, "hinges bend about "), 0);
+}
+
+TEST(ToldSheets, ABowThatIsLostIsTold) {
+  for (const float share : {0.004f, 0.015f}) {  // of an edge
+    const float bow = share * 0.01f;
+    EXPECT_NEAR(told_number(cantilever(0.2f, 0.01f, bow), "is bowed by "), static_cast<double>(bow), 0.8 * bow);
+  }
+  Scene scene = cantilever(0.2f, 0.01f);
+  EXPECT_EQ(told_number(scene, "is bowed by "), 0) << "flat";
+  for (int i = 0; i < static_cast<int>(scene.objects[0].positions.size()); ++i)
+    scene.objects[0].positions[static_cast<std::size_t>(i)].y += 5e-5f * noise(i);
+  EXPECT_EQ(told_number(scene, "is bowed by "), 0) << "heights that a file has rounded";
+}
+
 constexpr int rows = 12;  ///< cells of what hangs
 
 /// Irregular cloth of 0.6 m that hangs by an edge.

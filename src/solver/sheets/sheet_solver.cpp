@@ -5,7 +5,9 @@
 #include <cstring>
 
 #include "core/at.h"
+#include "math/record.h"
 #include "solver/damper.h"
+#include "solver/sheets/sheet_contacts.h"
 #include "solver/sheets/sheet_cycle.h"
 #include "solver/substep.h"
 #include "solver/substep_law.h"
@@ -111,9 +113,10 @@ void leave_out_gravity(const SheetBending& sheet, const Vec3f& gravity, SheetScr
   });
 }
 
-/// Adds gravity to the corrections of loose pieces, and takes the rigid motion from them, which no force of bending has
-/// caused.
-void move_loose_pieces(const SheetBending& sheet, const Record* positions, const Vec3f& gravity,
+/// Takes the rigid motion from the corrections of loose pieces, which no force of bending has caused, but that of
+/// `own(row)`, and adds `more` to them.
+template <class Own>
+void move_loose_pieces(const SheetBending& sheet, const Record* positions, const Own& own, const Vec3f& more,
                        SheetScratch& scratch) {
   const std::vector<float>& mass = scratch.levels.front().mass;
   const auto place = [&](std::size_t i) {
@@ -123,7 +126,9 @@ void move_loose_pieces(const SheetBending& sheet, const Record* positions, const
   scratch.momentum.assign(at(sheet.pieces), {});
   for_loose_rows(sheet, scratch, [&](std::size_t i) {
     const Record& c = scratch.corrections[i];
-    const Vec3d correction{static_cast<double>(c.x), static_cast<double>(c.y), static_cast<double>(c.z)};
+    const Vec3f of = own(i);
+    const Vec3d correction{static_cast<double>(c.x - of.x), static_cast<double>(c.y - of.y),
+                           static_cast<double>(c.z - of.z)};
     add_row(place(i), correction, static_cast<double>(mass[i]), scratch.momentum[at(sheet.piece[i])]);
   });
   std::vector<RigidStep> steps;
@@ -131,7 +136,7 @@ void move_loose_pieces(const SheetBending& sheet, const Record* positions, const
   for (const RigidSums& sums : scratch.momentum) steps.push_back(sums.mass > 0 ? rigid_step(sums) : RigidStep{});
   for_loose_rows(sheet, scratch, [&](std::size_t i) {
     const RigidStep& step = steps[at(sheet.piece[i])];
-    const Vec3f by = gravity - convert<float>(step.translation + cross(step.rotation, place(i)));
+    const Vec3f by = more - convert<float>(step.translation + cross(step.rotation, place(i)));
     Record& c = scratch.corrections[i];
     c = {c.x + by.x, c.y + by.y, c.z + by.z, 0};
   });
@@ -156,6 +161,75 @@ void apply(Substep& s, int object, const sheets::SheetForces& forces, sheets::Bl
   });
 }
 
+/// The sum of the normals of a piece's contacts, as a unit vector: gravity along it is what contacts bear. Zero where
+/// nothing touches.
+std::vector<Vec3f> directions_of_contacts(const SheetBending& sheet,
+                                          const std::vector<sheets::SheetContact>& contacts) {
+  std::vector<Vec3f> along(at(sheet.pieces));
+  for (const sheets::SheetContact& c : contacts)
+    if (const int piece = sheet.piece[at(c.row[0])]; piece >= 0)
+      along[at(piece)] += c.normal * (c.weight[0] > 0 ? 1.f : -1.f);
+  for (Vec3f& one : along) one = one * (1 / std::max(length(one), 1e-30f));
+  return along;
+}
+
+/// Adds to each loose row `by(row)`.
+template <class By>
+void add_to_loose_rows(const SheetBending& sheet, const SheetScratch& scratch, const By& by, Records& to) {
+  for_loose_rows(sheet, scratch, [&](std::size_t i) {
+    const Vec3f more = by(i);
+    to[i] = {to[i].x + more.x, to[i].y + more.y, to[i].z + more.z, to[i].w};
+  });
+}
+
+/// The bending of a sheet that touches something. Gravity along the contacts is part of the right-hand side of loose
+/// pieces, that across them passes P by.
+void bend_on_contacts(const SheetBending& sheet, const sheets::SheetForces& forces, sheets::BlockLoop loop, int cycles,
+                      std::vector<sheets::SheetContact>& contacts, SheetScratch& scratch) {
+  using sheets::SheetContact;
+  SheetLevelScratch& finest = scratch.levels.front();
+  const bool any_moves = !find_pinned(sheet, scratch);
+  const std::vector<Vec3f> along = directions_of_contacts(sheet, contacts);
+  const auto borne = [&](std::size_t i) {
+    const Vec3f& n = along[at(sheet.piece[i])];
+    return n * dot(n, forces.gravity);
+  };
+  add_to_loose_rows(
+      sheet, scratch, [&](std::size_t i) { return (borne(i) - forces.gravity) * finest.mass[i]; }, finest.right);
+  const Records right = finest.right;
+  Records own(right.size()), x;  // what each row would move by its own mass
+  const auto by_own_mass = [&](float SheetContact::*of, float by) {
+    own.assign(right.size(), {});
+    sheets::add_contact_forces(contacts, of, by, own);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const float w = finest.mass[i] > 0 ? 1 / finest.mass[i] : 0;
+      own[i] = {own[i].x * w, own[i].y * w, own[i].z * w, 0};
+    }
+  };
+  const auto respond = [&](const Records* from, float SheetContact::*of, Records& to) {
+    if (from != nullptr)
+      finest.right = *from;
+    else
+      finest.right.assign(right.size(), {});
+    sheets::add_contact_forces(contacts, of, 1, finest.right);
+    sheets::solve_sheet(sheet, cycles, loop, scratch);
+    if (any_moves) {
+      by_own_mass(of, 1);
+      if (from != nullptr) add_to_loose_rows(sheet, scratch, borne, own);
+      move_loose_pieces(
+          sheet, forces.positions, [&](std::size_t i) { return xyz(own[i]); }, {}, scratch);
+    }
+    to = scratch.corrections;
+  };
+  sheets::solve_contacts(finest.mass, right, length(forces.gravity), respond, contacts, x);
+  sheets::hand_over_forces(contacts);
+  by_own_mass(&SheetContact::force, -1);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = {x[i].x + own[i].x, x[i].y + own[i].y, x[i].z + own[i].z, 0};
+  add_to_loose_rows(
+      sheet, scratch, [&](std::size_t i) { return forces.gravity - borne(i); }, x);
+  scratch.corrections.swap(x);
+}
+
 /// Finds the corrections for the substeps from this one on.
 void find_corrections(Substep& s, int object, const sheets::SheetForces& forces, sheets::BlockLoop loop,
                       SheetScratch& scratch) {
@@ -164,6 +238,13 @@ void find_corrections(Substep& s, int object, const sheets::SheetForces& forces,
   sheets::find_right_hand_side(sheet, forces, loop, scratch);
   const Vec3f load = forces.gravity * (forces.substeps * forces.substeps);
   const int terms = sheets::terms_for(sheet, scratch.h2);
+  const float edges4 = scratch.h2 * sheet.stiffness;
+  const bool has_levels = sheet.levels.size() > 1 || sheet.levels.front().rows <= coarsest_sheet_rows;
+  const int cycles = has_levels ? cycles_for(edges4) : sweeps_for(edges4);
+  if (terms == 0 && forces.substeps == 1) {
+    std::vector<sheets::SheetContact> contacts = sheets::contacts_of_sheet(s, object, forces.gravity);
+    if (!contacts.empty()) return bend_on_contacts(sheet, forces, loop, cycles, contacts, scratch);
+  }
   // K resists no motion of a piece as a whole, but it acts on positions ahead of these with damping and several
   // substeps.
   const bool is_rigid_free = sheet.damping_time == 0 && forces.substeps == 1;
@@ -171,10 +252,10 @@ void find_corrections(Substep& s, int object, const sheets::SheetForces& forces,
       !(terms > 0 && is_rigid_free && sheets::keeps_momentum(scratch)) && !find_pinned(sheet, scratch);
   if (any_moves) leave_out_gravity(sheet, load, scratch);
   if (terms > 1) sheets::add_term(sheet, loop, scratch);
-  const float edges4 = scratch.h2 * sheet.stiffness;
-  const bool has_levels = sheet.levels.size() > 1 || sheet.levels.front().rows <= coarsest_sheet_rows;
-  if (terms == 0) sheets::solve_sheet(sheet, has_levels ? cycles_for(edges4) : sweeps_for(edges4), loop, scratch);
-  if (any_moves) move_loose_pieces(sheet, forces.positions, load, scratch);
+  if (terms == 0) sheets::solve_sheet(sheet, cycles, loop, scratch);
+  if (any_moves)
+    move_loose_pieces(
+        sheet, forces.positions, [](std::size_t) { return Vec3f{}; }, load, scratch);
 }
 
 void bend(Substep& s, int object) {

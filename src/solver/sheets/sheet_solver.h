@@ -7,8 +7,7 @@
 // Gravity is part of r where particles are pinned: at rest without stretch and contact d = 0 means f = -M g, whatever P
 // is. So the sag depends on neither cycles nor substeps. P is nowhere softer than M + h^2 K, hence the step never adds
 // energy to bending. Damping of bending adds beta h to the h^2 of K in P and in u. A piece without pins keeps its
-// momentum: P conserves it only where its solve is exact. Contacts are not in P: they take up in the iterations what
-// the bending presses into them.
+// momentum: P conserves it only where its solve is exact. P knows no contacts: sheet_contacts.h finds their forces.
 #pragma once
 
 #include <vector>
