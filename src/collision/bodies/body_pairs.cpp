@@ -15,6 +15,8 @@ namespace {
 constexpr int parts_a_task = 256, pairs_a_task = 2048, renewed_a_task = 64;
 /// Boxes are larger by this share of their part's size than they need be, so that pairs last for more than a frame.
 constexpr float spare_share = 0.1f;
+/// Parts stay paired with a mesh as long as they are this multiple of their size beyond its box.
+constexpr float through_share = 4;
 
 /// How far a part reaches from its frame's origin in six directions of some frame.
 struct Extent {
@@ -110,6 +112,7 @@ BodyPairs::BodyPairs(const std::vector<BodyPart>& parts) {
     (part.is_convex() ? convex_ : others_).push_back(i);
     if (part.is_convex()) family.push_back(part.family);
     size_.push_back(part.is_convex() ? size_of(part.shape) : 1e30f);
+    if (part.is_convex()) most_through_ = std::max(most_through_, through_share * size_.back());
   }
   crowds_ = BodyCrowds(family);
   std::vector<int> order(parts.size());
@@ -228,10 +231,11 @@ void BodyPairs::find_pairs_of_others(const Frame& frame, const std::vector<int>*
     } else {
       const BoxBounds box =
           swept(world_box(*part.mesh, body.pose), body.velocity * frame.dt).grown(frame.dt * turning_[at(other)]);
+      // What has been pressed through a flat mesh is below its box, and is held by the side from which it came.
       const auto add_overlapping = [&](int i) {
-        if (overlap(boxes_[at(i)], box)) add(i);
+        if (overlap(boxes_[at(i)].grown(through_share * size_[at(convex_[at(i)])]), box)) add(i);
       };
-      some == nullptr ? crowds_.query(box, -1, add_overlapping) : for_each(*some, add_overlapping);
+      some == nullptr ? crowds_.query(box.grown(most_through_), -1, add_overlapping) : for_each(*some, add_overlapping);
     }
   }
   std::sort(of_others_.begin(), of_others_.end(), [&](const Pair& a, const Pair& b) { return in_order(a, b); });

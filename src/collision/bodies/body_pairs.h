@@ -72,6 +72,7 @@ class BodyPairs {
 
   std::vector<int> convex_, others_;  ///< parts: convex ones; half-spaces and meshes; ascending
   std::vector<float> size_, turning_;
+  float most_through_ = 0;         ///< how far a mesh's box is grown for the largest part [m]
   std::vector<int> rank_;          ///< [part] its place in the order of contacts
   std::vector<BoxBounds> still_;   ///< [part] of convex parts, without what they may move in a frame
   std::vector<BoxBounds> boxes_;   ///< of convex parts in this frame

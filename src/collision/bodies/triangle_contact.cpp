@@ -235,16 +235,6 @@ void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle
   add_points_above(at, nearest, points);
 }
 
-void pass_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
-                   const TriangleNearest& nearest, std::vector<TrianglePoint>& points) {
-  const MeshFace& face = mesh.face(triangle);
-  const double along = dot(nearest.normal, face.normal);
-  // Only its own normal holds what is near a smooth triangle, wherever it is nearest.
-  const bool is_smooth = face.is_smooth[dot(face.normal, solid.centre() - face.corners[0]) < 0 ? 1 : 0];
-  if (is_smooth || std::fabs(along) >= straight || is_in_normal_cone(mesh, triangle, nearest.normal))
-    touch_triangle(solid, mesh, triangle, reach, nearest, points);
-}
-
 Vec3d direction_of_contact(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal) {
   const MeshFace& face = mesh.face(triangle);
   const double along = dot(normal, face.normal);

@@ -30,10 +30,6 @@ void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle
 void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
                     const TriangleNearest& nearest, std::vector<TrianglePoint>& points);
 
-/// The same of a solid that passes a triangle, which is held by none that lies in a direction of other triangles.
-void pass_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
-                   const TriangleNearest& nearest, std::vector<TrianglePoint>& points);
-
 /// The direction in which a triangle holds a solid to which it is nearest along `normal`: that, or its own normal where
 /// another triangle is nearer in that direction.
 Vec3d direction_of_contact(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal);

@@ -1,6 +1,7 @@
 #include "collision/bodies/triangles_on_path.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "collision/bodies/triangle_nearest.h"
@@ -27,12 +28,23 @@ struct Way {
 
   double radii() const { return solid.radius() + mesh.thickness(); }
 
-  /// True if points that were found at the start stop the solid on a path.
-  bool stops(const ContactPath& path, const std::vector<TrianglePoint>& points, const Met& of) const {
-    const SolidPath here{path, on.slop, on.sag, on.least};
+  /// True of a point in the direction of its triangle's own normal.
+  bool is_of_face(const TrianglePoint& at) const {
+    return std::fabs(dot(at.normal, mesh.face(at.triangle).normal)) > 1 - 1e-9;
+  }
+  /// True if points that were found at the start stop the solid on a path, by what counts as touching on it.
+  bool stops(const SolidPath& by, const std::vector<TrianglePoint>& points, const Met& of) const {
     for (std::size_t i = of.first; i < of.end; ++i)
-      if (here.is_stopped(points[i].normal, points[i].point.separation)) return true;
+      if (by.is_stopped(points[i].normal, points[i].point.separation)) return true;
     return false;
+  }
+  bool stops(const ContactPath& path, const std::vector<TrianglePoint>& points, const Met& of) const {
+    return stops(SolidPath{path, on.slop, on.sag, on.least}, points, of);
+  }
+  /// True if the points of a face that the solid passes serve as they are: unless the path goes in, they stop nothing.
+  bool stays(const ContactPath& path, const std::vector<TrianglePoint>& points, const Met& of) const {
+    return of.end > of.first && is_of_face(points[of.first]) &&
+           !stops(SolidPath{path, on.slop, -on.slop, on.least}, points, of);
   }
 
   /// True if a path may take the solid lower over a triangle than `height` [m]: neither along the triangle's normal nor
@@ -110,8 +122,11 @@ PathContact first_of(std::vector<Met>& met, const Way& way, const ContactPath& p
   return first;
 }
 
-/// Appends the points of a triangle at the place where it is met, as seen from the start of the path.
-void add_points(const Way& way, const Met& met, std::vector<TrianglePoint>& points) {
+/// Appends the points of a triangle at the place where it is met, as seen from the start of the path. One that is
+/// passed and has none there keeps those of the start if they stop nothing: where it is passed the solid may be over its neighbours, and
+/// what spins or is pushed would find no contact there.
+void add_points(const Way& way, const ContactPath& path, const std::vector<TrianglePoint>& at_start, const Met& met,
+                std::vector<TrianglePoint>& points) {
   const std::size_t first = points.size();
   const Vec3d& by = met.at.displacement;
   const SolidInMesh there = way.solid.moved(by);
@@ -122,7 +137,12 @@ void add_points(const Way& way, const Met& met, std::vector<TrianglePoint>& poin
     TriangleNearest nearest = exactly_nearest_on(way.mesh.face(met.triangle), there, {});
     nearest.normal = met.at.normal;
     nearest.separation = dot(nearest.normal, nearest.on_solid - nearest.on_triangle);
-    pass_triangle(there, way.mesh, met.triangle, way.reach, nearest, points);
+    touch_triangle(there, way.mesh, met.triangle, way.reach, nearest, points);
+  }
+  if (points.size() == first && !met.at.touches && way.stays(path, at_start, met)) {
+    points.insert(points.end(), at_start.begin() + static_cast<std::ptrdiff_t>(met.first),
+                  at_start.begin() + static_cast<std::ptrdiff_t>(met.end));
+    return;
   }
   for (std::size_t i = first; i < points.size(); ++i) {
     points[i].moved = by;
@@ -150,7 +170,7 @@ PathContact put_on_path(const SolidInMesh& solid, const BodyMesh& mesh, const st
   for (const Met& one : met) {
     out.insert(out.end(), points.begin() + static_cast<std::ptrdiff_t>(next),
                points.begin() + static_cast<std::ptrdiff_t>(one.first));
-    add_points(way, one, out);
+    add_points(way, path, points, one, out);
     next = one.end;
   }
   out.insert(out.end(), points.begin() + static_cast<std::ptrdiff_t>(next), points.end());
