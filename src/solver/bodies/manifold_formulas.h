@@ -29,6 +29,9 @@ constexpr int passes_of_settling = 8;
 /// Such a contact slides at this multiple of the speed that it may keep, or is left as it is: other passes bring it to
 /// rest.
 constexpr float clearly_sliding = 10;
+/// Friction that asks for no more than this multiple of what it may be is held there; what asks for more slides. A
+/// position pass leaves a share of the normal impulse out, and what is at rest should not slip by that.
+constexpr float hardly_more = 1.1f;
 /// Points that arrive within this share of the substep bounce together; of all at once, those that arrive late would be
 /// thrown by the first.
 constexpr float together_share = 0.02f;
@@ -167,7 +170,8 @@ PLIANT_HD void rub(ManifoldRows<lanes>& m, Motion<R>& a, Motion<R>& b) {
                        before[1] - (get<R>(m.slide[1]) * v + both * u)};
   const R pressed = pressing<R>(m), limit = get<R>(m.friction) * pressed;
   const R size = sqrt(wanted[0] * wanted[0] + wanted[1] * wanted[1]);
-  const R scale = select(size <= limit, R(1.f), get<R>(m.sliding) * limit / max(size, R(tiny)));
+  const R share = select(size <= R(hardly_more) * limit, R(1.f), get<R>(m.sliding));
+  const R scale = select(size <= limit, R(1.f), share * limit / max(size, R(tiny)));
   const R after[2] = {wanted[0] * scale, wanted[1] * scale};
   const R twist_limit = pressed * get<R>(m.twist_arm), old_twist = get<R>(m.twist_impulse);
   const R twist = min(max(old_twist - dot(spin, normal) * get<R>(m.twist_mass), -twist_limit), twist_limit);
@@ -346,7 +350,8 @@ PLIANT_HD void rub_in_impact(const ManifoldRows<lanes>& m, const R& pressed, Mot
   const R both = get<R>(m.slide[2]);
   const R one = -(get<R>(m.slide[0]) * u + both * v), two = -(get<R>(m.slide[1]) * v + both * u);
   const R limit = get<R>(m.friction) * pressed, size = sqrt(one * one + two * two);
-  const R scale = select(size <= limit, R(1.f), get<R>(m.sliding) * limit / max(size, R(tiny)));
+  const R share = select(size <= R(hardly_more) * limit, R(1.f), get<R>(m.sliding));
+  const R scale = select(size <= limit, R(1.f), share * limit / max(size, R(tiny)));
   const R none(0.f);
   add(m, first * (one * scale) + second * (two * scale), Vec3<R>{none, none, none}, a, b);
 }
