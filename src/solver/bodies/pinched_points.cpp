@@ -134,6 +134,15 @@ bool is_pulled(const PinchSide& a, const PinchSide& b, const Vec3f& n, float h, 
   return dot(along_ground, beneath_load) > 0.5f * least && least > (pulled * h) * (pulled * h);
 }
 
+/// Gives a body the friction of a vertex that its object holds, as if that could not move otherwise: so light a vertex
+/// passes little of what the fixed particles bear on to a body. That they bear it is left out.
+void hold(const PinchSide& side, float scale) {
+  if (!(side.motion.inverse_mass > 0)) return;
+  const Vec3f along = side.slip - side.normal * dot(side.normal, side.slip);
+  const Vec3f impulse = -impulse_between({}, side, along), across = impulse - side.normal * dot(side.normal, impulse);
+  answer(side, 0, {}, across * share_in_cone(*side.contact, across * (scale * side.sign)), scale);
+}
+
 /// Gives both sides of a vertex of inverse mass `w` their impulses, across the normal only if the vertex sticks to both.
 /// Returns that along the normal [N s^2].
 float join(const PinchSide& a, const PinchSide& b, float w, float h, bool is_held, bool sticks) {
@@ -145,6 +154,10 @@ float join(const PinchSide& a, const PinchSide& b, float w, float h, bool is_hel
   const float scale_a = w + dot(n, response(a, n)), scale_b = w + dot(n, response(b, n));
   answer(a, along, n, {}, scale_a);  // opposite ones, also where normals are not: momentum is kept
   answer(b, along, -n, {}, scale_b);
+  if (is_held) {
+    hold(a, scale_a);
+    hold(b, scale_b);
+  }
   if (!sticks || is_pulled(a, b, n, h, is_held)) return along;
   const Vec3f sticking = impulse - n * dot(n, impulse);
   const Vec3f across = sticking * min(share_in_cone(*a.contact, sticking * (scale_a * a.sign)),
