@@ -258,6 +258,8 @@ class Scene(dict[str, Any]):
         name = os.fspath(path)
         if not isinstance(name, str):
             raise TypeError("a path is a str or os.PathLike")
+        if not is_unicode(name):
+            raise Error(f"the path {name!r} is not valid Unicode", "pass the path of a scene file")
         try:
             if not stat.S_ISREG(os.stat(name).st_mode):  # opening a pipe would wait for its writer
                 raise Error("not a regular file", "pass the path of a scene file", file=name)

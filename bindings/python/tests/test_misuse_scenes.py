@@ -140,6 +140,9 @@ NOT_UNICODE: dict[str, tuple[Callable[[], Any], str]] = {
     "a key": (lambda: pliant.World({"objects": [], LONE: 1}), "the key '\\ud800'"),
     "a name in a list": (lambda: pliant.World({"pairs": [{"objects": ["a", LONE]}]}), "/pairs/0/objects/1: "),
     "an object to add": (lambda: pliant.World({"objects": []}).add(name=LONE, rope=ROPE), "/objects/0/name: "),
+    "a path": (lambda: pliant.World(LONE), "the path '\\ud800' is not valid Unicode"),
+    "a path to load": (lambda: pliant.World.load(LONE), "text that is not valid Unicode"),
+    "an array": (lambda: pliant.Scene(arrays={LONE: [[0, 0, 0]]}).compiled(), "text that is not valid Unicode"),
     "text": (lambda: pliant.Scene.parse(LONE), "text is '\\ud800', a str that is not valid Unicode"),
     "a look-up": (lambda: pliant.World({"objects": []})[LONE], "name is '\\ud800', a str that is not valid Unicode"),
 }
