@@ -119,6 +119,7 @@ def test_help_lists_the_members_of_scenes() -> None:
 
     text = pydoc.render_doc("pliant.format", renderer=pydoc.plaintext)
     assert "class Cloth(TypedDict" in text and "The objects, which move." in text
-    names = {"".join(part.capitalize() for part in re.split("[-_]", name)) for name in json.loads(pliant._pliant.scene_schema())["$defs"]}
+    records = json.loads(pliant._pliant.scene_schema())["$defs"]
+    names = {"".join(part.capitalize() for part in re.split("[-_]", record)) for record in records}
     assert set(dir(pliant.format)) == names and all(f"{name}(" in text or f"{name} = " in text for name in names)
     assert "help(pliant.format)" in pydoc.render_doc("pliant", renderer=pydoc.plaintext)
