@@ -131,7 +131,7 @@ class ObjectView {
 
 /// Reads and controls an object, between steps. Calls with wrong sizes or values that are not finite throw an Error
 /// that names object and element, and change nothing; so do targets and poses of bodies more than 1e9 m from the
-/// origin.
+/// origin, and two targets of one particle in a call.
 class ObjectHandle : public ObjectView {
  public:
   ObjectHandle(WorldData& world, ObjectId id) : ObjectView(world, id), world_(&world) {}

@@ -68,6 +68,10 @@ void require(const Listed& of, std::span<const int> numbers, std::span<const Vec
     if (!is_finite(places[i])) refuse(of.object.name, element, "its target is not finite", "give finite numbers");
     require_near(places[i], of.object.name, element, "its target");
   }
+  std::vector<int> sorted(numbers.begin(), numbers.end());
+  std::sort(sorted.begin(), sorted.end());
+  if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
+    refuse(of.object.name, kind + " " + std::to_string(*twice), "is given twice", "give each one position");
 }
 
 Vec3d place_of(const State& state, int particle) {
@@ -75,7 +79,7 @@ Vec3d place_of(const State& state, int particle) {
   return {double(x.x) + r.x, double(x.y) + r.y, double(x.z) + r.z};
 }
 
-/// Appends targets and sorts them by particle. If a particle has two targets, the later one is kept.
+/// Appends targets and sorts them by particle. Those of a later call replace those of an earlier one.
 void put_targets(const Listed& of, std::span<const int> numbers, std::span<const Vec3f> places, int first,
                  const State& state, std::vector<Target>& targets) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {

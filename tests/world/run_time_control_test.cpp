@@ -209,6 +209,10 @@ TEST(Control, WrongSizesAndNumbersAreNamedAndChangeNothing) {
   EXPECT_NE(refusal([&] { world.object(0).set_targets(missing, place); }).find("particle 144"), std::string::npos);
   EXPECT_NE(refusal([&] { world.object(0).set_targets(pin, off); }).find("not finite"), std::string::npos);
   EXPECT_NE(refusal([&] { world.object(0).set_targets(pin, few); }).find("3 positions"), std::string::npos);
+  const std::vector<int> twice = {0, 0};
+  const std::vector<Vec3f> two(2);
+  EXPECT_NE(refusal([&] { world.object(0).set_targets(twice, two); }).find("particle 0: is given twice"),
+            std::string::npos);
   EXPECT_THROW(world.collider(7).set_pose({}), Error);
   EXPECT_THROW(world.collider(0).set_pose({{}, {0, 0, 0, 0}}), Error);
   EXPECT_THROW(world.collider(0).set_pose({{nan, 0, 0}, {}}), Error);

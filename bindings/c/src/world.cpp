@@ -28,11 +28,10 @@ void give_world(std::shared_ptr<WorldHandle> made, pliant_world** into) {
 class Stepping {
  public:
   explicit Stepping(WorldHandle& world) : world_(world) {
-    std::thread::id none;
-    if (!world.stepper.compare_exchange_strong(none, std::this_thread::get_id()))
+    if (world.is_stepping.exchange(true))
       throw StatusError(PLIANT_BUSY, "the World is in a step", "call again after it");
   }
-  ~Stepping() { world_.stepper.store(std::thread::id()); }
+  ~Stepping() { world_.is_stepping.store(false); }
   Stepping(const Stepping&) = delete;
   Stepping& operator=(const Stepping&) = delete;
 
@@ -95,9 +94,8 @@ pliant_status pliant_world_create(const pliant_scene* scene, int32_t threads, pl
 pliant_status pliant_world_free(pliant_world* world) {
   return guarded([&] {
     if (world == nullptr) return;
-    const std::thread::id stepper = at<pliant_world>(world)->stepper.load();
-    if (stepper != std::thread::id() && stepper != std::this_thread::get_id())
-      throw StatusError(PLIANT_BUSY, "the World is in a step of another thread", "free it after the step");
+    if (at<pliant_world>(world)->is_stepping)
+      throw StatusError(PLIANT_BUSY, "the World is in a step", "free it after the step");
     take(world, Kind::world);
   });
 }

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstring>
 #include <string>
-#include <thread>
 
 #include "handles.h"
 #include "pliant/world.h"
@@ -21,15 +20,13 @@ struct WorldHandle {
   Report report{};
   bool records_joint_loads = false, records_contacts = false;
   std::string folder = ".";  ///< of the paths in what is added
-  /// The thread that steps it; of no thread between steps.
-  std::atomic<std::thread::id> stepper{};
-  bool is_stepping() const { return stepper.load() != std::thread::id(); }
+  std::atomic<bool> is_stepping{false};
 };
 
 /// The World of a handle, which is not in a step. Throws a StatusError if it is, or if the handle is stale.
 inline std::shared_ptr<WorldHandle> at(const pliant_world* handle) {
   auto world = at<pliant_world>(handle);
-  if (world->is_stepping()) throw StatusError(PLIANT_BUSY, "the World is in a step", "call again after it");
+  if (world->is_stepping) throw StatusError(PLIANT_BUSY, "the World is in a step", "call again after it");
   return world;
 }
 

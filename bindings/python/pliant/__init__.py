@@ -1,6 +1,7 @@
 """Pliant: position based dynamics of cloth, ropes, soft bodies, rigid bodies, liquids and grains.
 
-A Scene describes a simulation, a World runs it, and its objects give and take numpy arrays:
+A Scene describes a simulation, a World runs it, and its objects give and take numpy arrays. help(pliant.format) lists
+the members of a Scene.
 
 >>> import pliant
 >>> scene = pliant.Scene()

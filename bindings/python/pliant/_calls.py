@@ -30,7 +30,7 @@ _NAMED = {
 _INT_MOST = 2**31 - 1
 
 
-def _shown(value: Any) -> str:
+def shown(value: Any) -> str:
     """A value and its type, short."""
     if value is None:
         return "None"
@@ -41,9 +41,18 @@ def _shown(value: Any) -> str:
     return f"{article} {name}"
 
 
+def is_unicode(text: str) -> bool:
+    """False if UTF-8 cannot hold a text, for its lone surrogates."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
+
+
 def wrong_type(what: str, value: Any, expected: str) -> str:
     """The text of a TypeError."""
-    return f"{what} is {_shown(value)}; pass {expected}"
+    return f"{what} is {shown(value)}; pass {expected}"
 
 
 def _alternatives(annotation: str) -> list[str]:
@@ -101,6 +110,8 @@ def _problem(of: _Parameters, given: Sequence[Any], named: Mapping[str, Any]) ->
         if name not in values and name not in of.free:
             return f"needs '{name}'; it takes {of.list()}"
     for name, value in values.items():
+        if isinstance(value, str) and not is_unicode(value):
+            return f"{name} is {shown(value)} that is not valid Unicode; remove its lone surrogates"
         kinds = of.annotations.get(name)
         if name == "self" or kinds is None or any(_fits_one(value, kind) for kind in _alternatives(kinds)):
             continue
@@ -129,7 +140,7 @@ def explain(function: Callable[..., Any], given: Sequence[Any], named: Mapping[s
     except (SyntaxError, AttributeError, IndexError, AssertionError):
         return f"{called} was given arguments of wrong types; see its docstring"
     if problem is None:
-        kinds = ", ".join(_shown(value) for value in [*given[1:], *named.values()])
+        kinds = ", ".join(shown(value) for value in [*given[1:], *named.values()])
         return f"{called} was given arguments of wrong types: {kinds}; it takes {of.list()}"
     return f"{called} {problem}" if problem.split(" ")[0] in ("takes", "has", "was", "needs") else f"{called}: {problem}"
 

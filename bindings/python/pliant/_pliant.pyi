@@ -340,7 +340,7 @@ class Object:
 
     def multipliers(self, type: str) -> pliant._types.FloatArray:
         """
-        Multipliers of the last substep of the constraints of a type, as "distance"; empty unless they were stored (settings.record_multipliers). The force is the multiplier over the square of the substep [s^2]. Raises Error if it has no constraints of the type: `constraints` lists them.
+        Multipliers of the last substep of the constraints of a type, as "distance", in the order of their groups. Those of distances with compliance are always stored, others if settings.record_multipliers is set; what is not stored gives an empty array. A multiplier over the square of the substep [s^2] is the force along the gradient. Raises Error if it has no constraints of the type: `constraints` lists them.
         """
 
     def pose(self, body: int | str = 0) -> pliant._types.Pose:
@@ -581,7 +581,9 @@ class Edit:
         """
 
     def set_masses(self, masses: pliant._types.VectorLike) -> None:
-        """Sets the mass of each particle, > 0 [kg]; velocities stay."""
+        """
+        Sets the mass of each particle, > 0 [kg]; infinity: fixed. Velocities stay.
+        """
 
     def describe(self, **members: Any) -> None:
         """

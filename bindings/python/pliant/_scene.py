@@ -6,12 +6,13 @@ import copy
 import json
 import math
 import os
+import stat
 from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, Union
 
 import numpy as np
 
 from . import _pliant
-from ._calls import no_scene_attribute
+from ._calls import is_unicode, no_scene_attribute
 from ._errors import Error
 from ._types import Finding
 
@@ -82,6 +83,12 @@ def _plain_number(value: Any, pointer: str) -> Any:
     return value
 
 
+def _plain_text(value: str, what: str, pointer: str) -> str:
+    if not is_unicode(value):
+        raise Error(f"{what} {value!r} is not valid Unicode", "remove its lone surrogates", element=pointer)
+    return value
+
+
 def _is_pair(value: Any) -> bool:
     return isinstance(value, (tuple, list)) and len(value) == 2
 
@@ -91,6 +98,7 @@ def _plain_items(value: Mapping[Any, Any], arrays: _Arrays, pointer: str, depth:
     for key, item in value.items():
         if not isinstance(key, str):
             raise Error(f"the key {key!r} is no str", "names of members are str", element=pointer)
+        _plain_text(key, "the key", pointer)
         at = _step(pointer, key)
         if key in ("mesh", "skin") and _is_pair(item):
             plain[key] = arrays.add("meshes", at, item)
@@ -110,6 +118,8 @@ def _plain(value: Any, arrays: _Arrays, pointer: str = "", depth: int = 0) -> An
     if isinstance(value, Mapping):
         return _plain_items(value, arrays, pointer, depth + 1)
     if isinstance(value, np.ndarray):
+        if np.any(getattr(value, "mask", False)):
+            raise Error("this array has masked values", "fill or remove them", element=pointer)
         if value.dtype.kind not in "biuf":
             raise Error(f"this is an array of {value.dtype}", "pass numbers", element=pointer)
         if value.dtype.kind == "f" and not np.isfinite(value).all():
@@ -117,7 +127,9 @@ def _plain(value: Any, arrays: _Arrays, pointer: str = "", depth: int = 0) -> An
         return value.tolist()
     if isinstance(value, np.generic):
         value = value.item()
-    if isinstance(value, (str, bool, int, float)) or value is None:
+    if isinstance(value, str):
+        return _plain_text(value, "the text", pointer)
+    if isinstance(value, (bool, int, float)) or value is None:
         return _plain_number(value, pointer)
     if isinstance(value, (list, tuple, range)):
         return [_plain(item, arrays, _step(pointer, i), depth + 1) for i, item in enumerate(value)]
@@ -246,7 +258,11 @@ class Scene(dict[str, Any]):
         name = os.fspath(path)
         if not isinstance(name, str):
             raise TypeError("a path is a str or os.PathLike")
+        if not is_unicode(name):
+            raise Error(f"the path {name!r} is not valid Unicode", "pass the path of a scene file")
         try:
+            if not stat.S_ISREG(os.stat(name).st_mode):  # opening a pipe would wait for its writer
+                raise Error("not a regular file", "pass the path of a scene file", file=name)
             with open(name, encoding="utf-8") as file:
                 text = file.read()
         except (OSError, UnicodeError) as error:

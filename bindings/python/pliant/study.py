@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence, Union
 
 import numpy as np
 
-from . import _pliant
+from . import _calls, _pliant
 from ._errors import Error
 from ._scene import Scene, SceneLike, as_scene, copied, files_of
 
@@ -115,7 +115,7 @@ class Variant:
         row["state_hash"] = world.state_hash()
         for name, measure in self.measures.items():
             try:
-                row[name] = _plain(measure(world))
+                row[name] = _as_kept(measure(world))
             except Exception as error:
                 raise _InMeasure(f"measure '{name}': {_words_of(error)}") from error
         row["ok"] = report.ok and not report.stopped
@@ -131,9 +131,17 @@ def _words_of(error: Exception) -> str:
     return str(error) if isinstance(error, (Error, _InMeasure)) else f"{type(error).__name__}: {error}"
 
 
-def _plain(value: Any) -> Any:
-    """A numpy number or array as JSON would give it back, so that rows do not depend on `resume`."""
-    return value.tolist() if isinstance(value, (np.generic, np.ndarray)) else value
+def _as_kept(value: Any) -> Any:
+    """A measure as a file of rows gives it back, so that rows do not depend on `resume`."""
+    if isinstance(value, (np.generic, np.ndarray)) and value.dtype.kind in "biuf":
+        return value.tolist()
+    try:
+        text = json.dumps(value, ensure_ascii=False, default=lambda of: of.tolist())
+        text.encode()
+        return json.loads(text)
+    except (TypeError, AttributeError, ValueError):
+        problem = f"returned {_calls.shown(value)}, which no table holds"
+        raise Error(problem, "return numbers, str, lists or arrays") from None
 
 
 def _stamp(folder: str, path: str) -> list[Any]:
@@ -238,11 +246,7 @@ class _Kept:
     def add(self, key: str, row: dict[str, Any]) -> None:
         if self.path is None:
             return
-        try:
-            line = json.dumps({"key": key, "row": row}, default=lambda value: value.tolist())
-        except (TypeError, AttributeError):
-            words = "a study with `resume` keeps rows as JSON: measures return numbers, str, lists or arrays"
-            raise TypeError(words) from None
+        line = json.dumps({"key": key, "row": row}, default=lambda value: value.tolist())
         with open(self.path, "a", encoding="utf-8") as file:
             file.write(self._begin + line + "\n")
         self._begin = ""

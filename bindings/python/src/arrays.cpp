@@ -70,6 +70,19 @@ nb::object converted(nb::handle given, char type, const std::string& what) {
 
 }  // namespace
 
+namespace {
+
+/// Refuses an array of numpy.ma with masked values, whose buffer holds what lies under the mask. Others of this kind,
+/// and all others, are as they look.
+void refuse_masked(nb::handle given, const char* what) {
+  static const nb::object* plain = new nb::object(numpy().attr("ndarray"));
+  if (given.type().is(*plain) || !nb::isinstance(given, *plain) || !nb::hasattr(given, "mask")) return;
+  if (nb::bool_(given.attr("mask").attr("any")()))
+    throw Error({}, std::string(what) + " have masked values", "fill or remove them");
+}
+
+}  // namespace
+
 bool Numbers::take(nb::handle given, char type, int columns, const char* what) {
   if (PyObject_CheckBuffer(given.ptr()) == 0) return false;
   if (PyObject_GetBuffer(given.ptr(), &view_, PyBUF_FORMAT | PyBUF_STRIDES) != 0) {
@@ -91,6 +104,7 @@ bool Numbers::take(nb::handle given, char type, int columns, const char* what) {
 }
 
 Numbers::Numbers(nb::handle given, char type, int columns, const char* what) {
+  refuse_masked(given, what);
   if (take(given, type, columns, what)) return;
   converted_ = converted(given, type, what);
   if (columns > 0 && nb::cast<std::size_t>(converted_.attr("size")) == 0 && nb::cast<int>(converted_.attr("ndim")) == 1)

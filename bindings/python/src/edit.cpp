@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
 
 #include "arrays.h"
 #include "object.h"
@@ -150,7 +151,13 @@ void set_masses(EditRef& self, nb::handle masses) {
                 std::to_string(given.rows()) + " masses are given for " + std::to_string(object.positions.size()) +
                     " particles",
                 "give one for each");
-  object.masses.assign(given.floats(), given.floats() + given.rows());
+  const std::span<const float> all(given.floats(), given.rows());
+  const auto bad = std::find_if_not(all.begin(), all.end(), [](float mass) { return mass > 0; });
+  if (bad != all.end())
+    throw Error({.object = object.name, .element = "particle " + std::to_string(bad - all.begin())},
+                "has the mass " + repr_of(nb::float_(static_cast<double>(*bad))) + " kg",
+                "give a number above 0; infinity fixes the particle");
+  object.masses.assign(all.begin(), all.end());
 }
 
 void describe(EditRef& self, const nb::kwargs& members) {
@@ -299,7 +306,7 @@ void bind_matter(nb::class_<EditRef>& c) {
            "for the type; 0: rigid. `damping`: None: as before.")
       .def("set_masses", &set_masses, nb::arg("masses"),
            nb::sig("def set_masses(self, masses: pliant._types.VectorLike) -> None"),
-           "Sets the mass of each particle, > 0 [kg]; velocities stay.")
+           "Sets the mass of each particle, > 0 [kg]; infinity: fixed. Velocities stay.")
       .def("describe", &describe, nb::arg("members"), nb::sig("def describe(self, **members: typing.Any) -> None"),
            "Replaces the description by one as of Scene.add(), with another material, thickness or pins, for example. "
            "It must have as many particles in the same order: each keeps position and velocity. What earlier calls "

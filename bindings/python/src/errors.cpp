@@ -38,7 +38,9 @@ void translate(const std::exception_ptr& pointer, void* /*unused*/) {
   } catch (const std::bad_alloc&) {
     PyErr_SetString(PyExc_MemoryError, "there is not enough memory; use smaller objects, or free what is not needed");
   } catch (const std::bad_cast&) {
-    PyErr_SetString(PyExc_TypeError, "an argument holds values of a wrong type; see the docstring of what was called");
+    PyErr_SetString(PyExc_TypeError,
+                    "an argument holds values of a wrong type, or text that is not valid Unicode; see the docstring of "
+                    "what was called");
   }
 }
 

@@ -170,12 +170,10 @@ void bind_reading(nb::class_<ObjectRef>& c) {
           "Volume that its triangles enclose [m^3].")
       .def("multipliers", &multipliers, nb::arg("type"),
            nb::sig("def multipliers(self, type: str) -> pliant._types.FloatArray"),
-           "Multipliers of the last substep of the constraints of a type, as \"distance\"; empty unless they were "
-           "stored "
-           "(settings.record_multipliers). The force is the multiplier over the square of the substep [s^2]. Raises "
-           "Error "
-           "if "
-           "it has no constraints of the type: `constraints` lists them.");
+           "Multipliers of the last substep of the constraints of a type, as \"distance\", in the order of their "
+           "groups. Those of distances with compliance are always stored, others if settings.record_multipliers is "
+           "set; what is not stored gives an empty array. A multiplier over the square of the substep [s^2] is the "
+           "force along the gradient. Raises Error if it has no constraints of the type: `constraints` lists them.");
 }
 
 void bind_joints(nb::class_<ObjectRef>& c) {

@@ -210,7 +210,9 @@ BAD: dict[str, Callable[[pliant.World, Any], Any]] = {
     "compliance below zero": lambda w, e: e.set_compliance("distance", -1),
     "compliance of None": lambda w, e: e.set_compliance("distance", None),
     "masses of fewer": lambda w, e: e.set_masses([1, 2]),
-    "masses of zero": lambda w, e: (e.set_masses(np.zeros(36)), e.apply()),
+    "masses of zero": lambda w, e: e.set_masses(np.zeros(36)),
+    "masses below zero": lambda w, e: e.set_masses([1] * 35 + [-1]),
+    "masses of nan": lambda w, e: e.set_masses([np.nan] * 36),
     "another name": lambda w, e: e.describe(name="shirt", cloth=CLOTH),
     "no description": lambda w, e: e.describe(),
     "a description of other particles": lambda w, e: e.describe(cloth={"mesh": pliant.grid_mesh(3, 3, 1, 1)}),
@@ -317,7 +319,7 @@ def test_an_edit_from_before_another_is_refused(world: pliant.World) -> None:
 
 def test_an_edit_that_failed_outdates_no_other(world: pliant.World) -> None:
     wrong, right = world.edit("cloth"), world.edit("cloth")
-    wrong.set_masses(np.zeros(36))
+    wrong.attach([1], [[0, 0, 0]], -1)
     with pytest.raises(pliant.Error):
         wrong.apply()
     right.pin([30])

@@ -193,6 +193,25 @@ def test_targets(world: pliant.World, bad: str) -> None:
     unchanged(world, lambda: world["cloth"].set_targets([0], BAD_VECTORS[bad]()))
 
 
+def test_targets_of_a_particle_twice(world: pliant.World) -> None:
+    unchanged(world, lambda: world["cloth"].set_targets([0, 0], [[0, 0, 0], [1, 0, 0]]))
+    with pytest.raises(pliant.Error, match="particle 0: is given twice; give each one position"):
+        world["cloth"].set_targets([0, 0], [[0, 0, 0], [1, 0, 0]])
+
+
+def test_masked_arrays(world: pliant.World) -> None:
+    """What lies under a mask is no value; an array without masked values is taken."""
+    values = np.ma.zeros((N, 3), np.float32)
+    world["cloth"].set_velocities(values)
+    values[3, 1] = np.ma.masked
+    unchanged(world, lambda: world["cloth"].set_velocities(values))
+    unchanged(world, lambda: world["cloth"].set_velocities(values.astype(float)))
+    with pytest.raises(pliant.Error, match="velocities have masked values; fill or remove them"):
+        world["cloth"].set_velocities(values)
+    with pytest.raises(pliant.Error, match="/gravity: this array has masked values"):
+        pliant.World(pliant.Scene(gravity=np.ma.array([0, -9.81, 0], mask=[0, 1, 0])))
+
+
 @pytest.mark.parametrize("bad", BAD_VECTOR)
 @pytest.mark.parametrize("what", ["teleport", "ball", "board", "ball at once", "surface"])
 def test_a_vector(world: pliant.World, what: str, bad: str) -> None:

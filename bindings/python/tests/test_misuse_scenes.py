@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import math
+import os
 import pathlib
+import threading
 from typing import Any, Callable
 
 import numpy as np
@@ -116,6 +118,42 @@ def test_scenes(tmp_path: pathlib.Path, bad: str) -> None:
     with pytest.raises((*RAISES, RecursionError)) as caught:
         SCENES[bad](tmp_path)
     assert str(caught.value)
+
+
+@pytest.mark.parametrize("read", [pliant.World, pliant.Scene.read, pliant.World.load, pliant.read_mesh])
+def test_a_pipe_is_no_file(tmp_path: pathlib.Path, read: Callable[[Any], Any]) -> None:
+    """Reading it would wait for a writer."""
+    pipe = tmp_path / "pipe.obj"
+    os.mkfifo(pipe)
+    # A writer that ends after a second: a reader that opens the pipe then fails here instead of waiting forever.
+    ends = threading.Timer(1, os.close, [os.open(pipe, os.O_RDWR)])
+    ends.start()
+    with pytest.raises(pliant.Error, match="not a regular file") as caught:
+        read(str(pipe))
+    ends.join()
+    assert caught.value.file == str(pipe)
+
+
+LONE = "\ud800"
+NOT_UNICODE: dict[str, tuple[Callable[[], Any], str]] = {
+    "a name": (lambda: pliant.World({"objects": [{"name": LONE, "rope": ROPE}]}), "/objects/0/name: "),
+    "a key": (lambda: pliant.World({"objects": [], LONE: 1}), "the key '\\ud800'"),
+    "a name in a list": (lambda: pliant.World({"pairs": [{"objects": ["a", LONE]}]}), "/pairs/0/objects/1: "),
+    "an object to add": (lambda: pliant.World({"objects": []}).add(name=LONE, rope=ROPE), "/objects/0/name: "),
+    "a path": (lambda: pliant.World(LONE), "the path '\\ud800' is not valid Unicode"),
+    "a path to load": (lambda: pliant.World.load(LONE), "text that is not valid Unicode"),
+    "an array": (lambda: pliant.Scene(arrays={LONE: [[0, 0, 0]]}).compiled(), "text that is not valid Unicode"),
+    "text": (lambda: pliant.Scene.parse(LONE), "text is '\\ud800', a str that is not valid Unicode"),
+    "a look-up": (lambda: pliant.World({"objects": []})[LONE], "name is '\\ud800', a str that is not valid Unicode"),
+}
+
+
+@pytest.mark.parametrize("bad", NOT_UNICODE)
+def test_text_that_is_not_valid_unicode(bad: str) -> None:
+    call, says = NOT_UNICODE[bad]
+    with pytest.raises((pliant.Error, TypeError, KeyError)) as caught:
+        call()
+    assert says in str(caught.value) and "not valid Unicode" in str(caught.value)
 
 
 BAD_FORCES: dict[str, Callable[[Any], Any]] = {

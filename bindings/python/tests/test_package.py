@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import doctest
 import inspect
+import json
 import pathlib
 import re
 import subprocess
@@ -111,3 +112,14 @@ def test_types_of_the_format_are_dict_at_run_time() -> None:
     assert pliant.format.Cloth is dict
     with pytest.raises(AttributeError):
         getattr(pliant.format, "cloth")
+
+
+def test_help_lists_the_members_of_scenes() -> None:
+    import pydoc
+
+    text = pydoc.render_doc("pliant.format", renderer=pydoc.plaintext)
+    assert "class Cloth(TypedDict" in text and "The objects, which move." in text
+    records = json.loads(pliant._pliant.scene_schema())["$defs"]
+    names = {"".join(part.capitalize() for part in re.split("[-_]", record)) for record in records}
+    assert set(dir(pliant.format)) == names and all(f"{name}(" in text or f"{name} = " in text for name in names)
+    assert "help(pliant.format)" in pydoc.render_doc("pliant", renderer=pydoc.plaintext)

@@ -221,8 +221,19 @@ def test_arrays_as_measures_are_kept(tmp_path: pathlib.Path) -> None:
     first = pliant.study(cloth_scene(), {"/settings/substeps": [5]}, measure=heights, workers=0, resume=kept)
     second = pliant.study(cloth_scene(), {"/settings/substeps": [5]}, measure=heights, workers=0, resume=kept)
     np.testing.assert_array_equal(first[0]["heights"], np.asarray(second[0]["heights"], np.float32))
-    with pytest.raises(TypeError, match="as JSON"):
-        pliant.study(cloth_scene(), {"/settings/substeps": [7]}, measure=lambda w: w, workers=0, resume=kept)
+
+
+@pytest.mark.parametrize("resumes", [False, True])
+@pytest.mark.parametrize(
+    "bad", [lambda w: w, lambda w: [w], lambda w: b"bytes", lambda w: 1j, lambda w: np.array([len]), lambda w: "\ud800"]
+)
+def test_measures_that_no_table_holds(tmp_path: pathlib.Path, bad: Any, resumes: bool) -> None:
+    kept = tmp_path / "rows.jsonl" if resumes else None
+    vary = {"/settings/substeps": [5]}
+    table = pliant.study(cloth_scene(), vary, frames=1, measure={"bad": bad}, workers=0, resume=kept)
+    assert not table[0]["ok"] and table[0]["bad"] is None
+    assert "measure 'bad': returned" in table[0]["explain"] and "numbers, str, lists or arrays" in table[0]["explain"]
+    table.write(tmp_path / "table.csv")
 
 
 def test_variants_one_by_one() -> None:

@@ -15,8 +15,8 @@ extern "C" {
  * too. */
 PLIANT_API pliant_status pliant_world_create(const pliant_scene* scene, int32_t threads, pliant_world** world);
 
-/* Frees a World. Its writers and states stay. PLIANT_BUSY while another thread steps it, which then keeps its
- * handle. A force of its own may free it: the step under way ends first. NULL is accepted. */
+/* Frees a World. Its writers and states stay. PLIANT_BUSY while it is in a step, also from a force of its own: the
+ * handle then stays. NULL is accepted. */
 PLIANT_API pliant_status pliant_world_free(pliant_world* world);
 
 /* Advances by `dt` seconds, > 0; 0: by the frame time of its scene. Keep it constant. Refused if it is negative, not
