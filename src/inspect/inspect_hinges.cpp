@@ -39,7 +39,8 @@ double substeps_to_bend_as_sheet(const Object& object, const Scene& scene, doubl
   const auto frame_time = static_cast<double>(scene.frame_time) * share;
   const double needed =
       std::ceil(frame_time * std::sqrt(facts_of_sheet(object).stiffness / most_stiffness_of_sheets) + 1e-6);
-  const bool would = needed <= most_substeps_of_frame && bends_as_sheet(object, frame_time / std::max(needed + 1, 1.));
+  const bool would =
+      needed + 1 <= most_substeps_of_frame && bends_as_sheet(object, frame_time / std::max(needed + 1, 1.));
   return would ? needed + 1 : 0;
 }
 

@@ -228,7 +228,8 @@ PLIANT_HD void project_parts(const Vec3<R> (&x)[slot_count<T>], const R (&w)[slo
   if constexpr (general)
     for (R& each : change) each = each * R(a.relaxation);
   if constexpr (keeps_multiplier) {
-    const R along = change[0] * part.share(0) + change[1] * part.share(1);
+    const R square = part.whole * part.whole;  // of C: C_1^2 + C_2^2 is that and 4
+    const R along = (change[0] * part.share(0) + change[1] * part.share(1)) * (square / (square + R(4.f)));
     response.multiplier = select(needed, multiplier + (general ? along * response.share : along), response.multiplier);
   }
   PLIANT_UNROLL

@@ -135,12 +135,15 @@ bool is_pulled(const PinchSide& a, const PinchSide& b, const Vec3f& n, float h, 
 }
 
 /// Gives a body the friction of a vertex that its object holds, as if that could not move otherwise: so light a vertex
-/// passes little of what the fixed particles bear on to a body. That they bear it is left out.
-void hold(const PinchSide& side, float scale) {
-  if (!(side.motion.inverse_mass > 0)) return;
+/// passes little of what the fixed particles bear on to a body. That they bear it is left out. Returns the motion of the
+/// body's place.
+Vec3f hold(const PinchSide& side, float scale) {
+  if (!(side.motion.inverse_mass > 0)) return {};
   const Vec3f along = side.slip - side.normal * dot(side.normal, side.slip);
   const Vec3f impulse = -impulse_between({}, side, along), across = impulse - side.normal * dot(side.normal, impulse);
-  answer(side, 0, {}, across * share_in_cone(*side.contact, across * (scale * side.sign)), scale);
+  const Vec3f given = across * share_in_cone(*side.contact, across * (scale * side.sign));
+  answer(side, 0, {}, given, scale);
+  return -response(side, given);
 }
 
 /// Gives both sides of a vertex of inverse mass `w` their impulses, across the normal only if the vertex sticks to both.
@@ -148,15 +151,16 @@ void hold(const PinchSide& side, float scale) {
 float join(const PinchSide& a, const PinchSide& b, float w, float h, bool is_held, bool sticks) {
   const float lost = lost_room(a, b);
   if (!(lost > 0) && !(a.contact->push > 0 && b.contact->push > 0)) return 0;
-  const Vec3f n = unit_or(a.normal - b.normal, a.normal), slip = b.slip - a.slip;
-  const Vec3f impulse = impulse_between(a, b, (slip - n * dot(n, slip)) + n * lost);
+  const Vec3f n = unit_or(a.normal - b.normal, a.normal);
+  Vec3f slip = b.slip - a.slip;
+  Vec3f impulse = impulse_between(a, b, (slip - n * dot(n, slip)) + n * lost);
   const float along = lost > 0 ? max(dot(n, impulse), 0.f) : 0;
   const float scale_a = w + dot(n, response(a, n)), scale_b = w + dot(n, response(b, n));
   answer(a, along, n, {}, scale_a);  // opposite ones, also where normals are not: momentum is kept
   answer(b, along, -n, {}, scale_b);
   if (is_held) {
-    hold(a, scale_a);
-    hold(b, scale_b);
+    slip += hold(a, scale_a) - hold(b, scale_b);
+    impulse = impulse_between(a, b, slip - n * dot(n, slip));
   }
   if (!sticks || is_pulled(a, b, n, h, is_held)) return along;
   const Vec3f sticking = impulse - n * dot(n, impulse);
