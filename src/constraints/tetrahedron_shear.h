@@ -52,9 +52,9 @@ struct TetrahedronShear : TetrahedronStrain {
     return sqrt(max(f.squares() + value[1] * value[1] - R(4), R(1e-14f)));
   }
 
-  /// Where a step along dC/dF that takes C to be linear would go far beyond the least energy: with G = F + (J - 2) dJ/dF
-  /// = C dC/dF, C^2 / 2 changes along G by |G|^2 at first, and that by about |G|^2 + (dJ/dF . G)^2, where a linear C has
-  /// |G|^4 / C^2. In the dilation of a cube at rest (dJ/dF . G)^2 is twice that and without effect, hence 3. None where
+  /// Where a step along dC/dF that takes C to be linear would go far beyond the least energy: with G = F + (J - 2)
+  /// dJ/dF = C dC/dF, C^2 / 2 changes along G by |G|^2 at first, and that by about |G|^2 + (dJ/dF . G)^2, where a
+  /// linear C has |G|^4 / C^2. In the dilation of a cube at rest (dJ/dF . G)^2 is twice that and without effect, hence 3. None where
   /// the strain is small.
   template <class R>
   PLIANT_HD static auto needs_split(const ByColumns<R>& f) {

@@ -1,7 +1,7 @@
 // Soft bodies that are torn to twenty times their length and back return to their shape, by every model, with and
-// without damping. Where a tetrahedron is wide and flat, the shear constraint hardly says where its least energy is, and
-// a body that followed it gained energy until its values were no longer finite: 10 of these 17 ways with the damping of
-// foam, and 12 without.
+// without damping. Where a tetrahedron is wide and flat, the shear constraint hardly says where its least energy is,
+// and a body that followed it gained energy until its values were no longer finite: 10 of these 17 ways with the
+// damping of foam, and 12 without.
 #include <gtest/gtest.h>
 
 #include <cmath>

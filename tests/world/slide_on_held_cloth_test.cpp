@@ -1,5 +1,5 @@
-// Tests that a body which slides on cloth that is held stops as on anything else with its friction, whatever lies beneath
-// the cloth and however slippery that is. The cloth's vertices are a ten thousandth of the body's mass.
+// Tests that a body which slides on cloth that is held stops as on anything else with its friction, whatever lies
+// beneath the cloth and however slippery that is. The cloth's vertices are a ten thousandth of the body's mass.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -90,8 +90,8 @@ float way_of(Under under, Held held, float with_cloth, float speed) {
   return world.object(last).positions()[0].x - start;
 }
 
-/// It slid 120 to 160 mm on planes and boxes, whatever their friction, and 66 mm on slippery meshes and bodies, where 18
-/// are right. Now 2 to 31 mm, most of them 17 to 19: why some stop in a third and less is open.
+/// It slid 120 to 160 mm on planes and boxes, whatever their friction, and 66 mm on slippery meshes and bodies, where
+/// 18 are right. Now 2 to 31 mm, most of them 17 to 19: why some stop in a third and less is open.
 TEST(SlideOnHeldCloth, StopsByTheFrictionOfTheCloth) {
   constexpr float speed = 0.5f, right = speed * speed / (2 * sliding_on_cloth * 9.81f);
   for (const Under under : {Under::plane, Under::box, Under::mesh, Under::body})

@@ -123,8 +123,8 @@ PathContact first_of(std::vector<Met>& met, const Way& way, const ContactPath& p
 }
 
 /// Appends the points of a triangle at the place where it is met, as seen from the start of the path. One that is
-/// passed and has none there keeps those of the start if they stop nothing: where it is passed the solid may be over its neighbours, and
-/// what spins or is pushed would find no contact there.
+/// passed and has none there keeps those of the start if they stop nothing: where it is passed the solid may be over
+/// its neighbours, and what spins or is pushed would find no contact there.
 void add_points(const Way& way, const ContactPath& path, const std::vector<TrianglePoint>& at_start, const Met& met,
                 std::vector<TrianglePoint>& points) {
   const std::size_t first = points.size();

@@ -135,8 +135,8 @@ bool is_pulled(const PinchSide& a, const PinchSide& b, const Vec3f& n, float h, 
 }
 
 /// Gives a body the friction of a vertex that its object holds, as if that could not move otherwise: so light a vertex
-/// passes little of what the fixed particles bear on to a body. That they bear it is left out. Returns the motion of the
-/// body's place.
+/// passes little of what the fixed particles bear on to a body. That they bear it is left out. Returns the motion of
+/// the body's place.
 Vec3f hold(const PinchSide& side, float scale) {
   if (!(side.motion.inverse_mass > 0)) return {};
   const Vec3f along = side.slip - side.normal * dot(side.normal, side.slip);
