@@ -54,8 +54,8 @@ struct TetrahedronShear : TetrahedronStrain {
 
   /// Where a step along dC/dF that takes C to be linear would go far beyond the least energy: with G = F + (J - 2)
   /// dJ/dF = C dC/dF, C^2 / 2 changes along G by |G|^2 at first, and that by about |G|^2 + (dJ/dF . G)^2, where a
-  /// linear C has |G|^4 / C^2. In the dilation of a cube at rest (dJ/dF . G)^2 is twice that and without effect, hence 3. None where
-  /// the strain is small.
+  /// linear C has |G|^4 / C^2. In the dilation of a cube at rest (dJ/dF . G)^2 is twice that and without effect, hence
+  /// 3. None where the strain is small.
   template <class R>
   PLIANT_HD static auto needs_split(const ByColumns<R>& f) {
     const Vec3<R> k0 = cross(f.y, f.z), k1 = cross(f.z, f.x), k2 = cross(f.x, f.y);
