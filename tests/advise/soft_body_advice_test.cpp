@@ -8,6 +8,7 @@
 #include "advise/advise_support.h"
 #include "matter/advice_settings.h"
 #include "pliant/soft_body.h"
+#include "support/pulled_cube.h"
 #include "world/advice.h"
 
 namespace pliant {
@@ -15,24 +16,7 @@ namespace {
 
 using namespace testing_support;
 
-/// A cube of foam of which one face is held, and the other is pulled away by `way` [m] and back within 0.2 s.
-Scene pulled_foam(float way) {
-  Scene scene;
-  SoftBodyOptions options;
-  options.name = "foam";
-  options.material = elastic_solid("foam");
-  Object body = make_soft_body(box_tetrahedra({0.2f, 0.2f, 0.2f}, {4, 4, 4}), options);
-  Motion motion;
-  motion.keyframes = {{0, {}, {}}, {0.1f, {way, 0, 0}, {}}, {0.2f, {}, {}}};
-  for (int i = 0; i < static_cast<int>(body.positions.size()); ++i) {
-    const float x = body.positions[static_cast<std::size_t>(i)].x;
-    if (std::fabs(x) > 0.09f) body.pins.push_back({i, x > 0 ? motion : Motion{}});
-  }
-  scene.add(body);
-  scene.gravity = {};
-  scene.frames = 120;
-  return scene;
-}
+Scene pulled_foam(float way) { return pulled_cube(way, elastic_solid("foam")); }
 
 bool stays_whole(const Scene& scene, const Settings& settings) {
   World world(scene, settings);

@@ -20,7 +20,33 @@ struct Load {
   float sliding;
 };
 
-enum class SlopeKind { plane, box, mesh };
+enum class SlopeKind { plane, box, mesh, body };
+
+/// The incline, along which gravity is tilted. `rub` sets its friction.
+template <class Rub>
+void add_slope(Scene& scene, SlopeKind kind, const Rub& rub) {
+  if (kind == SlopeKind::mesh) {
+    MeshCollider mesh;
+    mesh.mesh = grid_mesh(8, 8, 6, 6);
+    rub(mesh);
+    scene.add(mesh);
+  } else if (kind == SlopeKind::body) {
+    BodyOptions options;
+    options.position = {0, -1, 0};
+    options.kinematic = true;
+    Object slab = make_body({{Box{{3, 1, 3}}}}, options);
+    rub(slab);
+    scene.add(slab);
+  } else {
+    Collider solid;
+    if (kind == SlopeKind::box) {
+      solid.shape = Box{{3, 1, 3}};
+      solid.position = {0, -1, 0};
+    }
+    rub(solid);
+    scene.add(solid);
+  }
+}
 
 Scene on_incline(const Load& load, SlopeKind ground) {
   Scene scene;
@@ -31,20 +57,7 @@ Scene on_incline(const Load& load, SlopeKind ground) {
     on.static_friction = friction;
     on.kinetic_friction = load.sliding;
   };
-  if (ground == SlopeKind::mesh) {
-    MeshCollider mesh;
-    mesh.mesh = grid_mesh(8, 8, 6, 6);
-    rub(mesh);
-    scene.add(mesh);
-  } else {
-    Collider solid;
-    if (ground == SlopeKind::box) {
-      solid.shape = Box{{3, 1, 3}};
-      solid.position = {0, -1, 0};
-    }
-    rub(solid);
-    scene.add(solid);
-  }
+  add_slope(scene, ground, rub);
   BodyOptions options;
   options.position = {0.03f, load.half.y, 0.02f};
   Object box = make_body({{Box{load.half}}}, options);
@@ -92,25 +105,7 @@ World world_at(const StandingBody& what, int ground, float share, float mu) {
   Object body = make_body({{what.shape}}, options);
   rub(body);
   scene.add(body);
-  if (ground == 0 || ground == 1) {
-    Collider solid;
-    if (ground == 1) solid.shape = Box{{3, 1, 3}};
-    if (ground == 1) solid.position = {0, -1, 0};
-    rub(solid);
-    scene.add(solid);
-  } else if (ground == 2) {
-    MeshCollider mesh;
-    mesh.mesh = grid_mesh(8, 8, 6, 6);
-    rub(mesh);
-    scene.add(mesh);
-  } else {
-    BodyOptions of_ground;
-    of_ground.position = {0, -1, 0};
-    of_ground.kinematic = true;
-    Object slab = make_body({{Box{{3, 1, 3}}}}, of_ground);
-    rub(slab);
-    scene.add(slab);
-  }
+  add_slope(scene, static_cast<SlopeKind>(ground), rub);
   return World(scene);
 }
 
