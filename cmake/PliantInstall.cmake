@@ -27,7 +27,8 @@ set(pliant_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/pliant)
 set(pliant_package ${PROJECT_BINARY_DIR}/pliant-config.cmake ${PROJECT_BINARY_DIR}/pliant-config-version.cmake)
 # The C library, which needs none of the others: `cmake --install FOLDER --component c` installs it alone.
 if(TARGET pliant_c)
-  install(TARGETS pliant_c EXPORT pliant-c-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT c NAMELINK_COMPONENT c)
+  install(TARGETS pliant_c EXPORT pliant-c-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT c
+          NAMELINK_COMPONENT c)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/c/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT c)
   file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
   string(REGEX REPLACE "/$" "" up "${up}")

@@ -21,10 +21,12 @@ must(./drape WORKING_DIRECTORY ${WORK}/build_c)
 
 # The C library alone: a project in C finds it, one in C++ is told what else to install.
 must(${CMAKE_COMMAND} --install ${PLIANT_BUILD} --component c --prefix ${WORK}/prefix_c --config ${CONFIGURATION})
-must(${CMAKE_COMMAND} -S ${CONSUMER}/c -B ${WORK}/build_c_alone -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${WORK}/prefix_c "-DCMAKE_C_FLAGS=${FLAGS}")
+must(${CMAKE_COMMAND} -S ${CONSUMER}/c -B ${WORK}/build_c_alone -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${WORK}/prefix_c
+     "-DCMAKE_C_FLAGS=${FLAGS}")
 must(${CMAKE_COMMAND} --build ${WORK}/build_c_alone)
 must(./drape WORKING_DIRECTORY ${WORK}/build_c_alone)
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build_alone -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${WORK}/prefix_c
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build_alone -G ${GENERATOR}
+                        -D CMAKE_PREFIX_PATH=${WORK}/prefix_c
   RESULT_VARIABLE status ERROR_VARIABLE errors OUTPUT_QUIET)
 if(status EQUAL 0 OR NOT errors MATCHES "The C library alone was installed")
   message(FATAL_ERROR "a project in C++ was told where the C library alone is: ${errors}")
