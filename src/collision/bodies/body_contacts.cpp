@@ -158,7 +158,7 @@ bool BodyContacts::Task::may_open(int pair) const {
   const Pair& parts = of.pairs_.pairs()[at(pair)];
   const BodyPart &one = of.parts_[at(parts.first)], &other = of.parts_[at(parts.second)];
   const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
-  if (!one.is_convex() || !other.is_convex() || !is_renewed(one.body) || !is_renewed(other.body)) return false;
+  if (!one.is_convex() || !other.is_convex() || !may_begin(one.body) || !may_begin(other.body)) return false;
   const float most = (is_held(a) ? 0 : length(a.velocity)) + (is_held(b) ? 0 : length(b.velocity));
   const float speed = length(a.velocity - b.velocity) + most;
   return static_cast<double>(dt * most) > fast_share * size_of(parts) && !is_out_of_reach(parts, one, other, speed);
@@ -178,7 +178,7 @@ bool BodyContacts::Task::is_out_of_reach(const Pair& pair, const BodyPart& one, 
   constexpr float more_than_rounding = 1.01f;
   const auto is_polyhedron = [](const BodyPart& part) { return part.shape.kind == ConvexShape::Kind::polyhedron; };
   if (!one.is_convex() || !other.is_convex() || (is_polyhedron(one) && is_polyhedron(other))) return false;
-  if (!is_renewed(one.body) || !is_renewed(other.body)) return false;  // whose boxes are those of the frame's start
+  if (!may_begin(one.body) || !may_begin(other.body)) return false;  // whose boxes are those of the frame's start
   return of.pairs_.are_apart(pair.first, pair.second, more_than_rounding * static_cast<float>(reach_of(pair, speed)));
 }
 
@@ -299,9 +299,12 @@ void BodyContacts::update(Executor& executor, const std::vector<BodyState>& bodi
 }
 
 void BodyContacts::renew(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
-                         FunctionRef<bool(int, int)> meet, const std::vector<char>& of, float far,
+                         FunctionRef<bool(int, int)> meet, const std::vector<Again>& of, float far,
                          std::vector<BodyContact>& now) {
-  pairs_.renew(executor, parts_, bodies, dt, faster, meet, of);
+  renewed_.resize(of.size());
+  std::transform(of.begin(), of.end(), renewed_.begin(), [](Again again) { return again == Again::all ? 1 : 0; });
+  if (std::any_of(renewed_.begin(), renewed_.end(), [](char all) { return all != 0; }))
+    pairs_.renew(executor, parts_, bodies, dt, faster, meet, renewed_);
   const Task task{*this, bodies, now, dt, faster, nullptr, &of, far};
   find(executor, task);
   replace(executor, task, now);

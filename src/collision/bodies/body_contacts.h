@@ -45,12 +45,15 @@ class BodyContacts {
   void update(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
               FunctionRef<bool(int, int)> meet, const std::vector<BodyContact>& before, std::vector<BodyContact>& now);
 
-  /// Finds the contacts of some bodies again, for what is left of a frame: of those for which `of` is not zero [body];
-  /// of a plane or mesh, only with bodies that it may have met already. Of the others, contacts stay, with the gaps of
-  /// now, unless both have moved against each other by more than the share `far` of the smaller part's size since these
+  /// Which contacts of a body are found again within a frame.
+  enum class Again : char { none, touching, all };
+
+  /// Finds the contacts of some bodies again, for what is left of a frame: for each body those that it has, or all; of a
+  /// plane or mesh, only with bodies that it may have met already. Of the others, contacts stay, with the gaps of now,
+  /// unless both have moved against each other by more than the share `far` of the smaller part's size since these
   /// began.
   void renew(Executor& executor, const std::vector<BodyState>& bodies, float dt, float faster,
-             FunctionRef<bool(int, int)> meet, const std::vector<char>& of, float far, std::vector<BodyContact>& now);
+             FunctionRef<bool(int, int)> meet, const std::vector<Again>& of, float far, std::vector<BodyContact>& now);
 
   /// The bodies of each contact of the last update.
   const std::vector<std::pair<int, int>>& bodies() const { return bodies_; }
@@ -127,6 +130,7 @@ class BodyContacts {
   BodyPaths paths_;
   std::vector<std::size_t> first_;  ///< [task] its first contact
   std::vector<BodyContact> next_;
+  std::vector<char> renewed_;  ///< [body] nonzero: all its contacts are found again
   std::vector<std::pair<int, int>> bodies_;
 };
 

@@ -27,8 +27,8 @@ struct BodyContacts::Task {
   const std::vector<BodyState>& bodies;
   const std::vector<BodyContact>& before;
   float dt, faster;
-  const BodyPaths* paths = nullptr;            ///< null: straight ones
-  const std::vector<char>* renewed = nullptr;  ///< [body] nonzero: its contacts are found again; null: those of all are
+  const BodyPaths* paths = nullptr;             ///< null: straight ones
+  const std::vector<Again>* renewed = nullptr;  ///< [body] null: the contacts of all are found again
   float far = unlimited;  ///< contacts of others stay unless bodies have moved farther (BodyContacts::renew)
 
   /// Finds the contacts of pairs [first, last).
@@ -65,7 +65,9 @@ struct BodyContacts::Task {
   bool are_surely_apart(const Pair& pair, const BodyPart& one, const BodyPart& other, const Posed& relative,
                         float speed) const;
 
-  bool is_renewed(int body) const { return renewed == nullptr || (*renewed)[at(body)] != 0; }
+  bool is_renewed(int body) const { return renewed == nullptr || (*renewed)[at(body)] != Again::none; }
+  /// True if contacts of a body are looked for where it has none.
+  bool may_begin(int body) const { return renewed == nullptr || (*renewed)[at(body)] == Again::all; }
 
   /// True if boxes show that touch would find nothing. Between polyhedra it may find points that are farther apart.
   bool is_out_of_reach(const Pair& pair, const BodyPart& one, const BodyPart& other, float speed) const;

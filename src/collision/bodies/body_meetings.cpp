@@ -60,7 +60,7 @@ void BodyContacts::Task::find(int number, std::span<const BodyContact> old, Foun
   const Pair& pair = of.pairs_.pairs()[at(number)];
   const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
   const float speed = speed_of(number, found.is_opened);
-  if (old.empty() && ((!is_renewed(one.body) && !is_renewed(other.body)) || is_out_of_reach(pair, one, other, speed)))
+  if (old.empty() && ((!may_begin(one.body) && !may_begin(other.body)) || is_out_of_reach(pair, one, other, speed)))
     return;
   const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
   const bool stays_anyway = !is_renewed(one.body) && !is_renewed(other.body) && (far >= unlimited || !one.is_convex());

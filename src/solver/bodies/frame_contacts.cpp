@@ -75,6 +75,7 @@ void FrameContacts::find_beside_sleepers(Substep& s, BodySleep& sleep) {
 void FrameContacts::find(Substep& s, BodySleep& sleep) {
   read_states(s);
   turned_.assign(at(bodies_->dynamic()), 0);
+  rolled_ = turned_;
   const bool is_alone = s.part == nullptr;  // else other groups read the State's contacts at the same time
   if (sleep.any()) {
     if (is_alone) {
@@ -91,7 +92,7 @@ void FrameContacts::find(Substep& s, BodySleep& sleep) {
     }
     update(s, is_alone ? contacts_ : s.state.body_contacts);
   }
-  limit_turns();
+  limit_rolling();
   paths_.resize(states_.size());
   for (int body = 0; body < bodies_->dynamic(); ++body) begin_path(body);
   warn(s);
@@ -99,8 +100,8 @@ void FrameContacts::find(Substep& s, BodySleep& sleep) {
 
 /// Where a disc of radius r, whose axis has the sine s to the normal, turns by an angle, its lowest place runs round the
 /// rim by the angle over s. What was lowest has then risen by r angle^2 / 2 s.
-void FrameContacts::limit_turns() {
-  most_turned_.assign(at(bodies_->dynamic()), far_turned);
+void FrameContacts::limit_rolling() {
+  most_rolled_.assign(at(bodies_->dynamic()), far_turned);
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
     const auto& [a, b] = finder_.bodies()[at(i)];
     const BodyContact& contact = contacts_[at(i)];
@@ -111,7 +112,7 @@ void FrameContacts::limit_turns() {
       const float tilt = length(cross(axis, contact.normal)), radius = length(cross(axis, arm));
       if (tilt < least_tilt || tilt > most_tilt || !(radius > 0)) continue;
       const float limit = std::sqrt(2 * risen * size(i) * tilt / radius);
-      most_turned_[at(body)] = std::min(most_turned_[at(body)], std::max(limit, least_turned));
+      most_rolled_[at(body)] = std::min(most_rolled_[at(body)], std::max(limit, least_turned));
     }
   }
 }
@@ -181,9 +182,23 @@ bool FrameContacts::has_strayed(const BodyMotions& motions, int body) const {
   return largest(max(max(moved - max(way, none), min(way, none) - moved), none)) > far + slack;
 }
 
+bool FrameContacts::has_turned_far(const BodyMotions& motions, int body, float share) const {
+  return turned_[at(body)] + motions.turned(body) > share * far_turned;
+}
+
+bool FrameContacts::has_rolled_far(const BodyMotions& motions, int body, float share) const {
+  return rolled_[at(body)] + motions.turned(body) > share * most_rolled_[at(body)];
+}
+
+BodyContacts::Again FrameContacts::outdated(const BodyMotions& motions, int body) const {
+  using Again = BodyContacts::Again;
+  if (has_strayed(motions, body) || has_turned_far(motions, body, soon)) return Again::all;
+  return has_rolled_far(motions, body, soon) ? Again::touching : Again::none;
+}
+
 bool FrameContacts::are_outdated(const BodyMotions& motions, bool some_bounce) const {
   const auto turned = [&](int body) {
-    return body < bodies_->dynamic() && turned_[at(body)] + motions.turned(body) > most_turned_[at(body)];
+    return body < bodies_->dynamic() && (has_turned_far(motions, body, 1) || has_rolled_far(motions, body, 1));
   };
   bool any = false;  // bodies first: they are fewer than contacts
   for (int body = 0; body < bodies_->dynamic(); ++body) {
@@ -199,19 +214,18 @@ bool FrameContacts::are_outdated(const BodyMotions& motions, bool some_bounce) c
 
 /// Bodies that will soon have turned far are among them, so that contacts are found again less often.
 void FrameContacts::find_outdated(const BodyMotions& motions, bool some_bounce) {
-  is_outdated_.assign(states_.size(), 0);
-  for (int body = 0; body < bodies_->dynamic(); ++body) {
-    float& turned = turned_[at(body)];
-    turned += motions.turned(body);
-    is_outdated_[at(body)] = turned > soon * most_turned_[at(body)] || has_strayed(motions, body) ? 1 : 0;
-  }
+  using Again = BodyContacts::Again;
+  outdated_.assign(states_.size(), Again::none);
+  for (int body = 0; body < bodies_->dynamic(); ++body) outdated_[at(body)] = outdated(motions, body);
   if (some_bounce)
     any_moved_far(motions, [&](int a, int b) {
-      is_outdated_[at(a)] = is_outdated_[at(b)] = 1;
+      outdated_[at(a)] = outdated_[at(b)] = Again::all;
       return false;
     });
   for (int body = 0; body < bodies_->dynamic(); ++body) {
-    if (is_outdated_[at(body)] != 0) turned_[at(body)] = 0;
+    const Again again = outdated_[at(body)];
+    turned_[at(body)] = again == Again::all ? 0 : turned_[at(body)] + motions.turned(body);
+    rolled_[at(body)] = again != Again::none ? 0 : rolled_[at(body)] + motions.turned(body);
     paths_[at(body)].moved += motions.all()[at(body)].displacement;
   }
 }
@@ -221,13 +235,13 @@ void FrameContacts::renew(Substep& s, const BodyMotions& motions, bool some_boun
   bodies_->begin_frame(s);
   read_states(s);
   for (std::size_t place = 0; place < states_.size(); ++place)  // the contacts of what is driven round turn with it
-    if (states_[place].is_driven_round) is_outdated_[place] = 1;
+    if (states_[place].is_driven_round) outdated_[place] = BodyContacts::Again::all;
   for (int body = 0; body < bodies_->dynamic(); ++body)
-    if (is_outdated_[at(body)] != 0) begin_path(body);
+    if (outdated_[at(body)] == BodyContacts::Again::all) begin_path(body);
   finder_.renew(
-      s.context.executor, states_, left_, faster_, [&](int a, int b) { return bodies_->meet(s, a, b); }, is_outdated_,
+      s.context.executor, states_, left_, faster_, [&](int a, int b) { return bodies_->meet(s, a, b); }, outdated_,
       some_bounce ? far_moved : 1e30f, contacts_);
-  limit_turns();
+  limit_rolling();
 }
 
 }  // namespace pliant

@@ -51,8 +51,11 @@ class FrameContacts {
   void update(Substep& s, const std::vector<BodyContact>& before);
   void find_beside_sleepers(Substep& s, BodySleep& sleep);
   void warn(Substep& s);
-  /// How far each body may turn until its contacts are found again.
-  void limit_turns();
+  /// How far each body may turn until the contacts that it has are found again.
+  void limit_rolling();
+  bool has_turned_far(const BodyMotions& motions, int body, float share) const;
+  bool has_rolled_far(const BodyMotions& motions, int body, float share) const;
+  BodyContacts::Again outdated(const BodyMotions& motions, int body) const;
   void find_outdated(const BodyMotions& motions, bool some_bounce);
   void begin_path(int body);
   /// True if a body has left the path on which its contacts were found.
@@ -77,10 +80,11 @@ class FrameContacts {
   std::vector<SearchedPath> paths_;  ///< [place]
   std::vector<char> is_fixed_;
   std::vector<BodyContact> contacts_;
-  std::vector<float> turned_;  ///< [place] rotation from when a body's contacts were found to the last renewal [rad]
-  std::vector<float> most_turned_;   ///< [place] how far it may turn until they are found again [rad]
-  std::vector<char> is_outdated_;    ///< [place] nonzero: its contacts are found again
-  std::vector<BodyContact> before_;  ///< of the frame before, where bodies sleep
+  /// [place] rotation from when a body's contacts were found, and those that it has, to the last renewal [rad].
+  std::vector<float> turned_, rolled_;
+  std::vector<float> most_rolled_;  ///< [place] how far it may turn until those that it has are found again [rad]
+  std::vector<BodyContacts::Again> outdated_;  ///< [place] which are found again
+  std::vector<BodyContact> before_;            ///< of the frame before, where bodies sleep
 };
 
 }  // namespace pliant
