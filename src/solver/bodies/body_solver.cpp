@@ -185,9 +185,11 @@ void BodySolver::begin_frame(Substep& s) {
 }
 
 void BodySolver::renew_contacts(Substep& s) {
-  if (s.number == 0 || !contacts_.are_outdated(motions_, blocks_.bounces())) return;
+  if (s.number == 0) return;
+  const BodyContacts::Again outdated = contacts_.outdated(motions_, blocks_.bounces());
+  if (outdated == BodyContacts::Again::none) return;
   take_impulses(s);
-  contacts_.renew(s, motions_, blocks_.bounces());
+  contacts_.renew(s, motions_, blocks_.bounces(), outdated);
   motions_.begin_frame(s);
   pushes_are_known_ = false;
   make_manifolds(s);

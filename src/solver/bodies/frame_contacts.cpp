@@ -101,7 +101,7 @@ void FrameContacts::find(Substep& s, BodySleep& sleep) {
 /// Where a disc of radius r, whose axis has the sine s to the normal, turns by an angle, its lowest place runs round the
 /// rim by the angle over s. What was lowest has then risen by r angle^2 / 2 s.
 void FrameContacts::limit_rolling() {
-  most_rolled_.assign(at(bodies_->dynamic()), far_turned);
+  most_rolled_.assign(at(bodies_->dynamic()), 1e30f);
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
     const auto& [a, b] = finder_.bodies()[at(i)];
     const BodyContact& contact = contacts_[at(i)];
@@ -190,34 +190,37 @@ bool FrameContacts::has_rolled_far(const BodyMotions& motions, int body, float s
   return rolled_[at(body)] + motions.turned(body) > share * most_rolled_[at(body)];
 }
 
-BodyContacts::Again FrameContacts::outdated(const BodyMotions& motions, int body) const {
+BodyContacts::Again FrameContacts::outdated(const BodyMotions& motions, bool some_bounce) const {
   using Again = BodyContacts::Again;
-  if (has_strayed(motions, body) || has_turned_far(motions, body, soon)) return Again::all;
-  return has_rolled_far(motions, body, soon) ? Again::touching : Again::none;
-}
-
-bool FrameContacts::are_outdated(const BodyMotions& motions, bool some_bounce) const {
-  const auto turned = [&](int body) {
-    return body < bodies_->dynamic() && (has_turned_far(motions, body, 1) || has_rolled_far(motions, body, 1));
-  };
-  bool any = false;  // bodies first: they are fewer than contacts
-  for (int body = 0; body < bodies_->dynamic(); ++body) {
-    if (has_strayed(motions, body)) return true;
-    any = any || turned(body);
+  const int dynamic = bodies_->dynamic();
+  bool any_turned = false, any_rolled = false;  // bodies first: they are fewer than contacts
+  for (int body = 0; body < dynamic; ++body) {
+    if (has_strayed(motions, body)) return Again::all;
+    any_turned = any_turned || has_turned_far(motions, body, 1);
+    any_rolled = any_rolled || has_rolled_far(motions, body, 1);
   }
-  const auto& pairs = finder_.bodies();
-  if (any && std::any_of(pairs.begin(), pairs.end(),
-                         [&](const auto& pair) { return turned(pair.first) || turned(pair.second); }))
-    return true;
-  return some_bounce && any_moved_far(motions, [](int, int) { return true; });
+  const auto touches = [&](const auto& is_far) {
+    const auto& pairs = finder_.bodies();
+    return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
+      return (pair.first < dynamic && is_far(pair.first)) || (pair.second < dynamic && is_far(pair.second));
+    });
+  };
+  if (any_turned && touches([&](int body) { return has_turned_far(motions, body, 1); })) return Again::all;
+  if (some_bounce && any_moved_far(motions, [](int, int) { return true; })) return Again::all;
+  const bool rolled = any_rolled && touches([&](int body) { return has_rolled_far(motions, body, 1); });
+  return rolled ? Again::touching : Again::none;
 }
 
 /// Bodies that will soon have turned far are among them, so that contacts are found again less often.
-void FrameContacts::find_outdated(const BodyMotions& motions, bool some_bounce) {
+void FrameContacts::find_outdated(const BodyMotions& motions, bool some_bounce, BodyContacts::Again most) {
   using Again = BodyContacts::Again;
   outdated_.assign(states_.size(), Again::none);
-  for (int body = 0; body < bodies_->dynamic(); ++body) outdated_[at(body)] = outdated(motions, body);
-  if (some_bounce)
+  for (int body = 0; body < bodies_->dynamic(); ++body) {
+    if (has_rolled_far(motions, body, soon)) outdated_[at(body)] = Again::touching;
+    if (most == Again::all && (has_strayed(motions, body) || has_turned_far(motions, body, soon)))
+      outdated_[at(body)] = Again::all;
+  }
+  if (some_bounce && most == Again::all)
     any_moved_far(motions, [&](int a, int b) {
       outdated_[at(a)] = outdated_[at(b)] = Again::all;
       return false;
@@ -230,12 +233,12 @@ void FrameContacts::find_outdated(const BodyMotions& motions, bool some_bounce) 
   }
 }
 
-void FrameContacts::renew(Substep& s, const BodyMotions& motions, bool some_bounce) {
-  find_outdated(motions, some_bounce);
+void FrameContacts::renew(Substep& s, const BodyMotions& motions, bool some_bounce, BodyContacts::Again most) {
+  find_outdated(motions, some_bounce, most);
   bodies_->begin_frame(s);
   read_states(s);
   for (std::size_t place = 0; place < states_.size(); ++place)  // the contacts of what is driven round turn with it
-    if (states_[place].is_driven_round) outdated_[place] = BodyContacts::Again::all;
+    if (states_[place].is_driven_round) outdated_[place] = most;
   for (int body = 0; body < bodies_->dynamic(); ++body)
     if (outdated_[at(body)] == BodyContacts::Again::all) begin_path(body);
   finder_.renew(

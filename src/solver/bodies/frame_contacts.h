@@ -23,10 +23,11 @@ class FrameContacts {
 
   /// Finds the contacts of a frame, for which bodies and sleep have begun. Kept ones come from the State.
   void find(Substep& s, BodySleep& sleep);
-  /// True if bodies with a contact have turned far since it was found, or, if some bounce, moved far.
-  bool are_outdated(const BodyMotions& motions, bool some_bounce) const;
+  /// Which are no longer true: all of bodies with a contact that have turned far since it was found, or, if some
+  /// bounce, moved far; those that touch of discs that have rolled on their rims.
+  BodyContacts::Again outdated(const BodyMotions& motions, bool some_bounce) const;
   /// Finds those of such bodies again within a frame. The others stay, with the gaps of now.
-  void renew(Substep& s, const BodyMotions& motions, bool some_bounce);
+  void renew(Substep& s, const BodyMotions& motions, bool some_bounce, BodyContacts::Again most);
 
   /// The number of dynamic bodies that each dynamic one overlaps deeply, by places.
   void count_overlaps(std::vector<int>& counts) const;
@@ -55,8 +56,7 @@ class FrameContacts {
   void limit_rolling();
   bool has_turned_far(const BodyMotions& motions, int body, float share) const;
   bool has_rolled_far(const BodyMotions& motions, int body, float share) const;
-  BodyContacts::Again outdated(const BodyMotions& motions, int body) const;
-  void find_outdated(const BodyMotions& motions, bool some_bounce);
+  void find_outdated(const BodyMotions& motions, bool some_bounce, BodyContacts::Again most);
   void begin_path(int body);
   /// True if a body has left the path on which its contacts were found.
   bool has_strayed(const BodyMotions& motions, int body) const;
