@@ -195,10 +195,17 @@ bool BodyContacts::Task::comes_near(const Pair& pair, const BodyState& a, const 
   return static_cast<double>(dot(contact.normal, way)) < -least_approach(static_cast<double>(length(way)));
 }
 
+bool BodyContacts::Task::is_renewed(const Pair& pair, std::span<const BodyContact> old) const {
+  const int one = of.parts_[at(pair.first)].body, other = of.parts_[at(pair.second)].body;
+  if (may_begin(one) || may_begin(other)) return true;
+  if ((*renewed)[at(one)] == Again::none && (*renewed)[at(other)] == Again::none) return false;
+  const float size = static_cast<float>(size_of(pair));
+  return std::any_of(old.begin(), old.end(), [&](const BodyContact& contact) { return is_close(contact, size); });
+}
+
 bool BodyContacts::Task::stay(const Pair& pair, std::span<const BodyContact> old, const BodyState& a,
                               const BodyState& b, const Posed& relative) const {
-  const auto [one, other] = std::pair{of.parts_[at(pair.first)].body, of.parts_[at(pair.second)].body};
-  if (is_renewed(one) || is_renewed(other)) {
+  if (is_renewed(pair, old)) {
     const double size = size_of(pair);
     if (may_meet_more(pair, a, b, size)) return false;
     const auto hardly_changed = [&](const BodyContact& contact) {

@@ -6,6 +6,7 @@
 // the same reason).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -48,7 +49,13 @@ class BodyContacts {
   /// Which contacts of a body are found again within a frame.
   enum class Again : char { none, touching, all };
 
-  /// Finds the contacts of some bodies again, for what is left of a frame: for each body those that it has, or all; of a
+  /// True if a contact of parts of this size touches or nearly does [m].
+  static bool is_close(const BodyContact& contact, float size) {
+    return *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count) <=
+           BodyPairs::margin_share * size;
+  }
+
+  /// Finds the contacts of some bodies again, for what is left of a frame: for each body those that touch, or all; of a
   /// plane or mesh, only with bodies that it may have met already. Of the others, contacts stay, with the gaps of now,
   /// unless both have moved against each other by more than the share `far` of the smaller part's size since these
   /// began.

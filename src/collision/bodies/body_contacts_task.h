@@ -65,7 +65,8 @@ struct BodyContacts::Task {
   bool are_surely_apart(const Pair& pair, const BodyPart& one, const BodyPart& other, const Posed& relative,
                         float speed) const;
 
-  bool is_renewed(int body) const { return renewed == nullptr || (*renewed)[at(body)] != Again::none; }
+  /// True if the contacts `old` of a pair are found again.
+  bool is_renewed(const Pair& pair, std::span<const BodyContact> old) const;
   /// True if contacts of a body are looked for where it has none.
   bool may_begin(int body) const { return renewed == nullptr || (*renewed)[at(body)] == Again::all; }
 

@@ -63,7 +63,7 @@ void BodyContacts::Task::find(int number, std::span<const BodyContact> old, Foun
   if (old.empty() && ((!may_begin(one.body) && !may_begin(other.body)) || is_out_of_reach(pair, one, other, speed)))
     return;
   const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
-  const bool stays_anyway = !is_renewed(one.body) && !is_renewed(other.body) && (far >= unlimited || !one.is_convex());
+  const bool stays_anyway = !is_renewed(pair, old) && (far >= unlimited || !one.is_convex());
   Posed relative = stays_anyway ? Posed{} : relative_to(a.pose, b.pose);
   if (old.empty() && are_surely_apart(pair, one, other, relative, speed)) return;
   if (stays_anyway || stay(pair, old, a, b, relative)) {
@@ -89,13 +89,10 @@ BodyContacts::Task::Meeting BodyContacts::Task::meeting_of(int number, std::span
   const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
   const double size = size_of(pair);
   const Vec3f velocity = a.velocity - b.velocity;
-  const auto is_close = [&](const BodyContact& contact) {
-    const float gap = *std::min_element(contact.gap.begin(), contact.gap.begin() + contact.count);
-    return gap <= BodyPairs::margin_share * static_cast<float>(size);
-  };
   // What rolls or slides along a plane does not meet it with that speed.
   const float approach =
-      one.is_half_space && std::any_of(old.begin(), old.end(), is_close)
+      one.is_half_space && std::any_of(old.begin(), old.end(),
+                                       [&](const BodyContact& c) { return is_close(c, static_cast<float>(size)); })
           ? std::fabs(dot(velocity, rotate(convert<float>(compose(a.pose, one.pose)).rotation, Vec3f{0, 1, 0})))
           : speed;
   // An impact may turn the whole approach into spin. Of two opposite points one may rise as the other sinks.

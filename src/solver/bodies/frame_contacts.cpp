@@ -105,6 +105,7 @@ void FrameContacts::limit_rolling() {
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
     const auto& [a, b] = finder_.bodies()[at(i)];
     const BodyContact& contact = contacts_[at(i)];
+    if (!BodyContacts::is_close(contact, size(i))) continue;
     for (const auto& [body, arm] : {std::pair{a, contact.arm_a}, std::pair{b, contact.arm_b}}) {
       const Vec3f round = body < bodies_->dynamic() && has_rim_[at(body)] != 0 ? bodies_->round_axes(body) : Vec3f{};
       if (round.x + round.y + round.z != 1) continue;
