@@ -34,8 +34,12 @@ class BodyScene {
     if (finder_.parts().empty()) finder_ = BodyContacts(parts_);
     finder_.update(executor_, states, dt, 0, all_meet, contacts, contacts);
   }
-  void renew(const std::vector<char>& of, float far = 1e30f) {
-    finder_.renew(executor_, states, dt, 0, all_meet, of, far, contacts);
+  /// Nonzero `of`: those that are found again.
+  void renew(const std::vector<char>& of, float far = 1e30f, BodyContacts::Again again = BodyContacts::Again::all) {
+    std::vector<BodyContacts::Again> which(of.size(), BodyContacts::Again::none);
+    for (std::size_t i = 0; i < of.size(); ++i)
+      if (of[i] != 0) which[i] = again;
+    finder_.renew(executor_, states, dt, 0, all_meet, which, far, contacts);
   }
 
  private:
@@ -84,6 +88,20 @@ TEST(BodyContacts, ARenewedBodyMeetsWhatWasOutOfReach) {
   ASSERT_EQ(scene.contacts.size(), 4u) << "with both of the other pair, too";
   EXPECT_EQ(scene.contacts[1].a.solid, 1);
   EXPECT_EQ(scene.contacts[1].b.solid, 2);
+}
+
+TEST(BodyContacts, OfWhatRollsOnlyThoseThatTouchAreFoundAgain) {
+  BodyScene scene = two_pairs();
+  scene.states[1].velocity = {600, 0, 0};
+  for (const int i : {1, 3}) scene.states[std::size_t(i)].pose.position += Vec3d{-0.001, 0.03, 0};
+  scene.renew({0, 1, 0, 1}, 1e30f, BodyContacts::Again::touching);
+  ASSERT_EQ(scene.contacts.size(), 2u) << "what was out of reach is not met";
+  for (const BodyContact& c : scene.contacts) EXPECT_NEAR(c.normal.y, 0.03 / std::hypot(0.201, 0.03), 1e-4);
+  for (const int i : {1, 3}) scene.states[std::size_t(i)].pose.position += Vec3d{0.02, 0.03, 0};
+  scene.renew({0, 0, 0, 0});  // gaps of now, which are wide
+  scene.states[3].pose.position += Vec3d{-0.03, 0, 0};
+  scene.renew({0, 1, 0, 1}, 1e30f, BodyContacts::Again::touching);
+  for (const BodyContact& c : scene.contacts) EXPECT_NEAR(c.normal.y, 0.03 / std::hypot(0.201, 0.03), 1e-4);
 }
 
 /// Balls that overlap by chance, of which half turn around within the frame: so few of them that the tree is asked, or
