@@ -68,8 +68,8 @@ double radius_after(float speed, int seconds) {
 
 /// Friction of 1 holds it up to 3.1 rad/s.
 TEST(Turntable, CarriesABoxRound) {
-  EXPECT_NEAR(radius_after(float_pi / 4, 5), 1, 1e-3);
-  EXPECT_NEAR(radius_after(float_pi / 2, 5), 1, 4e-3);
+  EXPECT_NEAR(radius_after(float_pi / 4, 5), 1, 2e-4);
+  EXPECT_NEAR(radius_after(float_pi / 2, 5), 1, 2e-4);
 }
 
 TEST(Turntable, ThrowsOutWhatFrictionCannotHold) { EXPECT_GT(radius_after(float_pi, 3), 2); }
@@ -103,6 +103,71 @@ TEST(Turntable, MayBeAFixedBody) {
   World world(scene);
   run_seconds(world, 5);
   EXPECT_NEAR(distance_from_axis(world, 0), 1, 1e-3);
+}
+
+enum class TableKind { box, plane, mesh, kinematic_body };
+
+/// A table that turns by `speed` [rad/s], whose top is at height 0.
+void add_table(Scene& scene, TableKind kind, float speed, int seconds) {
+  const auto rub = [](auto& on) { on.static_friction = on.kinetic_friction = 1; };
+  const Motion motion = turning(speed, {0, 1, 0}, {}, seconds);
+  if (kind == TableKind::kinematic_body) {
+    BodyOptions options;
+    options.position = {0, -0.1f, 0};
+    options.kinematic = true;
+    options.motion = motion;
+    Object disc = make_body({{Cylinder{2, 0.1f}}}, options);
+    rub(disc);
+    scene.add(disc);
+  } else if (kind == TableKind::mesh) {
+    MeshCollider mesh;
+    mesh.mesh = grid_mesh(9, 9, 4, 4);
+    mesh.motion = motion;
+    rub(mesh);
+    scene.add(mesh);
+  } else {
+    Collider collider;
+    if (kind == TableKind::box) collider.shape = Box{{2, 0.1f, 2}};
+    if (kind == TableKind::box) collider.position = {0, -0.1f, 0};
+    collider.motion = motion;
+    rub(collider);
+    scene.add(collider);
+  }
+}
+
+/// A cube, a cylinder, or a cube with an arm, whose centre is beside its contact, at a metre from a table's axis.
+Object ride_of(int kind, float speed) {
+  BodyOptions options;
+  options.position = {1, 0.1f, 0};
+  options.velocity = {0, 0, -speed};
+  options.angular_velocity = {0, speed, 0};
+  const Solid cube{.shape = Box{{0.1f, 0.1f, 0.1f}}};
+  const Solid arm{.shape = Box{{0.1f, 0.02f, 0.02f}}, .position = {0.2f, 0, 0}};
+  Object body = kind == 0   ? make_body({cube}, options)
+                : kind == 1 ? make_body({{Cylinder{0.1f, 0.1f}}}, options)
+                            : make_body({cube, arm}, options);
+  body.static_friction = body.kinetic_friction = 1;
+  return body;
+}
+
+/// What friction of 1 holds, up to 3.1 rad/s at a metre, does not drift. Outward it was 0.05 to 0.11 % a second at 90
+/// degrees/s and 1 to 2 % at 2.5 rad/s.
+TEST(Turntable, OfAnyKindHoldsWhatRides) {
+  for (const TableKind table : {TableKind::box, TableKind::plane, TableKind::mesh, TableKind::kinematic_body})
+    for (const float step : {1 / 30.f, 1 / 60.f, 1 / 240.f})
+      for (const float speed : {float_pi / 2, 2.5f})
+        for (int ride = 0; ride < 3; ++ride) {
+          Scene scene;
+          scene.settings.threads = 1;
+          scene.add(ride_of(ride, speed));
+          add_table(scene, table, speed, 3);
+          World world(scene);
+          const double start = distance_from_axis(world, 0);
+          for (int frame = 0; frame < static_cast<int>(2 / step); ++frame) ASSERT_TRUE(world.step(step).ok());
+          EXPECT_NEAR(distance_from_axis(world, 0) / start, 1, step > 0.02f ? 8e-4 : 4e-4)
+              << "table " << static_cast<int>(table) << ", ride " << ride << ", " << speed << " rad/s, " << step
+              << " s";
+        }
 }
 
 // A body lies on rollers that turn about their own axes, so their surfaces do not move: it goes on by radius times

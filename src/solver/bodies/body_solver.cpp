@@ -41,24 +41,6 @@ float settling_speed(const BodyContact& contact, const Manifold& m, const BodySt
   return length_squared(motion) <= (at_rest * fall) * (at_rest * fall) ? sliding * fall : 0;
 }
 
-/// Turns the arm of a body that is driven round by half of what it turns in `left` seconds, so that displacement and
-/// friction of linear motion along the arm follow the chord of its circle: what rides on a turntable does not drift
-/// outward, nor what rides in a drum. Spin across the normal moves the surface along itself. It counts only where the
-/// surface faces its own centre, as in a drum, and as far as the other body moves with it. `outward`: the normal away
-/// from the body.
-void turn_arm(const BodyState& body, const BodyState& other, const Vec3f& outward, double left, Vec3f& arm) {
-  constexpr float largest = 0.5f;  // beyond which the series is wrong [rad]
-  if (!body.is_driven_round) return;
-  const Vec3f about = outward * dot(body.spin, outward), across = body.spin - about, along_itself = cross(across, arm);
-  const float squared = length_squared(along_itself);
-  const float share = squared > 0 && dot(outward, arm) < 0
-                          ? std::clamp(dot(other.velocity - body.velocity, along_itself) / squared, 0.f, 1.f)
-                          : 0;
-  const Vec3f turn = (about + across * share) * static_cast<float>(left / 2);
-  const Vec3f half = turn * std::fmin(1.f, largest / std::fmax(length(turn), largest)), along = cross(half, arm);
-  arm += along + cross(half, along) * 0.5f;
-}
-
 /// The velocity of b against a along the tangents at which their surfaces do not slide over one another.
 std::array<float, 2> drift_of(const BodyState& a, const BodyState& b, const Manifold& m) {
   if (!slides(a) && !slides(b)) return {};
@@ -134,6 +116,7 @@ void BodySolver::make_manifolds(const Substep& s) {
   const float fall = s.h * length(s.model.gravity);
   is_separating_.resize(bodies_of.size());
   may_bounce_.resize(bodies_of.size());
+  carriers_.begin_frame(bodies_of.size());
   contacts_.count_overlaps(overlaps_);
   const auto prefetch = [&](int i) { fetch(contacts_.all()[at(i)]); };
   blocks_.fill(executor, colours_, is_fixed_, prefetch, [&](int i) {
@@ -147,9 +130,11 @@ void BodySolver::make_manifolds(const Substep& s) {
     turn_arm(contacts_.states()[at(a)], contacts_.states()[at(b)], m.normal, left, m.arm_a);
     turn_arm(contacts_.states()[at(b)], contacts_.states()[at(a)], -m.normal, left, m.arm_b);
     m.drift = drift_of(contacts_.states()[at(a)], contacts_.states()[at(b)], m);
+    carriers_.note(i, contacts_.states()[at(a)], contacts_.states()[at(b)], m, left);
     if (!followed_.empty() && followed_[at(i)] >= 0) m.a = followed_[at(i)], m.arm_a = {};
     return m;
   });
+  carriers_.list(colours_, bodies_of, contacts_.all());
   blocks_.prepare(executor, s.kernels.manifolds, motions_.all());
   find_bouncing(s);
 }
@@ -207,6 +192,7 @@ void BodySolver::start_substep(const Substep& s) {
     last_substep_ = s.number;
   }
   motions_.load_predicted(s, bodies_, true, pushes_are_known_ ? push_share_ : 0);
+  carriers_.move_contacts(motions_.all(), s.h, blocks_);
   if (!pushes_are_known_) blocks_.warm_start(executor, kernels, motions_.all());
   pushes_are_known_ = true;
   bounced_.clear();

@@ -16,6 +16,7 @@
 #include "solver/bodies/body_motions.h"
 #include "solver/bodies/body_points.h"
 #include "solver/bodies/body_sleep.h"
+#include "solver/bodies/carriers.h"
 #include "solver/bodies/contact_bodies.h"
 #include "solver/bodies/depenetration.h"
 #include "solver/bodies/frame_contacts.h"
@@ -123,6 +124,7 @@ class BodySolver {
   std::vector<int> followed_;   ///< [contact] motion of the mesh that deforms, or -1; empty if none does
   std::vector<char> is_fixed_;  ///< [motion] nonzero: fixed
   std::vector<int> overlaps_;   ///< [place] FrameContacts::count_overlaps
+  Carriers carriers_;           ///< of contacts_
   PressedBy pressed_by_ = PressedBy::bodies;
   std::vector<char> is_separating_;    ///< [contact] nonzero: its bodies overlap more than what presses them explains
   std::vector<char> may_bounce_;       ///< [contact] nonzero: has restitution

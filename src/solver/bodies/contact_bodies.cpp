@@ -31,12 +31,27 @@ Vec3f without(const Vec3f& round, const Vec3f& spin) {
   return {spin.x * (1 - round.x), spin.y * (1 - round.y), spin.z * (1 - round.z)};
 }
 
+/// One for each axis along which a polyhedron is so slender that a turn about that moves its surface by nothing that
+/// counts. Contacts that turned with it about that axis would see its turn about others in a wrong direction.
+Vec3f slender_axes_of(const CompiledSolid& solid) {
+  constexpr float slender = 2e-3f;  // width over length
+  Vec3f along{}, across{};          // squares
+  for (const Vec3f& corner : solid.shape.polyhedron->corners) {
+    const Vec3f p = to_world(convert<float>(solid.pose), corner);
+    const Vec3f squares{p.x * p.x, p.y * p.y, p.z * p.z};
+    along = max(along, squares);
+    across = max(across, Vec3f{squares.y + squares.z, squares.z + squares.x, squares.x + squares.y});
+  }
+  const auto is_slender = [](float width, float length) { return width < slender * slender * length ? 1.f : 0.f; };
+  return {is_slender(across.x, along.x), is_slender(across.y, along.y), is_slender(across.z, along.z)};
+}
+
 /// One for each axis of its body about which a solid is round, else zero.
 Vec3f round_axes_of(const CompiledSolid& solid) {
   constexpr double straight = 1e-5;
   const Vec3d centre = solid.pose.position;
   const bool is_ball = solid.shape.kind == ConvexShape::Kind::point;
-  if (solid.shape.kind == ConvexShape::Kind::polyhedron) return {};
+  if (solid.shape.kind == ConvexShape::Kind::polyhedron) return slender_axes_of(solid);
   const double size = static_cast<double>(solid.shape.radius + solid.shape.core_radius);
   if (is_ball && length(centre) < straight * size) return {1, 1, 1};
   const Vec3d along = is_ball ? centre * (1 / length(centre)) : rotate(solid.pose.rotation, Vec3d{0, 1, 0});

@@ -101,6 +101,14 @@ void ManifoldBlocks::scale_impulses(Executor& executor, float factor) {
   });
 }
 
+void ManifoldBlocks::set_arms(int number, const Vec3f& arm_a, const Vec3f& arm_b) {
+  const auto block = std::upper_bound(first_.begin(), first_.end(), number) - first_.begin() - 1;
+  const int lane = number - first_[at(block)];
+  ManifoldRows<16>& rows = blocks_[at(block)].rows;
+  set_row(arm_a, rows.arm_a, lane);
+  set_row(arm_b, rows.arm_b, lane);
+}
+
 bool ManifoldBlocks::bounces() const {
   return std::any_of(blocks_.begin(), blocks_.end(), [](const ManifoldBlock& block) { return block.bounces != 0; });
 }

@@ -24,6 +24,9 @@ class ManifoldBlocks {
   void take(Executor& executor, const ManifoldColours& colours, FunctionRef<void(int)> prefetch,
             FunctionRef<void(int, const Manifold&)> keep) const;
 
+  /// Moves the place where a manifold of `fill` touches, by its number in the order of colours.
+  void set_arms(int number, const Vec3f& arm_a, const Vec3f& arm_b);
+
   /// True if some manifold has restitution.
   bool bounces() const;
 

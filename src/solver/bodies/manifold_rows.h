@@ -47,18 +47,20 @@ struct alignas(64) ManifoldBlock {
   std::int32_t settles;            ///< 1: some manifold begins at rest
 };
 
+template <int lanes>
+void set_row(const Vec3f& v, float (&row)[3][lanes], int lane) {
+  row[0][lane] = v.x;
+  row[1][lane] = v.y;
+  row[2][lane] = v.z;
+}
+
 /// Sets lane `lane` to manifold `m` as prepare needs it, without what prepare computes.
 template <int lanes>
 void put_manifold(const Manifold& m, ManifoldRows<lanes>& rows, int lane) {
-  const auto put = [lane](const Vec3f& v, float(&row)[3][lanes]) {
-    row[0][lane] = v.x;
-    row[1][lane] = v.y;
-    row[2][lane] = v.z;
-  };
-  put(m.normal, rows.normal);
-  put(m.tangent1, rows.tangent);
-  put(m.arm_a, rows.arm_a);
-  put(m.arm_b, rows.arm_b);
+  set_row(m.normal, rows.normal, lane);
+  set_row(m.tangent1, rows.tangent, lane);
+  set_row(m.arm_a, rows.arm_a, lane);
+  set_row(m.arm_b, rows.arm_b, lane);
   for (int i = 0; i < 4; ++i) {
     const auto point = static_cast<std::size_t>(i);
     const bool exists = i < m.count;
