@@ -3,10 +3,10 @@
 // An attachment that is projected before the constraints of its solid has no effect on how these move its particle, and
 // one that is projected after them takes back what they moved it by: either way the particle yields by all that they
 // move it in one pass, and a bar that attachments hold sags 1.1 to 1.3 times too far (docs/internals/solids.md). So the
-// sweep has the spring of the attachment in the particle's inertia. That is exact: with a spring of compliance
-// a = alpha / h^2 a particle of inverse mass w moves as one of w a / (w + a), whose prediction is a share w / (w + a) of
-// the way to the target. After the sweep this is undone, and the attachment is projected as any other constraint, which
-// puts the particle back where the sweep left it and gives the attachment its multiplier.
+// sweep has the spring of the attachment in the inertia of its particle. That is exact: with a spring of compliance
+// a = alpha / h^2 a particle of inverse mass w moves as one of w a / (w + a), whose prediction is by w / (w + a) of
+// the way nearer to the target. After the sweep this is undone, and the attachment is projected as any other
+// constraint, which puts the particle back where the sweep left it and gives the attachment its multiplier.
 #pragma once
 
 #include <utility>
