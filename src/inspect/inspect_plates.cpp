@@ -155,10 +155,48 @@ void find_sheets_on_supports(const Scene& scene, const Settings& settings, std::
   }
 }
 
+/// How many times as long as high the triangles of a mesh are that one in a hundred exceeds.
+double slenderness_of(const Object& object) {
+  std::vector<double> all;
+  all.reserve(object.triangles.size());
+  for (const auto& t : object.triangles) {
+    const auto at = [&](std::size_t k) { return object.positions[static_cast<std::size_t>(t[k])]; };
+    const double longest = static_cast<double>(
+        std::max({length_squared(at(1) - at(0)), length_squared(at(2) - at(1)), length_squared(at(0) - at(2))}));
+    all.push_back(longest / std::max(2 * area_of(object, t), 1e-30));
+  }
+  const auto place = all.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(all.size() - 1));
+  std::nth_element(all.begin(), place, all.end());
+  return *place;
+}
+
+/// Appends the sheets for whose slender triangles the cycles of their bending are too few (docs/internals/bending.md).
+void find_slender_sheets(const Scene& scene, const Settings& settings, std::vector<SoftPlate>& found) {
+  constexpr double most_slender = 10, wanted = 7;
+  if (settings.integrator == Settings::Integrator::energy || settings.sweep == Sweep::natural) return;
+  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  std::vector<int> substeps_of;
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const Object& object = scene.objects[o];
+    if (object.triangles.empty() || object.volume || has_long_edges(object, gravity)) continue;
+    const double slenderness = slenderness_of(object);
+    if (slenderness <= most_slender) continue;
+    if (substeps_of.empty()) substeps_of = chosen_substeps(scene, settings);
+    const double h = static_cast<double>(scene.frame_time) / std::max(substeps_of[o], least_substeps_of_sheets);
+    if (!bends_as_sheet(object, h)) continue;
+    found.push_back({&object,
+                     "has triangles " + words(std::round(slenderness)) +
+                         " times as long as they are high, too slender for the solve of its bending: it may stretch to "
+                         "several times its length",
+                     "use a mesh whose triangles are at most " + words(wanted) + " times as long as high"});
+  }
+}
+
 std::vector<SoftPlate> find_soft_plates(const Scene& scene, const Settings& settings) {
   std::vector<SoftPlate> found;
   find_bowed_sheets(scene, settings, found);
   find_sheets_on_supports(scene, settings, found);
+  find_slender_sheets(scene, settings, found);
   const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
   std::vector<int> substeps_of;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {
