@@ -1,5 +1,6 @@
-// Flat sheets held at all edges that bend too far, because few edges lie between, and sheets whose curvature is lost
-// because they are nearly flat (docs/internals/bending.md).
+// Flat sheets held at all edges that bend too far, because few edges lie between, sheets that lie on supports and bend
+// over many edges in a substep, and sheets whose curvature is lost because they are nearly flat
+// (docs/internals/bending.md).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -120,9 +121,82 @@ void find_bowed_sheets(const Scene& scene, const Settings& settings, std::vector
   }
 }
 
+/// True if an object may lie on a collider, on another object or on a body.
+bool may_lie_on_something(const Scene& scene, const Object& object) {
+  if (!object.collides) return false;
+  if (!scene.colliders.empty() || !scene.mesh_colliders.empty()) return true;
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [&](const Object& other) { return &other != &object && other.collides; });
+}
+
+/// Appends the sheets that bend over so many edges in a substep that the forces of their supports are not found in full
+/// (solver/sheets/sheet_contacts.h).
+void find_sheets_on_supports(const Scene& scene, const Settings& settings, std::vector<SoftPlate>& found) {
+  constexpr double most_edges = 2.3, wanted_edges = 2.1, most_excess = 1.1;
+  if (settings.integrator == Settings::Integrator::energy || settings.sweep == Sweep::natural) return;
+  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  std::vector<int> substeps_of;
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const Object& object = scene.objects[o];
+    if (object.triangles.empty() || object.volume || !may_lie_on_something(scene, object)) continue;
+    if (substeps_of.empty()) substeps_of = chosen_substeps(scene, settings);
+    const int substeps = std::max(substeps_of[o], least_substeps_of_sheets);
+    const double h = static_cast<double>(scene.frame_time) / substeps;
+    const double edges = std::sqrt(h * std::sqrt(facts_of_sheet(object).stiffness));
+    if (!(edges > most_edges) || has_long_edges(object, gravity) || !bends_as_sheet(object, h)) continue;
+    const double needed = std::ceil(substeps * (edges / wanted_edges) * (edges / wanted_edges));
+    if (needed > most_substeps_of_frame) continue;
+    found.push_back({&object,
+                     "bends over " + words(std::round(10 * edges) / 10) +
+                         " edges of its mesh in a substep, so it sags up to " + words(most_excess) +
+                         " times too far where it lies on supports, and may hum there",
+                     "use " + words(needed) + " substeps, or edges " +
+                         words(std::ceil(10 * edges / wanted_edges) / 10) + " times as long"});
+  }
+}
+
+/// How many times as long as high the triangles of a mesh are that one in a hundred exceeds.
+double slenderness_of(const Object& object) {
+  std::vector<double> all;
+  all.reserve(object.triangles.size());
+  for (const auto& t : object.triangles) {
+    const auto at = [&](std::size_t k) { return object.positions[static_cast<std::size_t>(t[k])]; };
+    const double longest = static_cast<double>(
+        std::max({length_squared(at(1) - at(0)), length_squared(at(2) - at(1)), length_squared(at(0) - at(2))}));
+    all.push_back(longest / std::max(2 * area_of(object, t), 1e-30));
+  }
+  const auto place = all.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(all.size() - 1));
+  std::nth_element(all.begin(), place, all.end());
+  return *place;
+}
+
+/// Appends the sheets for whose slender triangles the cycles of their bending are too few (docs/internals/bending.md).
+void find_slender_sheets(const Scene& scene, const Settings& settings, std::vector<SoftPlate>& found) {
+  constexpr double most_slender = 10, wanted = 7;
+  if (settings.integrator == Settings::Integrator::energy || settings.sweep == Sweep::natural) return;
+  const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
+  std::vector<int> substeps_of;
+  for (std::size_t o = 0; o < scene.objects.size(); ++o) {
+    const Object& object = scene.objects[o];
+    if (object.triangles.empty() || object.volume || has_long_edges(object, gravity)) continue;
+    const double slenderness = slenderness_of(object);
+    if (slenderness <= most_slender) continue;
+    if (substeps_of.empty()) substeps_of = chosen_substeps(scene, settings);
+    const double h = static_cast<double>(scene.frame_time) / std::max(substeps_of[o], least_substeps_of_sheets);
+    if (!bends_as_sheet(object, h)) continue;
+    found.push_back({&object,
+                     "has triangles " + words(std::round(slenderness)) +
+                         " times as long as they are high, too slender for the solve of its bending: it may stretch to "
+                         "several times its length",
+                     "use a mesh whose triangles are at most " + words(wanted) + " times as long as high"});
+  }
+}
+
 std::vector<SoftPlate> find_soft_plates(const Scene& scene, const Settings& settings) {
   std::vector<SoftPlate> found;
   find_bowed_sheets(scene, settings, found);
+  find_sheets_on_supports(scene, settings, found);
+  find_slender_sheets(scene, settings, found);
   const double gravity = std::sqrt(static_cast<double>(length_squared(scene.gravity)));
   std::vector<int> substeps_of;
   for (std::size_t o = 0; o < scene.objects.size(); ++o) {

@@ -21,13 +21,16 @@ struct TooSoft {
   std::string problem, advice;  ///< "are 20, so few that ..."
 };
 
-/// How many times as much a body yields as with enough substeps, which are `longer` times as many. Fitted to bars in
-/// tension and bent, of a Poisson's ratio of 0.3 to 0.49, with up to seven times too few (docs/internals/solids.md).
-/// With more iterations than one the compliance is not lowered (solver/project.h).
-double yield_over_right_one(double longer, int iterations) {
+/// How many times as much a body yields as with enough substeps, in substeps that are `longer` times as long as those.
+/// `damping`: its time over a substep. Fitted to bars in tension and bent, of a Poisson's ratio of 0.3 to 0.49, with up
+/// to seven times too few (docs/internals/solids.md). With more iterations than one the compliance is not lowered
+/// (solver/project.h).
+double yield_over_right_one(double longer, double damping, int iterations) {
   constexpr double slope = 0.09, harmless = 1.2, slope_of_more = 0.1;
-  if (iterations > 1) return 1 + slope_of_more * longer * longer / iterations;
-  return 1 + slope * std::max(longer * longer - harmless, 0.);
+  // As h^2 max(1, time / h): linear in h where a body is damped by more than a substep does it.
+  const double error = longer * longer * std::max(1., damping) / std::max(1., damping * longer);
+  if (iterations > 1) return 1 + slope_of_more * error / iterations;
+  return 1 + slope * std::max(error - harmless, 0.);
 }
 
 TooSoft words_of_too_soft(const Object& object, int substeps, double needed, double times, bool are_named) {
@@ -53,7 +56,9 @@ std::vector<TooSoft> find_too_soft(const Scene& scene, const Settings& settings)
     if (!is_soft_body(scene.objects[o]) || all[o] <= 0)
       continue;  // 0: they follow the State, and are as many as it needs
     const double needed = needed_substeps_of_soft_body(scene.objects[o], static_cast<double>(scene.frame_time));
-    const double times = yield_over_right_one(needed / all[o], settings.iterations);
+    const double damping = numbers_of_soft_body(scene.objects[o], scene.gravity).damping_time * all[o] /
+                           static_cast<double>(scene.frame_time);
+    const double times = yield_over_right_one(needed / all[o], damping, settings.iterations);
     if (times <= tolerated) continue;
     found.push_back(words_of_too_soft(scene.objects[o], all[o], needed, times, settings.substeps > 0));
   }

@@ -12,6 +12,7 @@
 #include "model/compile_surface.h"
 #include "model/compiled_object.h"
 #include "model/gather_constraints.h"
+#include "model/held_particles.h"
 #include "model/join_volumes.h"
 #include "model/keep_schedule.h"
 #include "model/length_ranges.h"
@@ -57,6 +58,7 @@ void fill_clusters(const Object& object, int passes, CompiledObject& out) {
 
 /// Adds the phases of volume, clusters, fluids, grains and tethers, and sorts all phases by driver.
 void add_whole_object_phases(CompiledObject& out) {
+  if (!out.held.particles.empty()) out.phases.push_back({Driver::held, 0, 1});
   if (out.has_volume) out.phases.push_back({Driver::volume, 0, 1});
   for (const auto& [first, last] : out.clusters.colours) out.phases.push_back({Driver::cluster, first, last});
   if (out.fluid) out.phases.push_back({Driver::fluid, 0, 1});
@@ -115,12 +117,13 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   const bool in_given_order = options.sweep == Sweep::natural;
   const std::vector<int> held = held_by_targets(object, static_cast<double>(options.gravity));
   if (solves_chains(options.sweep)) split_off_chains(lists, held);
+  const bool is_held = !in_given_order && holds_particles(object, lists);  // before the lists are emptied
   std::vector<int> tile;
   const int largest_tile = in_given_order ? std::numeric_limits<int>::max() : options.largest_tile;
   if (kept != nullptr)
     number_as_before(*kept, tile, out);
   else
-    number_particles(positions, lists, largest_tile, tile, out);
+    number_particles(positions, lists, largest_tile, is_held ? &object : nullptr, tile, out);
   fill_frames(object, out.frames);
   out.bodies = compile_bodies(object, out.place, out.particles);
   for (const DrivenFrame& driven : out.bodies.driven) {  // nothing else turns them
@@ -130,6 +133,7 @@ CompiledObject compile(const Object& object, Object* given_away, const CompileOp
   fill_kinematics(object, out);
   schedule(lists, tile, in_given_order, has_tethers(options) || options.sweep == Sweep::multigrid, kept, out);
   if (kept != nullptr && has_many_additions(out)) return out;  // the caller schedules it from scratch
+  if (is_held) out.held = find_held_particles(object, tile, out);
   fill_particles(object, positions, out);
   if (sheet) out.sheet = build_sheet(object, *sheet, out.place, out.positions, held);
   append_chains(lists, options.chain_softness, out);

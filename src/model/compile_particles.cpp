@@ -5,6 +5,7 @@
 
 #include "math/quat.h"
 #include "model/choose_order.h"
+#include "model/held_particles.h"
 #include "model/keep_schedule.h"
 #include "topology/tiles.h"
 
@@ -92,8 +93,9 @@ void fill_tiles(const std::vector<int>& tile, CompiledObject& out) {
 }  // namespace
 
 void number_particles(const std::vector<Vec3f>& positions, const std::vector<ConstraintList>& lists, int largest_tile,
-                      std::vector<int>& tile, CompiledObject& out) {
+                      const Object* held, std::vector<int>& tile, CompiledObject& out) {
   tile = cut_into_tiles(positions, largest_tile);
+  if (held != nullptr) follow_held_particles(*held, tile);
   out.order = choose_order(positions, tile, lists);
   fill_tiles(tile, out);
 }

@@ -13,9 +13,9 @@ namespace pliant {
 std::vector<Vec3f> all_positions(const Object& object);
 
 /// Cuts particles into tiles and numbers them tile by tile. `tile` becomes the tile of each particle, by the user's
-/// index.
+/// index. `held`: an object whose targets are to be in the tiles of their particles, or null.
 void number_particles(const std::vector<Vec3f>& positions, const std::vector<ConstraintList>& lists, int largest_tile,
-                      std::vector<int>& tile, CompiledObject& out);
+                      const Object* held, std::vector<int>& tile, CompiledObject& out);
 /// Numbers particles as an earlier schedule does. Throws an Error if that is not one of so many particles.
 void number_as_before(const KeptSchedule& kept, std::vector<int>& tile, CompiledObject& out);
 

@@ -14,6 +14,7 @@
 #include "model/compiled_bodies.h"
 #include "model/compiled_clusters.h"
 #include "model/compiled_joints.h"
+#include "model/held_particles.h"
 #include "model/multigrid.h"
 #include "model/object_sets.h"
 #include "model/phase.h"
@@ -129,6 +130,7 @@ struct CompiledObject {
   Multigrid multigrid;
   SheetBending sheet;                 ///< bending of a flat sheet, in place of its hinges
   std::vector<Kinematic> kinematics;  ///< particles with keyframes
+  HeldParticles held;                 ///< by attachments
   Carrier carrier;                    ///< motion of all particles of a mesh collider
   Surface surface;
   std::vector<std::array<int, 2>> lines;  ///< contact lines of an object without triangles

@@ -13,6 +13,7 @@ namespace pliant {
 enum class Driver : std::int32_t {
   tile,              ///< constraints inside a tile, in SIMD lanes; a task is a tile
   inter_tile,        ///< constraints between tiles, in SIMD lanes; a task is a segment
+  held,              ///< springs of held particles (model/held_particles.h); a task is an object
   chain,             ///< paths solved directly; a task is a ChainBatch
   volume,            ///< global volume constraints; a task is an object
   stencil,           ///< constraints projected one at a time; a task is a segment
@@ -23,7 +24,7 @@ enum class Driver : std::int32_t {
   surface_contact,   ///< contacts between surfaces, found in each substep; no tasks
   collider_contact,  ///< contacts with colliders, found in each substep; no tasks
 };
-inline constexpr int driver_count = 11;
+inline constexpr int driver_count = 12;
 
 /// Items [first, last) of one object. They share no point.
 struct ObjectPhase {

@@ -9,8 +9,8 @@ namespace pliant {
 bool is_soft_body(const Object& object);
 
 /// The substeps with which one sweep holds a soft body about as stiffly as its modulus says: in each, a shear wave
-/// passes a quarter of an edge of three in four of its tetrahedra, or less where its constraints are damped. At least
-/// 20.
+/// passes a quarter of an edge of three in four of its tetrahedra, or less where its constraints are damped by more than
+/// a substep is long. At least 20.
 double needed_substeps_of_soft_body(const Object& object, double frame_time);
 
 /// True if tetrahedra around edges keep their volume together (model/join_volumes.h), as from a Poisson's ratio of 0.4

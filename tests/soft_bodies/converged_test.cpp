@@ -19,11 +19,13 @@ struct Bar {
   float poisson_ratio = 0.3f;
   float noise = 0;  ///< by which vertices are moved, of an edge
   SolidModel model = SolidModel::neo_hookean;
+  float damping = 0;  ///< time of the material [s]
 
   Object object() const {
     SoftBodyOptions options;
     options.material = solid_of(1e6f, poisson_ratio);
     options.material.model = model;
+    options.material.damping = damping;
     const Vec3f size = hangs ? Vec3f{0.1f, 0.5f, 0.1f} : Vec3f{0.4f, 0.1f, 0.1f};
     TetrahedralMesh mesh =
         box_tetrahedra(size, hangs ? std::array{cells, 5 * cells, cells} : std::array{4 * cells, cells, cells});
@@ -99,6 +101,26 @@ TEST(ConvergedSolids, SoDoesABarOfIrregularTetrahedra) {
 TEST(ConvergedSolids, SoDoBarsOfOtherModels) {
   for (const SolidModel model : {SolidModel::corotational, SolidModel::st_venant_kirchhoff})
     EXPECT_NEAR(over_elements({false, 3, 0.3f, 0, model}).sag, 1, 0.03) << static_cast<int>(model);
+}
+
+TEST(ConvergedSolids, SoDoDampedBars) {
+  for (const bool hangs : {true, false})
+    for (const float poisson_ratio : {0.3f, 0.45f, 0.49f})
+      for (const float damping : {0.0003f, 0.001f, 0.003f}) {
+        const Bar bar{hangs, 2, poisson_ratio, 0, SolidModel::neo_hookean, damping};
+        EXPECT_NEAR(over_elements(bar).sag, 1, 0.03) << hangs << ", nu " << poisson_ratio << ", " << damping << " s";
+      }
+}
+
+// Where a substep is shorter than the damping, the error grows with its length alone, not with its square.
+TEST(ConvergedSolids, ADampedBarNeedsHalfOfItsSubstepsLess) {
+  const auto warnings = [](float damping) {
+    Scene scene = scene_of(Bar{false, 2, 0.3f, 0, SolidModel::neo_hookean, damping}.object(), 0);
+    scene.settings.substeps = chosen_substeps(scene)[0] / 2;
+    return World(scene).step(frame_time).warnings.size();
+  };
+  EXPECT_EQ(warnings(0), 1U);       // 1.26 times as far
+  EXPECT_EQ(warnings(0.003f), 0U);  // 1.05
 }
 
 /// The warnings of the first frames of a bar with this many substeps.

@@ -254,7 +254,15 @@ TEST(SoftBodySubsteps, GrowWithTheWaveSpeedOverTheEdge) {
             finer = substeps_by_default(1e6f, 0, 6);
   EXPECT_NEAR(stiffer, 2 * some, 2);
   EXPECT_NEAR(finer, 2 * some, 2);
-  EXPECT_GT(substeps_by_default(1e6f, 0.001f), some);
+}
+
+// As max(1, damping / h). With 1 + damping / h a bar damped by as much as a substep had 1.6 times as many for nothing.
+TEST(SoftBodySubsteps, GrowWithTheDampingThatExceedsASubstep) {
+  const int some = substeps_by_default(1e6f, 0);
+  const double h = 1 / 60. / some;
+  EXPECT_EQ(substeps_by_default(1e6f, static_cast<float>(0.9 * h)), some);
+  for (const int times : {2, 5})
+    EXPECT_NEAR(substeps_by_default(1e6f, static_cast<float>(times * h)) / (times * some * 1.), 1, 0.05) << times;
 }
 
 TEST(SoftBodySubsteps, AreThoseOfFlatTetrahedra) {

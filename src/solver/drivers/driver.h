@@ -67,6 +67,7 @@ class InterTileTimer {
 
 void project_tiles(Substep& s, const Phase& phase, const Pass& pass);              // defined in lanes.cpp
 void project_inter_tile(Substep& s, const Phase& phase, const Pass& pass);         // defined in lanes.cpp
+void release_held(Substep& s, const Phase& phase, const Pass& pass);               // defined in held.cpp
 void project_chains(Substep& s, const Phase& phase, const Pass& pass);             // defined in chain.cpp
 void project_volumes(Substep& s, const Phase& phase, const Pass& pass);            // defined in volume.cpp
 void project_stencils(Substep& s, const Phase& phase, const Pass& pass);           // defined in stencil.cpp

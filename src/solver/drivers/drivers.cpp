@@ -10,6 +10,7 @@ namespace {
 constexpr std::array<PhaseDriver, driver_count> drivers{{
     {Turn::sweep, true, &project_tiles},
     {Turn::sweep, true, &project_inter_tile},
+    {Turn::sweep, false, &release_held},
     {Turn::sweep, false, &project_chains},
     {Turn::sweep, false, &project_volumes},
     {Turn::stencil, false, &project_stencils},

@@ -6,6 +6,7 @@
 #include "constraints/gives_shape.h"
 #include "core/at.h"
 #include "solver/contact_kernels.h"
+#include "solver/drivers/held.h"
 
 namespace pliant {
 
@@ -51,26 +52,42 @@ void project_contacts_in_lanes(const Substep& s, int task) {
   }
 }
 
-/// Projects the constraints of a tile in pieces of about as many batches, each followed by the tile's contacts with
+/// A range of segments.
+struct SegmentRange {
+  int first = 0, last = 0;
+};
+
+/// The segments of a tile without those of attachments that follow the sweep, which are the first.
+SegmentRange swept_of(const CompiledObject& of, const Tile& tile) {
+  int first = tile.first_segment;
+  while (first < tile.last_segment && of.segments[at(first)].pool == of.held.pool) ++first;
+  return {first, tile.last_segment};
+}
+
+/// Projects segments of a tile in pieces of about as many batches, each followed by the tile's contacts with
 /// colliders. Those that follow the last piece are left to their own driver, unless inter-tile constraints come first.
-void project_with_contacts(const Substep& s, int task, bool first_pass) {
+void project_with_contacts(const Substep& s, int task, const SegmentRange& swept, bool first_pass) {
   const int object = s.model.tiles()[task].object;
-  const Tile& tile = tile_of(s, task);
   const std::vector<Segment>& segments = s.model.objects[object].segments;
   const bool has_inter_tile = s.model.objects[object].tiles.size() > 1;
   const auto add_batches = [](int sum, const Segment& segment) { return sum + segment.batches; };
-  const int all =
-      std::accumulate(segments.begin() + tile.first_segment, segments.begin() + tile.last_segment, 0, add_batches);
-  int first = tile.first_segment, done = 0;
+  const int all = std::accumulate(segments.begin() + swept.first, segments.begin() + swept.last, 0, add_batches);
+  int first = swept.first, done = 0;
   for (int piece = 1; piece <= pieces_in_contact; ++piece) {
     int last = first;
-    for (; last < tile.last_segment && pieces_in_contact * done < piece * all; ++last)
-      done += segments[at(last)].batches;
+    for (; last < swept.last && pieces_in_contact * done < piece * all; ++last) done += segments[at(last)].batches;
     if (last == first) continue;
     project_segments(s, object, first, last, first_pass);
     first = last;
-    if (last < tile.last_segment || has_inter_tile) project_contacts_in_lanes(s, task);
+    if (last < swept.last || has_inter_tile) project_contacts_in_lanes(s, task);
   }
+}
+
+void project_forward(const Substep& s, int task, const SegmentRange& swept, bool first_pass) {
+  const int object = s.model.tiles()[task].object;
+  if (!s.work.tiles[task].contacts.empty() && takes_turns_with_contacts(s, object))
+    return project_with_contacts(s, task, swept, first_pass);
+  project_segments(s, object, swept.first, swept.last, first_pass);
 }
 
 }  // namespace
@@ -80,9 +97,12 @@ void project_with_contacts(const Substep& s, int task, bool first_pass) {
 void project_tile(const Substep& s, int task, bool first_pass, Order order) {
   const int object = s.model.tiles()[task].object;
   const Tile& tile = tile_of(s, task);
-  if (order == Order::forward && !s.work.tiles[task].contacts.empty() && takes_turns_with_contacts(s, object))
-    return project_with_contacts(s, task, first_pass);
-  if (order == Order::forward) return project_segments(s, object, tile.first_segment, tile.last_segment, first_pass);
+  if (sweeps_held(s, object)) {
+    hold_particles(s, object, tile);
+    const HeldMasses masses(s, object, tile);
+    return project_forward(s, task, swept_of(object_of(s, task), tile), first_pass);
+  }
+  if (order == Order::forward) return project_forward(s, task, {tile.first_segment, tile.last_segment}, first_pass);
   for (int i = tile.last_segment; i-- > tile.first_segment;) project_segments(s, object, i, i + 1, first_pass);
 }
 
@@ -92,6 +112,12 @@ void project_tiles(Substep& s, const Phase& /*phase*/, const Pass& pass) {
 }
 
 void project_inter_tile(Substep& s, const Phase& phase, const Pass& pass) {
+  std::vector<HeldMasses> masses;
+  for (const Task& task : phase.tasks) {
+    const bool is_new = &task == phase.tasks.data() || (&task)[-1].object != task.object;
+    if (is_new && is_swept(s, task.object) && sweeps_held(s, task.object))
+      masses.emplace_back(s, task.object, 0, s.model.objects[task.object].particles);
+  }
   for_segments(s, phase, [&](int object, const Segment* segment) {
     const int number = static_cast<int>(segment - s.model.objects[object].segments.data());
     project_segments(s, object, number, number + 1, pass.first);
