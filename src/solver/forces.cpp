@@ -6,7 +6,7 @@
 #include "math/quat.h"
 #include "math/record.h"
 #include "math/vector.h"
-#include "parallel/launch.h"
+#include "parallel/ranges.h"
 #include "solver/air.h"
 
 namespace pliant {
@@ -44,25 +44,35 @@ void apply_air_to_capsules(const Model& model, int o, const Vec3f& air, const Ve
   });
 }
 
-void apply_air(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
-               FunctionRef<Vec3f(int)> gravity, EachObject each) {
+constexpr int air_range = 1024;  ///< triangles or particles in a task
+static_assert(air_range % air_batch == 0);
+
+void apply_air(const Model& model, const AirKernels& kernels, State& state, Workspace& workspace, Executor& executor,
+               double time, float h, FunctionRef<Vec3f(int)> gravity, EachObject each) {
   const Vec3f air = wind_at(model.wind, time);
   each([&](int o) {
     const CompiledObject& object = model.objects[o];
-    const int triangles = static_cast<int>(object.surface.triangles.size());
-    std::vector<Vec3f>& forces = workspace.triangle_forces[o];
-    forces.resize(triangles);
-    const Vec3f gravity_so_far = gravity(o);
-    const Record* positions = state.positions.data() + model.first[o];
-    Record* velocities = state.velocities.data() + model.first[o];
-    const int* corners = triangles > 0 ? object.surface.triangles.front().data() : nullptr;
-    launch(executor, "forces: air", triangles,
-           AirOnTriangle{corners, positions, velocities, air, gravity_so_far, h, model.wind.air_density, object.drag,
-                         object.lift, forces.data()});
-    launch(executor, "forces: air", object.particles,
-           AirOnParticle{object.surface.corner_begin.data(), object.surface.corners.data(), forces.data(), positions, h,
-                         velocities});
-    apply_air_to_capsules(model, o, air, gravity_so_far, h, state, executor);
+    const Surface& surface = object.surface;
+    const int triangles = static_cast<int>(surface.triangles.size());
+    Records& forces = workspace.triangle_forces[o];
+    forces.resize((surface.triangles.size() + air_batch - 1) / air_batch * air_batch);
+    const AirArguments arguments{triangles > 0 ? surface.triangles.front().data() : nullptr,
+                                 surface.corner_begin.data(),
+                                 surface.corners.data(),
+                                 state.positions.data() + model.first[o],
+                                 state.velocities.data() + model.first[o],
+                                 forces.data(),
+                                 air,
+                                 gravity(o),
+                                 h,
+                                 model.wind.air_density,
+                                 object.drag,
+                                 object.lift};
+    for_ranges(executor, "forces: air", triangles, air_range,
+               [&](int first, int last) { kernels.find_forces(arguments, first, last); });
+    for_ranges(executor, "forces: air", object.particles, air_range,
+               [&](int first, int last) { kernels.apply(arguments, first, last); });
+    apply_air_to_capsules(model, o, air, arguments.gravity, h, state, executor);
   });
 }
 
@@ -228,10 +238,10 @@ Vec3f wind_at(const Wind& wind, double time) {
   return wind.velocity * (1 + wind.gust * static_cast<float>(sin(turn * 6.283185307179586)));
 }
 
-void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
-                  FunctionRef<Vec3f(int)> gravity, EachObject each, FunctionRef<bool(int)> takes_part,
-                  std::vector<std::string>& warnings) {
-  if (model.wind.air_density > 0) apply_air(model, state, workspace, executor, time, h, gravity, each);
+void apply_forces(const Model& model, const Kernels& kernels, State& state, Workspace& workspace, Executor& executor,
+                  double time, float h, FunctionRef<Vec3f(int)> gravity, EachObject each,
+                  FunctionRef<bool(int)> takes_part, std::vector<std::string>& warnings) {
+  if (model.wind.air_density > 0) apply_air(model, kernels.air, state, workspace, executor, time, h, gravity, each);
   if (!model.forces.empty()) apply_fields(model, state, executor, time, h, gravity, each, warnings);
   if (workspace.control.has_forces()) apply_given(model, workspace.control, state, executor, h, takes_part);
 }
