@@ -208,14 +208,27 @@ void apply_fields(const Model& model, State& state, Executor& executor, double t
   });
 }
 
-/// Applies the forces that the user set for this frame.
+/// The velocity after a substep of h under the pull, by the implicit Euler method: v + h (omega^2 (place - x - h v') -
+/// 2 omega v') = v'.
+Vec3f pulled(const Pull& pull, const Vec3f& x, const Vec3f& v, float h) {
+  const float turn = h * pull.frequency, kept = 1 / (1 + turn);
+  return v * (kept * kept) + (pull.place - x) * ((turn * kept) * (pull.frequency * kept));
+}
+
+/// Applies the forces and pulls that the user set for this frame.
 void apply_given(const Model& model, const Control& control, State& state, Executor& executor, float h,
                  FunctionRef<bool(int)> takes_part) {
   for (const auto& [o, given] : control.objects) {
-    if (given.forces.empty() || !takes_part(o)) continue;
+    if (!takes_part(o)) continue;
     const CompiledObject& object = model.objects[o];
     const Record* positions = state.positions.data() + model.first[o];
     Record* velocities = state.velocities.data() + model.first[o];
+    for (const Pull& pull : given.pulls) {
+      const Record& x = positions[pull.particle];
+      Record& v = velocities[pull.particle];
+      if (x.w > 0) push(v, pulled(pull, xyz(x), xyz(v), h) - xyz(v));
+    }
+    if (given.forces.empty()) continue;
     const std::vector<Vec3f>& forces = given.forces;
     executor.parallel_for("forces: given", static_cast<int>(object.tiles.size()), [&](int tile) {
       for (int i = object.tiles[tile].first_particle; i < object.tiles[tile].last_particle; ++i)
