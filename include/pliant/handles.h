@@ -165,6 +165,10 @@ class ObjectHandle : public ObjectView {
   void add_impulses(std::span<const Vec3f> impulses);
   /// Applies a constant force to each particle during the next step [N]. Replaces the forces of an earlier call.
   void set_forces(std::span<const Vec3f> forces);
+  /// Pulls particles towards places during the next step, as springs with critical damping and these angular
+  /// frequencies [1/s] would that have each particle's mass; those of infinite mass are skipped. Any frequency >= 0 is
+  /// stable. Replaces what an earlier call gave the object.
+  void set_pulls(std::span<const int> particles, std::span<const Vec3f> places, std::span<const float> frequencies);
   /// Gives a motor of the joint of that name a new target, which it keeps until the next call, restore() or edit. The
   /// kind of the motor stays. Throws an Error if the object has no such joint, or the joint no such motor.
   void set_motor(const std::string& joint, const MotorCommand& command);

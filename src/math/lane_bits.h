@@ -8,23 +8,28 @@
 namespace pliant {
 inline namespace PLIANT_ISA {
 
-/// Bit i is lane i of the mask.
-PLIANT_HD std::uint32_t lane_bits(const WideMask& mask) {
+/// Bit i is lane i of a part of a mask.
+PLIANT_HD std::uint32_t part_bits(const PartMask& mask) {
 #if PLIANT_X86_BITS == 512
-  return static_cast<std::uint32_t>(_mm512_movepi32_mask((__m512i)mask.part[0]));
+  return static_cast<std::uint32_t>(_mm512_movepi32_mask((__m512i)mask));
 #elif PLIANT_X86_BITS == 256
-  return static_cast<std::uint32_t>(_mm256_movemask_ps((__m256)mask.part[0]) | _mm256_movemask_ps((__m256)mask.part[1])
-                                                                                   << 8);
+  return static_cast<std::uint32_t>(_mm256_movemask_ps((__m256)mask));
 #elif PLIANT_X86_BITS == 128
-  std::uint32_t bits = 0;
-  PLIANT_EACH_PART(bits |= static_cast<std::uint32_t>(_mm_movemask_ps((__m128)mask.part[i])) << (4 * i))
-  return bits;
+  return static_cast<std::uint32_t>(_mm_movemask_ps((__m128)mask));
+#elif defined(__wasm_simd128__)
+  return static_cast<std::uint32_t>(__builtin_wasm_bitmask_i32x4(mask));
 #else
   std::uint32_t bits = 0;
-  for (int lane = 0; lane < wide_width; ++lane)
-    bits |= mask.part[lane / part_width][lane % part_width] != 0 ? 1u << lane : 0u;
+  for (int lane = 0; lane < part_width; ++lane) bits |= mask[lane] != 0 ? 1u << lane : 0u;
   return bits;
 #endif
+}
+
+/// Bit i is lane i of the mask.
+PLIANT_HD std::uint32_t lane_bits(const WideMask& mask) {
+  std::uint32_t bits = 0;
+  PLIANT_EACH_PART(bits |= part_bits(mask.part[i]) << (part_width * i))
+  return bits;
 }
 
 /// True if a number is zero in all lanes.

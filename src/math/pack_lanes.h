@@ -1,13 +1,14 @@
 // What searches in lanes share: they compare a vector of items at a time, and keep those that are near.
 //
 // Packing moves the lanes whose bits are set to the front, in order: by one instruction (AVX-512), by a permutation
-// from a table (AVX2, SSSE3), or lane by lane.
+// from a table (AVX2, SSSE3, WebAssembly), or lane by lane.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <cstring>
 
+#include "math/lane_bits.h"
 #include "math/wide.h"
 
 #if PLIANT_X86_BITS > 0
@@ -48,15 +49,8 @@ PLIANT_HD std::uint32_t first_bits(int left) {
 PLIANT_HD std::uint32_t bits_at_most(const Part& a, const Part& b) {
 #if PLIANT_X86_BITS == 512
   return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ);
-#elif PLIANT_X86_BITS == 256
-  return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps((__m256)a, (__m256)b, _CMP_LE_OQ)));
-#elif PLIANT_X86_BITS == 128
-  return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmple_ps((__m128)a, (__m128)b)));
 #else
-  const PartMask mask = a <= b;
-  std::uint32_t bits = 0;
-  for (int lane = 0; lane < part_width; ++lane) bits |= mask[lane] != 0 ? 1u << lane : 0u;
-  return bits;
+  return part_bits(a <= b);
 #endif
 }
 
@@ -64,16 +58,8 @@ PLIANT_HD std::uint32_t bits_at_most(const Part& a, const Part& b) {
 PLIANT_HD std::uint32_t bits_other_than(const PartMask& a, std::int32_t number) {
 #if PLIANT_X86_BITS == 512
   return _mm512_cmpneq_epi32_mask((__m512i)a, _mm512_set1_epi32(number));
-#elif PLIANT_X86_BITS == 256
-  const __m256i equal = _mm256_cmpeq_epi32((__m256i)a, _mm256_set1_epi32(number));
-  return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(equal))) ^ 0xffu;
-#elif PLIANT_X86_BITS == 128
-  const __m128i equal = _mm_cmpeq_epi32((__m128i)a, _mm_set1_epi32(number));
-  return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_castsi128_ps(equal))) ^ 0xfu;
 #else
-  std::uint32_t bits = 0;
-  for (int lane = 0; lane < part_width; ++lane) bits |= a[lane] != number ? 1u << lane : 0u;
-  return bits;
+  return part_bits(a != PartMask{} + number);
 #endif
 }
 
@@ -90,7 +76,7 @@ constexpr std::array<std::uint64_t, 256> make_packing_table() {
   }
   return table;
 }
-#elif PLIANT_X86_BITS == 128
+#elif PLIANT_X86_BITS == 128 || defined(__wasm_simd128__)
 /// For each set of bits: the bytes of the lanes that are set.
 constexpr std::array<std::array<std::uint8_t, 16>, 16> make_packing_table() {
   std::array<std::array<std::uint8_t, 16>, 16> table{};
@@ -104,7 +90,7 @@ constexpr std::array<std::array<std::uint8_t, 16>, 16> make_packing_table() {
 }
 #endif
 
-#if PLIANT_X86_BITS == 256 || PLIANT_X86_BITS == 128
+#if PLIANT_X86_BITS == 256 || PLIANT_X86_BITS == 128 || defined(__wasm_simd128__)
 constexpr auto packing_table =
     make_packing_table();  // of each unit its own: a local of a function would be shared by all
 #endif
@@ -115,7 +101,7 @@ class Packing {
   PLIANT_HD explicit Packing(std::uint32_t bits) : bits_(bits) {
 #if PLIANT_X86_BITS == 256
     lanes_ = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(packing_table[bits])));
-#elif PLIANT_X86_BITS == 128
+#elif PLIANT_X86_BITS == 128 || defined(__wasm_simd128__)
     std::memcpy(&bytes_, packing_table[bits].data(), sizeof bytes_);
 #endif
   }
@@ -130,6 +116,9 @@ class Packing {
     std::memcpy(to, &packed, sizeof packed);
 #elif PLIANT_X86_BITS == 128
     const __m128i packed = _mm_shuffle_epi8((__m128i)a, bytes_);
+    std::memcpy(to, &packed, sizeof packed);
+#elif defined(__wasm_simd128__)
+    const Bytes packed = __builtin_wasm_swizzle_i8x16((Bytes)a, bytes_);
     std::memcpy(to, &packed, sizeof packed);
 #else
     auto* next = static_cast<unsigned char*>(to);
@@ -147,6 +136,9 @@ class Packing {
   __m256i lanes_;
 #elif PLIANT_X86_BITS == 128
   __m128i bytes_;
+#elif defined(__wasm_simd128__)
+  typedef signed char Bytes __attribute__((vector_size(16)));
+  Bytes bytes_;
 #endif
 };
 

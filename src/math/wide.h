@@ -165,6 +165,8 @@ PLIANT_HD Part max_part(const Part& a, const Part& b) {
   return (Part)_mm256_max_ps((__m256)a, (__m256)b);
 #elif PLIANT_X86_BITS == 128
   return (Part)_mm_max_ps((__m128)a, (__m128)b);
+#elif defined(__wasm_simd128__)
+  return (Part)__builtin_wasm_pmax_f32x4(b, a);  // clang 14 finds it for the minimum alone
 #else
   return a > b ? a : b;
 #endif

@@ -46,7 +46,7 @@ void fill_corners(CompiledObject& out) {
   surface.corners.resize(3 * surface.triangles.size());
   std::vector<int> next(surface.corner_begin.begin(), surface.corner_begin.end() - 1);
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
-    for (int corner = 0; corner < 3; ++corner) surface.corners[next[surface.triangles[t][corner]]++] = 3 * t + corner;
+    for (int corner = 0; corner < 3; ++corner) surface.corners[next[surface.triangles[t][corner]]++] = 4 * t + corner;
   }
 }
 

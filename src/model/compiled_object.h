@@ -69,7 +69,7 @@ struct Surface {
   std::vector<std::array<int, 3>> triangles;
   /// Particle p has corners corner_begin[p] .. corner_begin[p + 1]; empty without air and volume.
   std::vector<int> corner_begin;
-  std::vector<int> corners;  ///< 3 * triangle + number of the corner, ascending for each particle
+  std::vector<int> corners;  ///< 4 * triangle + number of the corner, ascending for each particle
 };
 
 /// The global volume constraint of one object.

@@ -26,7 +26,8 @@ const Target* ObjectControl::target(int particle) const { return find_number(tar
 const TurnTarget* ObjectControl::turn(int frame) const { return find_number(turns, &TurnTarget::frame, frame); }
 
 bool Control::has_forces() const {
-  return std::any_of(objects.begin(), objects.end(), [](const auto& one) { return !one.second.forces.empty(); });
+  return std::any_of(objects.begin(), objects.end(),
+                     [](const auto& one) { return !one.second.forces.empty() || !one.second.pulls.empty(); });
 }
 
 }  // namespace pliant

@@ -30,10 +30,18 @@ struct TurnTarget {
   Quatd from, to;
 };
 
+/// A spring with critical damping between a particle and a place.
+struct Pull {
+  int particle = 0;     ///< index in storage order
+  Vec3f place{};        ///< [m]
+  float frequency = 0;  ///< angular frequency omega [1/s]; its stiffness is m omega^2
+};
+
 struct ObjectControl {
   std::vector<Target> targets;    ///< ascending by particle
   std::vector<TurnTarget> turns;  ///< of bodies, whose particles are in `targets`; ascending by frame
   std::vector<Vec3f> forces;      ///< force on each particle in storage order [N]; empty: none
+  std::vector<Pull> pulls;        ///< of one particle each
 
   const Target* target(int particle) const;
   const TurnTarget* turn(int frame) const;

@@ -1,10 +1,20 @@
-// Aerodynamic forces as functors for launch (parallel/launch.h): per triangle, then gathered per particle.
+// Aerodynamic forces, written once: R is float for one triangle, Wide for sixteen (math/wide.h). For one they are also
+// functors for launch (parallel/launch.h): per triangle, then gathered per particle.
 #pragma once
 
+#include <cstddef>
+
 #include "math/vector.h"
-#include "pliant/state.h"
+#include "solver/air_kernels.h"
 
 namespace pliant {
+
+/// A corner of a triangle.
+template <class R>
+struct AirCorner {
+  Vec3<R> position, velocity;
+  R inverse_mass;
+};
 
 /// The aerodynamic force on a triangle [N], with u the relative
 /// velocity of the air, n the normal facing the stream, A the area:
@@ -12,56 +22,62 @@ namespace pliant {
 /// as for a flat plate: zero for a plate edge-on to the stream. `response` is 2 h
 /// times the mean inverse mass of the corners. The force is divided by 1 + response
 /// |f| / |u|, because drag can at most stop the relative motion in a step.
-PLIANT_HD Vec3f air_force(const Vec3f (&x)[3], const Vec3f& u, float air_density, float drag, float lift,
-                          float response) {
-  const Vec3f doubled = cross(x[1] - x[0], x[2] - x[0]);
-  const float doubled_area = length(doubled), speed = length(u);
-  if (!(doubled_area > 0) || !(speed > 0)) return {};
-  Vec3f n = doubled * (1 / doubled_area);
-  if (dot(u, n) < 0) n = -n;
-  const float through = dot(u, n);
-  const float scale = 0.25f * air_density * doubled_area * through;
-  const Vec3f force = u * (scale * drag) + (n - u * (through / (speed * speed))) * (scale * lift * speed);
-  return force * (1 / (1 + response * length(force) / speed));
+template <class R>
+PLIANT_HD Vec3<R> air_force(const AirCorner<R> (&corner)[3], const Vec3<R>& u, const AirArguments& a,
+                            const R& response) {
+  const R zero(0.f), one(1.f);
+  const Vec3<R> doubled = cross(corner[1].position - corner[0].position, corner[2].position - corner[0].position);
+  const R doubled_area = length(doubled), speed = length(u);
+  Vec3<R> n = doubled * (one / doubled_area);
+  n = select(dot(u, n) < zero, -n, n);
+  const R through = dot(u, n);
+  const R scale = R(0.25f * a.air_density) * doubled_area * through;
+  const Vec3<R> force = u * (scale * R(a.drag)) + (n - u * (through / (speed * speed))) * (scale * R(a.lift) * speed);
+  const Vec3<R> limited = force * (one / (one + response * length(force) / speed));
+  const Vec3<R> none{zero, zero, zero};
+  return select(doubled_area > zero, select(speed > zero, limited, none), none);
+}
+
+/// The force on a triangle with these corners [N].
+template <class R>
+PLIANT_HD Vec3<R> air_force(const AirCorner<R> (&corner)[3], const AirArguments& a) {
+  const R zero(0.f), third(1.f / 3);
+  const Vec3<R> gravity{R(a.gravity.x), R(a.gravity.y), R(a.gravity.z)}, air{R(a.air.x), R(a.air.y), R(a.air.z)};
+  const Vec3<R> none{zero, zero, zero};
+  Vec3<R> velocity = none;
+  for (const AirCorner<R>& one : corner) velocity += one.velocity + select(one.inverse_mass > zero, gravity, none);
+  const R inverse_mass = (corner[0].inverse_mass + corner[1].inverse_mass + corner[2].inverse_mass) * third;
+  return air_force(corner, air - velocity * third, a, R(2 * a.h) * inverse_mass);
 }
 
 /// Computes the force on each triangle of an object.
 struct AirOnTriangle {
-  const int* triangles;  ///< vertex indices, three for each triangle
-  const Record *positions, *velocities;
-  Vec3f air;      ///< air velocity [m/s]
-  Vec3f gravity;  ///< gravity that the velocities of dynamic particles do not include yet [m/s]
-  float h, air_density, drag, lift;
-  Vec3f* forces;  ///< force on each triangle [N]
+  AirArguments a;
 
   PLIANT_HD void operator()(int t) const {
-    const int* corner = triangles + static_cast<std::ptrdiff_t>(3) * t;
-    Vec3f x[3], velocity{};
-    float inverse_masses = 0;
+    const int* vertex = a.triangles + static_cast<std::ptrdiff_t>(3) * t;
+    AirCorner<float> corner[3];
     for (int i = 0; i < 3; ++i) {
-      const Record &p = positions[corner[i]], &v = velocities[corner[i]];
-      x[i] = {p.x, p.y, p.z};
-      velocity += Vec3f{v.x, v.y, v.z} + (p.w > 0 ? gravity : Vec3f{});
-      inverse_masses = i == 0 ? p.w : inverse_masses + p.w;
+      const Record &p = a.positions[vertex[i]], &v = a.velocities[vertex[i]];
+      corner[i] = {{p.x, p.y, p.z}, {v.x, v.y, v.z}, p.w};
     }
-    const float third = 1.f / 3;
-    forces[t] = air_force(x, air - velocity * third, air_density, drag, lift, 2 * h * (inverse_masses * third));
+    const Vec3f force = air_force(corner, a);
+    a.forces[t] = {force.x, force.y, force.z, 0};
   }
 };
 
-/// Adds h f / m to a particle's velocity, where f is a third of the force on each of its triangles.
+/// Adds the forces on a particle's triangles to its velocity.
 struct AirOnParticle {
-  const int *corner_begin, *corners;  ///< triangle corners at each particle: Surface::corner_begin and corners
-  const Vec3f* forces;                ///< force on each triangle [N]
-  const Record* positions;
-  float h;
-  Record* velocities;
+  AirArguments a;
 
   PLIANT_HD void operator()(int i) const {
     Vec3f sum{};
-    for (int c = corner_begin[i]; c < corner_begin[i + 1]; ++c) sum += forces[corners[c] / 3];
-    const Vec3f change = sum * (h * positions[i].w * (1.f / 3));
-    Record& v = velocities[i];
+    for (int c = a.corner_begin[i]; c < a.corner_begin[i + 1]; ++c) {
+      const Record& force = a.forces[a.corners[c] >> 2];
+      sum += Vec3f{force.x, force.y, force.z};
+    }
+    const Vec3f change = sum * (a.h * a.positions[i].w * (1.f / 3));
+    Record& v = a.velocities[i];
     v = {v.x + change.x, v.y + change.y, v.z + change.z, 0};
   }
 };

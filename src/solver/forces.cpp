@@ -6,7 +6,7 @@
 #include "math/quat.h"
 #include "math/record.h"
 #include "math/vector.h"
-#include "parallel/launch.h"
+#include "parallel/ranges.h"
 #include "solver/air.h"
 
 namespace pliant {
@@ -44,25 +44,35 @@ void apply_air_to_capsules(const Model& model, int o, const Vec3f& air, const Ve
   });
 }
 
-void apply_air(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
-               FunctionRef<Vec3f(int)> gravity, EachObject each) {
+constexpr int air_range = 1024;  ///< triangles or particles in a task
+static_assert(air_range % air_batch == 0);
+
+void apply_air(const Model& model, const AirKernels& kernels, State& state, Workspace& workspace, Executor& executor,
+               double time, float h, FunctionRef<Vec3f(int)> gravity, EachObject each) {
   const Vec3f air = wind_at(model.wind, time);
   each([&](int o) {
     const CompiledObject& object = model.objects[o];
-    const int triangles = static_cast<int>(object.surface.triangles.size());
-    std::vector<Vec3f>& forces = workspace.triangle_forces[o];
-    forces.resize(triangles);
-    const Vec3f gravity_so_far = gravity(o);
-    const Record* positions = state.positions.data() + model.first[o];
-    Record* velocities = state.velocities.data() + model.first[o];
-    const int* corners = triangles > 0 ? object.surface.triangles.front().data() : nullptr;
-    launch(executor, "forces: air", triangles,
-           AirOnTriangle{corners, positions, velocities, air, gravity_so_far, h, model.wind.air_density, object.drag,
-                         object.lift, forces.data()});
-    launch(executor, "forces: air", object.particles,
-           AirOnParticle{object.surface.corner_begin.data(), object.surface.corners.data(), forces.data(), positions, h,
-                         velocities});
-    apply_air_to_capsules(model, o, air, gravity_so_far, h, state, executor);
+    const Surface& surface = object.surface;
+    const int triangles = static_cast<int>(surface.triangles.size());
+    Records& forces = workspace.triangle_forces[o];
+    forces.resize((surface.triangles.size() + air_batch - 1) / air_batch * air_batch);
+    const AirArguments arguments{triangles > 0 ? surface.triangles.front().data() : nullptr,
+                                 surface.corner_begin.data(),
+                                 surface.corners.data(),
+                                 state.positions.data() + model.first[o],
+                                 state.velocities.data() + model.first[o],
+                                 forces.data(),
+                                 air,
+                                 gravity(o),
+                                 h,
+                                 model.wind.air_density,
+                                 object.drag,
+                                 object.lift};
+    for_ranges(executor, "forces: air", triangles, air_range,
+               [&](int first, int last) { kernels.find_forces(arguments, first, last); });
+    for_ranges(executor, "forces: air", object.particles, air_range,
+               [&](int first, int last) { kernels.apply(arguments, first, last); });
+    apply_air_to_capsules(model, o, air, arguments.gravity, h, state, executor);
   });
 }
 
@@ -198,14 +208,27 @@ void apply_fields(const Model& model, State& state, Executor& executor, double t
   });
 }
 
-/// Applies the forces that the user set for this frame.
+/// The velocity after a substep of h under the pull, by the implicit Euler method: v + h (omega^2 (place - x - h v') -
+/// 2 omega v') = v'.
+Vec3f pulled(const Pull& pull, const Vec3f& x, const Vec3f& v, float h) {
+  const float turn = h * pull.frequency, kept = 1 / (1 + turn);
+  return v * (kept * kept) + (pull.place - x) * ((turn * kept) * (pull.frequency * kept));
+}
+
+/// Applies the forces and pulls that the user set for this frame.
 void apply_given(const Model& model, const Control& control, State& state, Executor& executor, float h,
                  FunctionRef<bool(int)> takes_part) {
   for (const auto& [o, given] : control.objects) {
-    if (given.forces.empty() || !takes_part(o)) continue;
+    if (!takes_part(o)) continue;
     const CompiledObject& object = model.objects[o];
     const Record* positions = state.positions.data() + model.first[o];
     Record* velocities = state.velocities.data() + model.first[o];
+    for (const Pull& pull : given.pulls) {
+      const Record& x = positions[pull.particle];
+      Record& v = velocities[pull.particle];
+      if (x.w > 0) push(v, pulled(pull, xyz(x), xyz(v), h) - xyz(v));
+    }
+    if (given.forces.empty()) continue;
     const std::vector<Vec3f>& forces = given.forces;
     executor.parallel_for("forces: given", static_cast<int>(object.tiles.size()), [&](int tile) {
       for (int i = object.tiles[tile].first_particle; i < object.tiles[tile].last_particle; ++i)
@@ -228,10 +251,10 @@ Vec3f wind_at(const Wind& wind, double time) {
   return wind.velocity * (1 + wind.gust * static_cast<float>(sin(turn * 6.283185307179586)));
 }
 
-void apply_forces(const Model& model, State& state, Workspace& workspace, Executor& executor, double time, float h,
-                  FunctionRef<Vec3f(int)> gravity, EachObject each, FunctionRef<bool(int)> takes_part,
-                  std::vector<std::string>& warnings) {
-  if (model.wind.air_density > 0) apply_air(model, state, workspace, executor, time, h, gravity, each);
+void apply_forces(const Model& model, const Kernels& kernels, State& state, Workspace& workspace, Executor& executor,
+                  double time, float h, FunctionRef<Vec3f(int)> gravity, EachObject each,
+                  FunctionRef<bool(int)> takes_part, std::vector<std::string>& warnings) {
+  if (model.wind.air_density > 0) apply_air(model, kernels.air, state, workspace, executor, time, h, gravity, each);
   if (!model.forces.empty()) apply_fields(model, state, executor, time, h, gravity, each, warnings);
   if (workspace.control.has_forces()) apply_given(model, workspace.control, state, executor, h, takes_part);
 }

@@ -16,6 +16,7 @@ namespace pliant {
 /// The position of a lane's correction among the sixteen of its batch, in register order (math/wide.h).
 inline constexpr int correction_place(int lane) { return 4 * (lane % 4) + lane / 4; }
 
+struct AirKernels;        // solver/air_kernels.h
 struct ChainKernels;      // solver/sweeps/chain_kernels.h
 struct MultigridKernels;  // solver/sweeps/multigrid_kernels.h
 struct ContactKernels;    // solver/contact_kernels.h
@@ -81,6 +82,7 @@ struct Kernels : SweepKernels, StepKernels {
   const FluidKernels& fluids;
   const ViscosityKernels& viscosity;
   const TensionKernels& tension;
+  const AirKernels& air;
 };
 
 /// The readable reference in plain floats. Kernels without a scalar version (multigrid, pairs) are those of the

@@ -8,6 +8,7 @@
 #include "levels/compiled.h"
 #include "math/runs_level.h"
 #include "pliant/error.h"
+#include "solver/air_kernels.h"
 #include "solver/bodies/manifold_kernels.h"
 #include "solver/bodies/rod_kernels.h"
 #include "solver/contact_kernels.h"
@@ -30,7 +31,8 @@ namespace {
                                chain_kernels_##suffix(),  multigrid_kernels_##suffix(), contact_kernels_##suffix(),   \
                                length_kernels_##suffix(), pair_kernels_##suffix(),      manifold_kernels_##suffix(),  \
                                rod_kernels_##suffix(),    motion_kernels_##suffix(),    neighbour_kernels_##suffix(), \
-                               fluid_kernels_##suffix(),  viscosity_kernels_##suffix(), tension_kernels_##suffix()};  \
+                               fluid_kernels_##suffix(),  viscosity_kernels_##suffix(), tension_kernels_##suffix(),   \
+                               air_kernels_##suffix()};                                                               \
     return table;                                                                                                     \
   }
 PLIANT_FOR_EACH_COMPILED_LEVEL(PLIANT_LEVEL_TABLE, )
@@ -65,7 +67,8 @@ const Kernels& kernels_sequential() {
                              neighbour_kernels_sequential(),
                              fluid_kernels_sequential(),
                              viscosity_kernels_sequential(),
-                             tension_kernels_sequential()};
+                             tension_kernels_sequential(),
+                             air_kernels_sequential()};
   return table;
 }
 

@@ -25,8 +25,8 @@ Vec3f gradient_at(const Surface& surface, const Places& places, int particle) {
   const Vec3f x = places.seen_from(particle, particle);
   Vec3f sum{};
   for (int c = surface.corner_begin[particle]; c < surface.corner_begin[particle + 1]; ++c) {
-    const auto& triangle = surface.triangles[surface.corners[c] / 3];
-    const int corner = surface.corners[c] % 3;
+    const auto& triangle = surface.triangles[surface.corners[c] >> 2];
+    const int corner = surface.corners[c] & 3;
     const Vec3f j = places.seen_from(particle, triangle[(corner + 1) % 3]),
                 k = places.seen_from(particle, triangle[(corner + 2) % 3]);
     sum += cross(j - x, k - x);

@@ -113,11 +113,11 @@ struct Workspace {
   FrameScratch frames;
   std::vector<std::vector<Vec3f>> cluster_multipliers;  ///< [object][member of a cluster]; empty if not stored [m]
   std::vector<double> volume_multipliers;               ///< multiplier of each object's volume constraint
-  Records volume_gradients;  ///< gradient at each particle, if any object has a volume constraint
-  std::vector<std::vector<Vec3f>> triangle_forces;  ///< [object][triangle], if there is air
-  std::vector<TileScratch> tiles;                   ///< scratch data of each tile of the model
-  std::vector<SubstepScratch> of_thread;            ///< [0] also for groups that take turns
-  std::unique_ptr<ContactLog> contact_log;          ///< null if contact events are not requested
+  Records volume_gradients;                 ///< gradient at each particle, if any object has a volume constraint
+  std::vector<Records> triangle_forces;     ///< [object][triangle], if there is air
+  std::vector<TileScratch> tiles;           ///< scratch data of each tile of the model
+  std::vector<SubstepScratch> of_thread;    ///< [0] also for groups that take turns
+  std::unique_ptr<ContactLog> contact_log;  ///< null if contact events are not requested
   bool sums_joint_loads = false;
   std::vector<JointLoadSums> joint_loads;  ///< [object]; empty unless sums_joint_loads
   Control control;                         ///< what the user set for the current frame

@@ -338,6 +338,27 @@ void ObjectHandle::set_forces(std::span<const Vec3f> forces) {
   for (int user = 0; user < of.user_particles; ++user) in_storage[of.place[user]] = forces[user];
 }
 
+void ObjectHandle::set_pulls(std::span<const int> particles, std::span<const Vec3f> places,
+                             std::span<const float> frequencies) {
+  const int number = world_->number(id());
+  const CompiledObject& of = world_->model.objects[number];
+  require({of, "particle", of.user_particles, 0}, particles, places);
+  if (frequencies.size() != particles.size())
+    refuse(of.name, "frequencies",
+           "are " + std::to_string(frequencies.size()) + " for " + std::to_string(particles.size()) + " particles",
+           "give one per particle");
+  for (std::size_t i = 0; i < frequencies.size(); ++i)
+    if (!(frequencies[i] >= 0 && std::isfinite(frequencies[i])))
+      refuse(of.name, "particle " + std::to_string(particles[i]), "has a frequency that is negative or not finite",
+             "give radians per second");
+  wake_bodies(*world_, number);
+  std::vector<Pull>& pulls = world_->workspace.control.objects[number].pulls;
+  pulls.clear();
+  pulls.reserve(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    pulls.push_back({of.place[particles[i]], places[i], frequencies[i]});
+}
+
 void ColliderHandle::set_pose(const RigidPose& pose) {
   const int number = world_->ids.colliders.number(id());
   require_pose(pose, "", "collider " + std::to_string(id().slot));

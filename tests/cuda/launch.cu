@@ -39,7 +39,7 @@ void launch_all_on_device(LaunchCase& c) {
   Copy<Record> positions(c.positions), displacements(c.displacements), remainders(c.remainders),
       velocities(c.velocities);
   Copy<int> triangles(c.triangles), corner_begin(c.corner_begin), corners(c.corners);
-  Copy<Vec3f> forces(c.forces);
+  Copy<Record> forces(c.forces);
   Copy<unsigned char> nonfinite(c.nonfinite);
   LaunchView view = c.view();
   view.positions = positions.data;

@@ -15,7 +15,7 @@ struct LaunchView {
   int particles;
   const int *triangles, *corner_begin, *corners;
   int triangle_count;
-  Vec3f* forces;
+  Record* forces;
   unsigned char* nonfinite;
 };
 
@@ -23,7 +23,7 @@ struct LaunchView {
 struct LaunchCase {
   std::vector<Record> positions, displacements, remainders, velocities;
   std::vector<int> triangles, corner_begin, corners;
-  std::vector<Vec3f> forces;
+  std::vector<Record> forces;
   std::vector<unsigned char> nonfinite;
 
   LaunchView view() {
@@ -54,11 +54,11 @@ void launch_all(Backend& backend, const LaunchView& v) {
   a.gravity_finished = a.gravity_begun = {0, -0.05f, 0};
   launch(backend, "find", v.particles, FindNonfinite{v.displacements, v.nonfinite});
   launch(backend, "update", v.particles, UpdatePoint{a});
-  launch(backend, "air", v.triangle_count,
-         AirOnTriangle{
-             v.triangles, v.positions, v.velocities, {3, 0.5f, -1}, {0, -0.05f, 0}, a.h, 1.2f, 1, 0.5f, v.forces});
-  launch(backend, "air", v.particles,
-         AirOnParticle{v.corner_begin, v.corners, v.forces, v.positions, a.h, v.velocities});
+  const AirArguments air{
+      v.triangles, v.corner_begin, v.corners, v.positions, v.velocities, v.forces, {3, 0.5f, -1}, {0, -0.05f, 0},
+      a.h,         1.2f,           1,         0.5f};
+  launch(backend, "air", v.triangle_count, AirOnTriangle{air});
+  launch(backend, "air", v.particles, AirOnParticle{air});
   launch(backend, "predict", v.particles, PredictPoint{a});
 }
 

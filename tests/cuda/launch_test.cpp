@@ -45,7 +45,8 @@ LaunchCase sheet() {
   std::vector<int> next(c.corner_begin.begin(), c.corner_begin.end() - 1);
   c.corners.resize(c.triangles.size());
   for (std::size_t k = 0; k < c.triangles.size(); ++k)
-    c.corners[static_cast<std::size_t>(next[static_cast<std::size_t>(c.triangles[k])]++)] = static_cast<int>(k);
+    c.corners[static_cast<std::size_t>(next[static_cast<std::size_t>(c.triangles[k])]++)] =
+        static_cast<int>(k / 3 * 4 + k % 3);
   c.forces.resize(c.triangles.size() / 3);
   c.nonfinite.resize(particles, 2);
   return c;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -50,6 +51,51 @@ TEST(Control, AForceForAFrameGivesForceTimesTimeAndIsGone) {
   expect_near(momentum(world, 0), {0, 81 * 0.05 * static_cast<double>(dt), 0}, 1e-6);
   world.step(dt);
   expect_near(momentum(world, 0), {0, 81 * 0.05 * static_cast<double>(dt), 0}, 1e-6);
+}
+
+/// Pulls all particles of the free sheet by an offset from where the sheet was at first.
+void pull_all(World& world, const std::vector<Vec3f>& first, const Vec3f& by, float frequency) {
+  std::vector<int> particles(first.size());
+  std::iota(particles.begin(), particles.end(), 0);
+  std::vector<Vec3f> places = first;
+  for (Vec3f& place : places) place += by;
+  world.object(0).set_pulls(particles, places, std::vector<float>(first.size(), frequency));
+}
+
+TEST(Control, APullIsACriticallyDampedSpringForAFrame) {
+  Scene scene = free_sheet();
+  scene.settings = settings_of(200);
+  World world(scene);
+  const std::vector<Vec3f> first = world.object(0).positions();
+  const double omega = 20, by = 0.3;
+  for (int frame = 1; frame <= 40; ++frame) {
+    pull_all(world, first, {0, 0.3f, 0}, 20);
+    world.step(dt);
+    const double turn = omega * frame * static_cast<double>(dt);
+    EXPECT_NEAR(world.object(0).positions()[40].y - first[40].y, by * (1 - (1 + turn) * std::exp(-turn)), 0.002)
+        << frame;
+  }
+  pull_all(world, first, {0, 0, 0}, 20);
+  world.step(dt);
+  const double momentum_after = momentum(world, 0).y;
+  EXPECT_LT(momentum_after, 0);
+  world.step(dt);
+  EXPECT_NEAR(momentum(world, 0).y, momentum_after, 1e-6) << "it lasts one frame";
+}
+
+TEST(Control, APullOfAnyFrequencyIsStable) {
+  for (const float frequency : {0.f, 1e3f, 1e10f, 3e38f}) {
+    World world(free_sheet());
+    const std::vector<Vec3f> first = world.object(0).positions();
+    for (int frame = 0; frame < 20; ++frame) {
+      pull_all(world, first, {0.2f, 0, 0}, frequency);
+      world.step(dt);
+      const float moved = world.object(0).positions()[0].x - first[0].x;
+      EXPECT_GE(moved, -1e-6) << frequency;
+      EXPECT_LE(moved, 0.2f + 1e-6) << frequency;
+    }
+    EXPECT_NEAR(world.object(0).positions()[0].x - first[0].x, frequency > 0 ? 0.2 : 0, 1e-5) << frequency;
+  }
 }
 
 TEST(Control, VelocitiesAreTakenAsTheyAre) {
@@ -209,6 +255,13 @@ TEST(Control, WrongSizesAndNumbersAreNamedAndChangeNothing) {
   EXPECT_NE(refusal([&] { world.object(0).set_targets(missing, place); }).find("particle 144"), std::string::npos);
   EXPECT_NE(refusal([&] { world.object(0).set_targets(pin, off); }).find("not finite"), std::string::npos);
   EXPECT_NE(refusal([&] { world.object(0).set_targets(pin, few); }).find("3 positions"), std::string::npos);
+  const std::vector<float> frequency = {1}, negative = {-1}, two_of_one = {1, 1};
+  EXPECT_NE(refusal([&] { world.object(0).set_pulls(missing, place, frequency); }).find("particle 144"),
+            std::string::npos);
+  EXPECT_NE(refusal([&] { world.object(0).set_pulls(free, off, frequency); }).find("not finite"), std::string::npos);
+  EXPECT_NE(refusal([&] { world.object(0).set_pulls(free, place, negative); }).find("negative"), std::string::npos);
+  EXPECT_NE(refusal([&] { world.object(0).set_pulls(free, place, two_of_one); }).find("2 for 1 particles"),
+            std::string::npos);
   const std::vector<int> twice = {0, 0};
   const std::vector<Vec3f> two(2);
   EXPECT_NE(refusal([&] { world.object(0).set_targets(twice, two); }).find("particle 0: is given twice"),

@@ -1,11 +1,12 @@
 // Drags: particles that follow a target, as a mouse wants it.
 
 const most = 12; // the greatest speed that a drag gives [m/s]
-const gain = 0.15; // share of the distance to the target that is added up in each step
+const frequency = 150; // of the springs that pull, critically damped [1/s]
+const gain = 0.05; // share of the distance to the target that is added up in each step
 const mostLag = 0.5; // [m]
 
-/** Pulls a particle and what is near it towards a target: velocities at the start of each step, so that constraints and
- * contacts still have the last word. A pinned particle gets targets instead, which it reaches exactly. */
+/** Pulls a particle and what is near it towards a target by critically damped springs, so that constraints and contacts
+ * still have the last word. A pinned particle gets targets instead, which it reaches exactly. */
 export class Drag {
   constructor(object, particle, { radius = 0 } = {}) {
     this.object = object;
@@ -37,16 +38,19 @@ export class Drag {
 
   apply(dt) {
     if (this.isPinned) return this.object.setTargets([this.particle], this.target);
-    const at = this.object.positionsView().slice(3 * this.particle, 3 * this.particle + 3);
-    // What gravity and the rest of the object keep from the target is added up, so that a load is lifted all the way.
+    const positions = this.object.positionsView().slice();
+    const at = positions.subarray(3 * this.particle, 3 * this.particle + 3);
+    // What the rest of the object keeps from the target is added up, so that a load is lifted all the way.
     this.lag = this.lag.map((lag, k) => Math.min(Math.max(lag + gain * (this.target[k] - at[k]), -mostLag), mostLag));
-    const way = this.target.map((t, k) => (t - at[k] + this.lag[k]) / dt);
-    const speed = Math.hypot(...way);
-    const cut = speed > most ? most / speed : 1;
-    const velocities = this.object.velocities();
-    for (const { i, share } of this.near)
-      for (let k = 0; k < 3; ++k) velocities[3 * i + k] += share * (cut * way[k] - velocities[3 * i + k]);
-    this.object.setVelocities(velocities);
+    const way = this.target.map((t, k) => t - at[k] + this.lag[k]);
+    const cut = Math.min((most * dt) / Math.hypot(...way), 1);
+    // All are pulled the same way, so what is near keeps its shape.
+    const places = this.near.flatMap(({ i }) => way.map((w, k) => positions[3 * i + k] + cut * w));
+    this.object.setPulls(
+      this.near.map(({ i }) => i),
+      places,
+      this.near.map(({ share }) => share * frequency),
+    );
   }
 
   release() {

@@ -181,6 +181,7 @@ export class WorldObject {
   setForces(forces: ArrayLike<number>): void;
   /** Moves pinned particles to positions that they reach at the end of the next step. */
   setTargets(particles: ArrayLike<number>, positions: ArrayLike<number>): void;
+  setPulls(particles: ArrayLike<number>, places: ArrayLike<number>, frequencies: ArrayLike<number>): void;
   setMotor(joint: string, target: number, options?: { motor?: string; most?: number }): void;
   /** The particle nearest to a point, of those that are present. */
   nearest(point: ArrayLike<number>): number;

@@ -340,6 +340,16 @@ export class WorldObject {
       memory.call("pliant_object_set_targets", handle, id, arena.integers(particles), arena.floats(positions), particles.length),
     );
   }
+  /** Pulls particles towards places in the next step, as springs with critical damping of these frequencies [1/s] do. */
+  setPulls(particles, places, frequencies) {
+    const { memory, handle } = this.world;
+    if (places.length !== 3 * particles.length || frequencies.length !== particles.length)
+      throw new RangeError(`${particles.length} particles need three floats and a frequency each`);
+    this.world.withId(this.id, (id, arena) => {
+      const lists = [arena.integers(particles), arena.floats(places), arena.floats(frequencies)];
+      memory.call("pliant_web_set_pulls", handle, id, ...lists, particles.length);
+    });
+  }
   setMotor(joint, target, { motor, most = 0 } = {}) {
     const { memory, handle } = this.world;
     this.world.withId(this.id, (id, arena) =>

@@ -196,3 +196,13 @@ pliant_status pliant_web_inverse_masses(const pliant_world* world, pliant_id obj
       if (static_cast<std::size_t>(order[i]) < particles) into[order[i]] = records[i].w;
   });
 }
+
+pliant_status pliant_web_set_pulls(pliant_world* world, pliant_id object, const int32_t* particles, const float* places,
+                                   const float* frequencies, size_t count) {
+  return guarded([&] {
+    const ObjectUse use(world, object);
+    require(frequencies, "frequencies");
+    use.object().set_pulls(integers(particles, count, "particles"), points(places, count, "places"),
+                           {frequencies, count});
+  });
+}

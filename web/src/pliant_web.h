@@ -46,6 +46,10 @@ PLIANT_API pliant_status pliant_web_poses(const pliant_world* world, pliant_id o
 PLIANT_API pliant_status pliant_web_inverse_masses(const pliant_world* world, pliant_id object, float* into,
                                                    size_t capacity, size_t* count);
 
+/// Pulls particles towards places during the next step (ObjectHandle::set_pulls): frequencies [1/s].
+PLIANT_API pliant_status pliant_web_set_pulls(pliant_world* world, pliant_id object, const int32_t* particles,
+                                              const float* places, const float* frequencies, size_t count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -2,6 +2,7 @@
 // solver/lanes.cpp: everything is inlined or in an inline namespace, and only the table has external linkage.
 #include "collision/proxies/pair_kernels.h"
 #include "geometry/triangle.h"
+#include "math/lane_bits.h"
 #include "math/wide.h"
 
 namespace pliant {
@@ -340,14 +341,7 @@ PLIANT_HD unsigned overlaps(const float* box, const BoxRows& boxes, int at) {
     };
     const PartMask inside = (from(0) <= Part{} + box[3]) & (from(1) <= Part{} + box[4]) & (from(2) <= Part{} + box[5]) &
                             (from(3) >= Part{} + box[0]) & (from(4) >= Part{} + box[1]) & (from(5) >= Part{} + box[2]);
-#if PLIANT_X86_BITS == 256
-    bits |= static_cast<unsigned>(_mm256_movemask_ps((__m256)inside)) << (part * part_width);
-#elif PLIANT_X86_BITS == 128
-    bits |= static_cast<unsigned>(_mm_movemask_ps((__m128)inside)) << (part * part_width);
-#else
-    for (int lane = 0; lane < part_width; ++lane)
-      bits |= static_cast<unsigned>(inside[lane] & 1) << (part * part_width + lane);
-#endif
+    bits |= part_bits(inside) << (part * part_width);
   }
   return bits;
 #endif

@@ -24,7 +24,7 @@ struct LiftOnParticle {
     const float own = dot(density, place(i));
     Vec3f sum{};
     for (int c = corner_begin[i]; c < corner_begin[i + 1]; ++c) {
-      const int* corner = triangles + static_cast<std::ptrdiff_t>(corners[c] / 3) * 3;
+      const int* corner = triangles + static_cast<std::ptrdiff_t>(corners[c] >> 2) * 3;
       const Vec3f a = place(corner[0]), b = place(corner[1]), d = place(corner[2]);
       const Vec3f area = cross(b - a, d - a) * 0.5f;
       sum += area * ((own + dot(density, a) + dot(density, b) + dot(density, d)) * (-1.f / 12));
