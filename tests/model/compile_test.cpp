@@ -241,7 +241,7 @@ TEST_P(Compiled, FindsTheTrianglesAroundEachParticle) {
     for (int c = surface.corner_begin[static_cast<std::size_t>(p)];
          c < surface.corner_begin[static_cast<std::size_t>(p) + 1]; ++c, ++corners) {
       const int corner = surface.corners[static_cast<std::size_t>(c)];
-      EXPECT_EQ(surface.triangles[static_cast<std::size_t>(corner / 3)][static_cast<std::size_t>(corner % 3)], p);
+      EXPECT_EQ(surface.triangles[static_cast<std::size_t>(corner / 4)][static_cast<std::size_t>(corner % 4)], p);
     }
   }
   EXPECT_EQ(corners, 3 * object_.triangles.size());
