@@ -198,7 +198,8 @@ struct PolytopeFace {
   std::array<int, 3> corners{};
   Vec3d normal{};
   double distance = 0;  ///< of its plane from the origin
-  bool alive = true;
+  bool is_valid = true;  ///< it has an area
+  bool is_seen = false;  ///< by the last point
 };
 
 class Polytope {
@@ -214,7 +215,7 @@ class Polytope {
   ConvexDistance depth() {
     int nearest = is_solid_ ? nearest_face() : -1;
     if (nearest < 0) return flat();
-    for (int step = 0; step < most_steps && faces_.size() < most_faces; ++step) {
+    for (int step = 0; step < most_steps && made_ < most_faces; ++step) {
       const PolytopeFace face = faces_[at(nearest)];
       const Vertex next = difference_.support(face.normal);
       if (dot(next.w, face.normal) - face.distance <= growth * size_ || !grow(next)) break;
@@ -270,6 +271,7 @@ class Polytope {
     const Vec3d a = place(corners[0]);
     const Vec3d normal = unit_or(cross(place(corners[1]) - a, place(corners[2]) - a), Vec3d{});
     faces_.push_back({corners, normal, dot(normal, a), length_squared(normal) > 0});
+    ++made_;
   }
 
   /// The origin is inside or on the polytope: a face that it is outside of has been turned over by rounding.
@@ -277,31 +279,32 @@ class Polytope {
     int best = -1;
     for (std::size_t i = 0; i < faces_.size(); ++i) {
       const PolytopeFace& face = faces_[i];
-      if (!face.alive || face.distance < -turned_over * size_) continue;
+      if (!face.is_valid || face.distance < -turned_over * size_) continue;
       if (best < 0 || face.distance < faces_[at(best)].distance) best = static_cast<int>(i);
     }
     return best;
   }
 
+  /// Of two faces that are seen, what they share is not on the border.
+  void note_side(int from, int to) {
+    const auto back = std::find(border_.begin(), border_.end(), std::pair{to, from});
+    if (back != border_.end())
+      border_.erase(back);
+    else
+      border_.emplace_back(from, to);
+  }
+
   /// Replaces the faces that a point sees. False if it sees none.
   bool grow(const Vertex& next) {
     border_.clear();
-    seen_.clear();
-    for (std::size_t i = 0; i < faces_.size(); ++i)
-      if (faces_[i].alive && dot(faces_[i].normal, next.w) - faces_[i].distance > 1e-12 * size_) seen_.push_back(i);
-    for (const std::size_t i : seen_)
-      for (std::size_t e = 0; e < 3; ++e) {
-        const std::pair<int, int> edge{faces_[i].corners[e], faces_[i].corners[(e + 1) % 3]};
-        const auto back = std::find(border_.begin(), border_.end(), std::pair{edge.second, edge.first});
-        if (back != border_.end())
-          border_.erase(back);
-        else
-          border_.push_back(edge);
-      }
+    for (PolytopeFace& face : faces_) {
+      face.is_seen = dot(face.normal, next.w) - face.distance > 1e-12 * size_;
+      for (std::size_t e = 0; e < 3 && face.is_seen; ++e) note_side(face.corners[e], face.corners[(e + 1) % 3]);
+    }
     if (border_.empty()) return false;
     const auto made = static_cast<int>(vertices_.size());
     vertices_.push_back(next);
-    for (const std::size_t i : seen_) faces_[i].alive = false;
+    std::erase_if(faces_, [](const PolytopeFace& face) { return face.is_seen; });
     for (const auto& [from, to] : border_) add({from, to, made});
     return true;
   }
@@ -349,7 +352,7 @@ class Polytope {
   std::vector<Vertex> vertices_;
   std::vector<PolytopeFace> faces_;
   std::vector<std::pair<int, int>> border_;  ///< of the faces that the last point saw
-  std::vector<std::size_t> seen_;            ///< those faces
+  std::size_t made_ = 0;                     ///< faces that were made
   double size_ = 0;
   bool is_solid_ = false;
 };

@@ -59,9 +59,9 @@ void BodyContacts::Task::note_depth(const BodyContact& contact, const Piece& par
 void BodyContacts::Task::find(int number, std::span<const BodyContact> old, Found& found) const {
   const Pair& pair = of.pairs_.pairs()[at(number)];
   const BodyPart &one = of.parts_[at(pair.first)], &other = of.parts_[at(pair.second)];
+  if (old.empty() && !may_begin(one.body) && !may_begin(other.body)) return;
   const float speed = speed_of(number, found.is_opened);
-  if (old.empty() && ((!may_begin(one.body) && !may_begin(other.body)) || is_out_of_reach(pair, one, other, speed)))
-    return;
+  if (old.empty() && is_out_of_reach(pair, one, other, speed)) return;
   const BodyState &a = bodies[at(one.body)], &b = bodies[at(other.body)];
   const bool stays_anyway = !is_renewed(pair, old) && (far >= unlimited || !one.is_convex());
   Posed relative = stays_anyway ? Posed{} : relative_to(a.pose, b.pose);

@@ -9,9 +9,6 @@ namespace pliant {
 
 namespace {
 
-/// What moves less than by this share with what turns by itself lies across it, as on a roller.
-constexpr double least_carried = -1e30;
-
 /// The velocity of a body where another one is, if that moves with it. Only what turns by itself turns like that
 /// for a whole frame [m/s].
 Vec3d velocity_at(const BodyState& body, const BodyState& other) {

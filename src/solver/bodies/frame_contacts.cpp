@@ -102,12 +102,13 @@ void FrameContacts::find(Substep& s, BodySleep& sleep) {
 /// rim by the angle over s. What was lowest has then risen by r angle^2 / 2 s.
 void FrameContacts::limit_rolling() {
   most_rolled_.assign(at(bodies_->dynamic()), 1e30f);
+  const auto may_roll = [&](int body) { return body < bodies_->dynamic() && has_rim_[at(body)] != 0; };
   for (int i = 0; i < static_cast<int>(contacts_.size()); ++i) {
     const auto& [a, b] = finder_.bodies()[at(i)];
     const BodyContact& contact = contacts_[at(i)];
-    if (!BodyContacts::is_close(contact, size(i))) continue;
+    if ((!may_roll(a) && !may_roll(b)) || !BodyContacts::is_close(contact, size(i))) continue;
     for (const auto& [body, arm] : {std::pair{a, contact.arm_a}, std::pair{b, contact.arm_b}}) {
-      const Vec3f round = body < bodies_->dynamic() && has_rim_[at(body)] != 0 ? bodies_->round_axes(body) : Vec3f{};
+      const Vec3f round = may_roll(body) ? bodies_->round_axes(body) : Vec3f{};
       if (round.x + round.y + round.z != 1) continue;
       const Vec3f axis = rotate(convert<float>(states_[at(body)].pose.rotation), round);
       const float tilt = length(cross(axis, contact.normal)), radius = length(cross(axis, arm));
