@@ -176,6 +176,13 @@ bool is_in_normal_cone(const BodyMesh& mesh, int triangle, const Vec3d& directio
                     : mesh.is_normal_at_corner(triangle, at.index, direction);
 }
 
+/// True if no other triangle is nearer to what is in a direction from a triangle.
+bool is_own_direction(const BodyMesh& mesh, int triangle, const Vec3d& direction) {
+  const double along = dot(direction, mesh.face(triangle).normal);
+  return !(mesh.is_terrain() && along <= 0) &&
+         (std::fabs(along) >= straight || is_in_normal_cone(mesh, triangle, direction));
+}
+
 Feature triangle_part(const MeshFace& face, const Vec3d& normal) {
   const auto& t = face.corners;
   Feature out;
@@ -235,12 +242,17 @@ void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle
   add_points_above(at, nearest, points);
 }
 
-Vec3d direction_of_contact(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal) {
+bool has_direction(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal) {
   const MeshFace& face = mesh.face(triangle);
-  const double along = dot(normal, face.normal);
-  const bool is_behind = mesh.is_terrain() && along <= 0;
-  const bool is_its_own = !is_behind && (std::fabs(along) >= straight || is_in_normal_cone(mesh, triangle, normal));
-  return is_its_own ? normal : facing_normal(face, solid.centre(), mesh.is_terrain());
+  // Only its own normal holds what is near a smooth triangle, wherever it is nearest.
+  const bool is_smooth = face.is_smooth[dot(face.normal, solid.centre() - face.corners[0]) < 0 ? 1 : 0];
+  return is_smooth || is_own_direction(mesh, triangle, normal);
+}
+
+Vec3d direction_of_contact(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal) {
+  return is_own_direction(mesh, triangle, normal)
+             ? normal
+             : facing_normal(mesh.face(triangle), solid.centre(), mesh.is_terrain());
 }
 
 void touch_plane_of(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal, double reach,

@@ -30,6 +30,9 @@ void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle
 void touch_triangle(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, double reach,
                     const TriangleNearest& nearest, std::vector<TrianglePoint>& points);
 
+/// True if a triangle holds what passes it along a normal, in that direction or, if it is smooth, in its own.
+bool has_direction(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal);
+
 /// The direction in which a triangle holds a solid to which it is nearest along `normal`: that, or its own normal where
 /// another triangle is nearer in that direction.
 Vec3d direction_of_contact(const SolidInMesh& solid, const BodyMesh& mesh, int triangle, const Vec3d& normal);

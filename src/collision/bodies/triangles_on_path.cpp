@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "collision/bodies/triangle_nearest.h"
 #include "geometry/triangle.h"
@@ -17,6 +18,10 @@ struct Met {
   int triangle = 0;
   std::size_t first = 0, end = 0;  ///< its points at the start of the path
   PathContact at;
+
+  std::span<const TrianglePoint> points(const std::vector<TrianglePoint>& at_start) const {
+    return std::span(at_start).subspan(first, end - first);
+  }
 };
 
 /// A solid on its path, and a mesh.
@@ -32,19 +37,21 @@ struct Way {
   bool is_of_face(const TrianglePoint& at) const {
     return std::fabs(dot(at.normal, mesh.face(at.triangle).normal)) > 1 - 1e-9;
   }
-  /// True if points that were found at the start stop the solid on a path, by what counts as touching on it.
-  bool stops(const SolidPath& by, const std::vector<TrianglePoint>& points, const Met& of) const {
-    for (std::size_t i = of.first; i < of.end; ++i)
-      if (by.is_stopped(points[i].normal, points[i].point.separation)) return true;
-    return false;
+  /// True if points stop the solid on a path, by what counts as touching on it.
+  static bool stops(const SolidPath& by, std::span<const TrianglePoint> points) {
+    return std::any_of(points.begin(), points.end(),
+                       [&](const TrianglePoint& at) { return by.is_stopped(at.normal, at.point.separation); });
   }
-  bool stops(const ContactPath& path, const std::vector<TrianglePoint>& points, const Met& of) const {
-    return stops(SolidPath{path, on.slop, on.sag, on.least}, points, of);
+  bool stops(const ContactPath& path, std::span<const TrianglePoint> points) const {
+    return stops(SolidPath{path, on.slop, on.sag, on.least}, points);
+  }
+  /// True if a path takes the solid deeper in than points of it may be.
+  bool goes_in(const ContactPath& path, std::span<const TrianglePoint> points) const {
+    return stops(SolidPath{path, on.slop, -on.slop, on.least}, points);
   }
   /// True if the points of a face that the solid passes serve as they are: unless the path goes in, they stop nothing.
   bool stays(const ContactPath& path, const std::vector<TrianglePoint>& points, const Met& of) const {
-    return of.end > of.first && is_of_face(points[of.first]) &&
-           !stops(SolidPath{path, on.slop, -on.slop, on.least}, points, of);
+    return of.end > of.first && is_of_face(points[of.first]) && !goes_in(path, of.points(points));
   }
 
   /// True if a path may take the solid lower over a triangle than `height` [m]: neither along the triangle's normal nor
@@ -104,7 +111,7 @@ std::vector<Met> met_on(const Way& way, const ContactPath& path, const std::vect
     Met met{triangle, next, next, {}};
     while (met.end < points.size() && points[met.end].triangle == triangle) ++met.end;
     next = met.end;
-    if (way.stops(path, points, met) || way.passes(path, triangle, box, height)) all.push_back(met);
+    if (way.stops(path, met.points(points)) || way.passes(path, triangle, box, height)) all.push_back(met);
   }
   return all;
 }
@@ -139,16 +146,19 @@ void add_points(const Way& way, const ContactPath& path, const std::vector<Trian
     nearest.separation = dot(nearest.normal, nearest.on_solid - nearest.on_triangle);
     touch_triangle(there, way.mesh, met.triangle, way.reach, nearest, points);
   }
-  if (points.size() == first && !met.at.touches && way.stays(path, at_start, met)) {
-    points.insert(points.end(), at_start.begin() + static_cast<std::ptrdiff_t>(met.first),
-                  at_start.begin() + static_cast<std::ptrdiff_t>(met.end));
-    return;
-  }
   for (std::size_t i = first; i < points.size(); ++i) {
     points[i].moved = by;
     points[i].point.on_b -= by;
     points[i].point.separation -= dot(points[i].normal, by);
   }
+  if (met.at.touches) return;
+  // What passes beside a triangle goes below its plane there.
+  if (!has_direction(way.solid, way.mesh, met.triangle, met.at.normal) &&
+      way.goes_in(path, std::span(points).subspan(first)))
+    points.resize(first);
+  if (points.size() == first && way.stays(path, at_start, met))
+    points.insert(points.end(), at_start.begin() + static_cast<std::ptrdiff_t>(met.first),
+                  at_start.begin() + static_cast<std::ptrdiff_t>(met.end));
 }
 
 }  // namespace
