@@ -61,8 +61,6 @@ void add_whole_object_phases(CompiledObject& out) {
   if (!out.held.particles.empty()) out.phases.push_back({Driver::held, 0, 1});
   if (out.has_volume) out.phases.push_back({Driver::volume, 0, 1});
   for (const auto& [first, last] : out.clusters.colours) out.phases.push_back({Driver::cluster, first, last});
-  if (out.fluid) out.phases.push_back({Driver::fluid, 0, 1});
-  if (out.grains) out.phases.push_back({Driver::grain, 0, 1});
   if (out.tethers.slots > 0) out.phases.push_back({Driver::tether, 0, 1});
   std::stable_sort(out.phases.begin(), out.phases.end(),
                    [](const ObjectPhase& a, const ObjectPhase& b) { return a.driver < b.driver; });

@@ -18,13 +18,11 @@ enum class Driver : std::int32_t {
   volume,            ///< global volume constraints; a task is an object
   stencil,           ///< constraints projected one at a time; a task is a segment
   cluster,           ///< shape matching, in colours; a task is a cluster
-  fluid,             ///< density constraints of liquids; a task is an object
-  grain,             ///< contacts of grains; a task is an object
   tether,            ///< upper bounds of distances to pins; a task is an object
   surface_contact,   ///< contacts between surfaces, found in each substep; no tasks
   collider_contact,  ///< contacts with colliders, found in each substep; no tasks
 };
-inline constexpr int driver_count = 12;
+inline constexpr int driver_count = 10;
 
 /// Items [first, last) of one object. They share no point.
 struct ObjectPhase {

@@ -25,7 +25,6 @@
 #include <chrono>
 #include <cstdint>
 
-#include "solver/bodies/body_solver.h"
 #include "solver/bodies/tie_gaps.h"
 #include "solver/sheets/sheet_solver.h"
 #include "solver/stages/solve_again.h"
@@ -58,7 +57,6 @@ bool all_end_together(const std::vector<Substep>& groups, const Substep& s) {
 /// Makes the current substep of a group, the last one if stops() is true. False if a value is not finite.
 bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   control(s);
-  if (s.bodies != nullptr) s.bodies->renew_contacts(s);
   apply_forces(s);
   if (!predict(s)) return false;
   collide(s);
@@ -68,7 +66,7 @@ bool make_substep(Substep& s, FunctionRef<bool()> stops) {
   limit(s);
   close_stitches(s);
   s.own->free_is_known = false;
-  if (s.bodies != nullptr) s.bodies->stop_passing(s);
+  for_systems(s, [&](System& system) { system.stop_passing(s); });
   if (stops()) s.substeps = s.number + 1;
   filter(s);
   end_filter(s);

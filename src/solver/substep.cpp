@@ -23,7 +23,12 @@ bool solves_in_one_pass(const Substep& s, int object) {
 
 }  // namespace
 
-bool changes_velocities(const Substep& s) { return s.gases != nullptr || has_forces(s.model, s.work.control); }
+bool changes_velocities(const Substep& s) {
+  if (has_forces(s.model, s.work.control)) return true;
+  bool any = false;
+  for_systems(s, [&](const System& system) { any = any || system.changes_velocities(); });
+  return any;
+}
 
 SweepArguments arguments(const Substep& s, int object, bool first_pass) {
   const int first = s.model.first[object];

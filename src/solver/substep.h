@@ -3,14 +3,12 @@
 
 #include "core/at.h"
 #include "solver/step.h"
+#include "solver/systems/systems.h"
 #include "solver/ways_out.h"
 
 namespace pliant {
 
 class BodySolver;
-class FluidSolver;
-class GasSolver;
-class GrainSolver;
 
 /// Views of the data of a step, and the numbers of one substep. Over fifteen members, because stages are free
 /// functions, and each needs some of this data.
@@ -24,10 +22,8 @@ struct Substep {
   Report report{};                     ///< what this group adds to the frame's report
   const SubstepGroup* part = nullptr;  ///< objects that take part; null: all
   SurfaceContact* pairs = nullptr;     ///< contact of their surfaces; null if no two can touch
-  BodySolver* bodies = nullptr;        ///< contact of rigid bodies; null if there are none
-  FluidSolver* fluids = nullptr;       ///< density of liquids; null if there are none
-  GrainSolver* grains = nullptr;       ///< contacts of grains; null if there are none
-  GasSolver* gases = nullptr;          ///< buoyancy and heat of gases, and tracers; null if there are none
+  const Systems* systems = nullptr;    ///< bodies, liquids, grains and gases; null: none
+  BodySolver* bodies = nullptr;        ///< of these, contact of rigid bodies, which cloth and ropes need; or null
   double frame_start = 0, dt = 0;      ///< start and length of the frame [s]
   float h = 0;                         ///< length of a substep [s]
   int number = 0;                      ///< index of the substep in the frame, from 0
@@ -123,6 +119,13 @@ template <class Body>
 void for_each_tile(const Substep& s, const Body& body) {
   const auto count = s.part == nullptr ? s.model.tiles().size() : s.part->tiles.size();
   for (std::size_t i = 0; i < count; ++i) body(s.part == nullptr ? static_cast<int>(i) : s.part->tiles[i]);
+}
+
+/// Calls body(system) for every system of the group, in their order.
+template <class Body>
+void for_systems(const Substep& s, const Body& body) {
+  if (s.systems != nullptr)
+    for (const auto& system : *s.systems) body(*system);
 }
 
 /// Parallel loops timed under `name`: over tiles of objects that take part, of swept objects, and over given tasks.

@@ -12,10 +12,7 @@
 #include "collision/surfaces/surface_contact.h"
 #include "model/model.h"
 #include "model/object_sets.h"
-#include "solver/bodies/body_solver.h"
-#include "solver/fluids/fluid_solver.h"
-#include "solver/gases/gas_solver.h"
-#include "solver/grains/grain_solver.h"
+#include "solver/systems/systems.h"
 
 namespace pliant {
 
@@ -35,10 +32,7 @@ struct SubstepGroup {
   std::vector<Phase> phases{};          ///< phases with the tasks of these objects only
   std::vector<Sweep> sweeps{};          ///< sweeps that these objects use
   std::vector<Task> lengths{};  ///< also where it has all: objects solved by chains, and each of their LengthRanges
-  std::unique_ptr<BodySolver> bodies{};   ///< also where it has all; null without rigid bodies
-  std::unique_ptr<FluidSolver> fluids{};  ///< likewise; null without liquids
-  std::unique_ptr<GrainSolver> grains{};  ///< likewise; null without grains
-  std::unique_ptr<GasSolver> gases{};     ///< likewise; null without gases and tracers
+  Systems systems{};            ///< also where it has all
   std::unique_ptr<PairModel> pair_model{};
   std::unique_ptr<SurfaceContact> pairs{};  ///< contact between surfaces; null if no two of the group can touch
 

@@ -127,30 +127,12 @@ void prepare_groups(WorldData& world) {
   world.groups.changed_surfaces.clear();
 }
 
-/// Makes the contact of rigid bodies of all groups again. What lasts of it is in the State.
-void make_body_solvers(WorldData& world) {
-  const bool has_bodies = std::any_of(world.model.objects.begin(), world.model.objects.end(),
-                                      [](const CompiledObject& object) { return !object.bodies.empty(); });
-  for (SubstepGroup& group : world.groups.all) {
-    group.bodies = nullptr;
-    if (!has_bodies) continue;
-    group.bodies =
-        std::make_unique<BodySolver>(world.model, group.has_all ? nullptr : &group.objects, world.groups.body_meshes);
-    if (!group.bodies->has_bodies()) group.bodies = nullptr;
-  }
+SystemsFor systems_for(WorldData& world, const SubstepGroup& group) {
+  return {world.model, group.has_all ? nullptr : &group.objects, &world.groups.sets, &world.groups.body_meshes};
 }
 
-/// Makes the liquids and grains of all groups again.
-void make_particle_solvers(WorldData& world) {
-  for (SubstepGroup& group : world.groups.all) {
-    group.grains = std::make_unique<GrainSolver>(world.model, group.has_all ? nullptr : &group.objects);
-    if (!group.grains->has_grains()) group.grains = nullptr;
-    group.fluids =
-        std::make_unique<FluidSolver>(world.model, group.has_all ? nullptr : &group.objects, &world.groups.sets);
-    if (!group.fluids->has_fluids()) group.fluids = nullptr;
-    group.gases = std::make_unique<GasSolver>(world.model, group.has_all ? nullptr : &group.objects);
-    if (!group.gases->has_gases()) group.gases = nullptr;
-  }
+void make_systems(WorldData& world) {
+  for (SubstepGroup& group : world.groups.all) group.systems.make(systems_for(world, group));
 }
 
 /// The sets of the objects in a frame of `dt` seconds that begins now.
@@ -286,9 +268,8 @@ void bring_up_to_date(WorldData& world) {
   }
   update_surfaces(world);
   if (!has_contact(world.groups)) world.groups.tables = nullptr;
-  if (std::exchange(world.groups.bodies_meet_others, false) || world.groups.objects_changed) make_body_solvers(world);
+  if (std::exchange(world.groups.bodies_meet_others, false) || world.groups.objects_changed) make_systems(world);
   if (!world.groups.objects_changed) return;
-  make_particle_solvers(world);
   for (TileScratch& tile : world.workspace.tiles)
     tile.contacts.clear();  // contacts have collider indices, which may have changed
   if (world.settings.tolerance > 0) prepare_residual(world.model, world.workspace.residual);
@@ -300,15 +281,13 @@ void follow_distances(WorldData& world, double dt) {
   std::vector<int> sets = near_sets(world, dt);
   if (sets == world.groups.sets) return;
   change_sets(world, std::move(sets));
-  const bool has_liquids = std::any_of(world.groups.all.begin(), world.groups.all.end(),
-                                       [](const SubstepGroup& group) { return group.fluids != nullptr; });
   const bool is_one_group = named_substeps(world) > 0 || shares_one_group(world);
   const bool must_regroup = !is_one_group && planned_substeps(world.model, &world.groups.sets) != world.groups.plan;
   if (must_regroup) prepare_groups(world);
   update_surfaces(world);
   if (!has_contact(world.groups)) world.groups.tables = nullptr;
-  if (must_regroup) make_body_solvers(world);
-  if (must_regroup || has_liquids) make_particle_solvers(world);
+  if (must_regroup) return make_systems(world);
+  for (SubstepGroup& group : world.groups.all) group.systems.follow_sets(systems_for(world, group));
 }
 
 int substeps_of(const WorldData& world, int number) {

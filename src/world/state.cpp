@@ -6,6 +6,7 @@
 #include "core/sha256.h"
 #include "pliant/error.h"
 #include "solver/bodies/joint_load.h"
+#include "solver/grains/grain_solver.h"
 #include "world/control.h"
 #include "world/flow.h"
 #include "world/rest.h"

@@ -13,6 +13,7 @@
 #include "model/model.h"
 #include "parallel/executor.h"
 #include "pliant/world.h"
+#include "solver/bodies/contact_bodies.h"
 #include "solver/kernels.h"
 #include "solver/measure.h"
 #include "solver/near_sets.h"

@@ -24,15 +24,15 @@ std::vector<Object> two_sheets() {
 Vec3f at(const Record& r) { return {r.x, r.y, r.z}; }
 
 /// The dense matrices of both objects as one, with the springs of their contacts.
-System dense_system_of(const std::vector<Object>& objects, const Corrected& found) {
-  System joint;
+LinearSystem dense_system_of(const std::vector<Object>& objects, const Corrected& found) {
+  LinearSystem joint;
   std::vector<std::size_t> first;
   for (std::size_t o = 0; o < objects.size(); ++o) {
     Linearised of(objects[o]);
     const auto begin = found.predicted.begin() + found.model.first[o],
                end = found.predicted.begin() + found.model.end_of(static_cast<int>(o));
     of.displacements.assign(begin, end);
-    System one = dense_system(of);
+    LinearSystem one = dense_system(of);
     hold(of, one);
     first.push_back(joint.b.size());
     for (Vector& row : joint.a) row.resize(joint.b.size() + one.b.size());
@@ -70,7 +70,7 @@ TEST(MultigridPairs, AreSolvedWithTheirObjectsAsOne) {
   const std::vector<Object> sheets = two_sheets();
   const Corrected found(sheets, 100);
   ASSERT_GT(found.springs().size(), 20u);
-  const System joint = dense_system_of(sheets, found);
+  const LinearSystem joint = dense_system_of(sheets, found);
   EXPECT_LT(error_of(found.change(), eliminate(joint.a, joint.b)), 1e-3);
 }
 
@@ -91,7 +91,7 @@ TEST(MultigridPairs, LeaveAResidualThatFeedsNoEnergy) {
   const std::vector<Object> sheets = two_sheets();
   for (const int cycles : {1, 2, 3}) {
     const Corrected found(sheets, cycles);
-    const System joint = dense_system_of(sheets, found);
+    const LinearSystem joint = dense_system_of(sheets, found);
     const Vector change = found.change(), image = times(joint.a, change);
     double work = 0, size = 0;
     for (std::size_t o = 0; o < 2; ++o) {

@@ -155,16 +155,16 @@ inline void add_coupling(Matrix& a, int i, int j, const Vec3d& g, double k) {
   }
 }
 
-struct System {
+struct LinearSystem {
   Matrix a;
   Vector b;
 };
 
 /// The Hessian and the negative gradient of |x - x~|^2_M / 2 h^2 + sum K C^2 / 2, in double, spring by spring. The
 /// (negative) geometric stiffness of slack springs is left out.
-inline System dense_system(const Linearised& of, bool touches = false) {
+inline LinearSystem dense_system(const Linearised& of, bool touches = false) {
   const std::size_t n = 3 * of.positions.size();
-  System system{Matrix(n, Vector(n, 0)), Vector(n, 0)};
+  LinearSystem system{Matrix(n, Vector(n, 0)), Vector(n, 0)};
   const auto place = [&](int i) {
     const Record &p = of.positions[std::size_t(i)], &d = of.displacements[std::size_t(i)];
     return Vec3d{double(p.x) + double(d.x), double(p.y) + double(d.y), double(p.z) + double(d.z)};
@@ -201,7 +201,7 @@ inline System dense_system(const Linearised& of, bool touches = false) {
 }
 
 /// Replaces the rows and columns of fixed particles by those of the identity.
-inline void hold(const Linearised& of, System& system) {
+inline void hold(const Linearised& of, LinearSystem& system) {
   for (std::size_t i = 0; i < system.b.size(); ++i) {
     if (of.moves(static_cast<int>(i / 3))) continue;
     for (std::size_t j = 0; j < system.b.size(); ++j) system.a[i][j] = system.a[j][i] = 0;

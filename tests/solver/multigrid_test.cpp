@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Of, Matrices, testing::ValuesIn(available_isas()), [](c
 
 TEST_P(Matrices, OfTheFinestLevelAreTheHessian) {
   Linearised of(crumpled(9, 7, 2), GetParam(), true);
-  const System expected = dense_system(of, true);
+  const LinearSystem expected = dense_system(of, true);
   const Matrix found = applied(of, 0);
   for (int i = 0; i < of.rows(0); ++i) {
     if (!of.moves(i)) continue;
@@ -167,7 +167,7 @@ TEST_P(Matrices, RestrictionSumsAndProlongationCopies) {
 Vector exact_change(const Object& object, const Records& predicted) {
   Linearised of(object);
   of.displacements = predicted;
-  System system = dense_system(of);
+  LinearSystem system = dense_system(of);
   hold(of, system);
   return eliminate(system.a, system.b);
 }

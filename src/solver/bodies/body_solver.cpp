@@ -10,6 +10,7 @@
 #include "math/motion.h"
 #include "solver/bodies/body_math.h"
 #include "solver/bodies/depenetration.h"
+#include "solver/bodies/joint_forest.h"
 #include "solver/substep.h"
 #include "solver/sweeps/sweep.h"
 
@@ -52,7 +53,7 @@ std::array<float, 2> drift_of(const BodyState& a, const BodyState& b, const Mani
 
 BodySolver::BodySolver(const Model& model, const std::vector<int>* objects, BodyMeshes& meshes)
     : bodies_(model, objects, meshes), contacts_(bodies_), motions_(bodies_) {
-  if (!has_bodies()) return;
+  if (!has_any()) return;
   std::vector<TouchedBody> touched;
   for (int i = 0; i < bodies_.dynamic(); ++i) {
     const BodyPlace& place = bodies_.places()[at(i)];
@@ -169,7 +170,7 @@ void BodySolver::begin_frame(Substep& s) {
   shares_.clear();
 }
 
-void BodySolver::renew_contacts(Substep& s) {
+void BodySolver::control(Substep& s) {
   if (s.number == 0) return;
   const BodyContacts::Again outdated = contacts_.outdated(motions_, blocks_.bounces());
   if (outdated == BodyContacts::Again::none) return;
@@ -297,6 +298,11 @@ void BodySolver::start_others(const Substep& s) {
 }
 
 void BodySolver::project(Substep& s, bool is_first) {
+  project_contacts(s, is_first);
+  close_joint_trees(s);
+}
+
+void BodySolver::project_contacts(Substep& s, bool is_first) {
   if (contacts_.all().empty() && !points_.has_any()) return;
   Executor& executor = s.context.executor;
   const Stopwatch stopwatch(executor.timings(), "solve: bodies");
@@ -314,13 +320,18 @@ void BodySolver::project(Substep& s, bool is_first) {
   points_.project(s, motions_.present());
 }
 
-void BodySolver::hold_bodies(Substep& s) {
+void BodySolver::end_filter(Substep& s) {
   if (!points_.has_any()) return;
   points_.hold_bodies(s, motions_.present());
   if (s.is_last()) points_.warn_of_overlaps(s, s.report.warnings);
 }
 
 void BodySolver::respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
+  respond_at_contacts(s, gravity);
+  if (s.work.contact_log != nullptr) log_contacts(s, *s.work.contact_log);
+}
+
+void BodySolver::respond_at_contacts(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
   if (contacts_.all().empty() && !points_.has_any()) return;
   Executor& executor = s.context.executor;
   const Stopwatch stopwatch(executor.timings(), "respond: bodies");
@@ -348,12 +359,31 @@ void BodySolver::take_impulses(const Substep& s) {
 
 void BodySolver::end_frame(Substep& s) {
   take_impulses(s);
-  if (!s.context.sleep.on) return;
+  if (s.context.sleep.on) put_to_sleep(s);
+  std::vector<BodyContact>& all = s.state.body_contacts;
+  if (all.empty())
+    all.swap(contacts_.all());  // of the first group, usually the only one
+  else
+    all.insert(all.end(), contacts_.all().begin(), contacts_.all().end());
+}
+
+void BodySolver::put_to_sleep(Substep& s) {
   std::vector<int> pressed;
   for (const Contact& contact : point_contacts())
     if (contact.push > 0) pressed.push_back(body_of(contact));
   s.report.sleeping_bodies = sleep_.end_frame(s, {contacts_.bodies(), contacts_.states(), pressed});
   sleep_.add_kept_contacts(contacts_.all());
+}
+
+void BodySolver::order(State& state) const {
+  std::vector<BodyContact>& all = state.body_contacts;
+  if (!std::is_sorted(all.begin(), all.end(), in_order)) std::sort(all.begin(), all.end(), in_order);
+}
+
+void BodySolver::count_contacts(Report& report) const {
+  const int points = points_.impulses().contacts_that_press();
+  report.contacts += points + blocks_.pressing();
+  report.pairs.contacts = points;
 }
 
 namespace {
@@ -388,8 +418,5 @@ void BodySolver::log_contacts(const Substep& s, ContactLog& log) {
   points_.impulses().log_contacts(s, points_.solids(), shares_, log);
   finish_substep(log);
 }
-
-int BodySolver::points_that_press() const { return points_.impulses().contacts_that_press(); }
-int BodySolver::contacts_that_press() const { return points_that_press() + blocks_.pressing(); }
 
 }  // namespace pliant

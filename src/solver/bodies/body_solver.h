@@ -24,27 +24,28 @@
 #include "solver/bodies/manifolds.h"
 #include "solver/bodies/velocity_shares.h"
 #include "solver/contact_log.h"
+#include "solver/systems/system.h"
 
 namespace pliant {
 
 struct Substep;
 
 /// Over fifteen members: the stages that a frame calls.
-class BodySolver {
+class BodySolver : public System {
  public:
   /// For the bodies of the given objects, or of all if it is null. Call begin_frame before anything else.
   BodySolver(const Model& model, const std::vector<int>* objects, BodyMeshes& meshes);
 
   /// False if there are no bodies, so that no stage need be called.
-  bool has_bodies() const { return bodies_.dynamic() > 0; }
+  bool has_any() const { return bodies_.dynamic() > 0; }
 
   /// Finds the contacts of a frame. Kept ones come from the State.
-  void begin_frame(Substep& s);
+  void begin_frame(Substep& s) override;
   /// Before the prediction of a substep: finds them again if bodies have turned or moved so far that its arms and
   /// normals are no longer true.
-  void renew_contacts(Substep& s);
+  void control(Substep& s) override;
   /// Finds the contacts of points and bodies in a substep.
-  void collide(Substep& s);
+  void collide(Substep& s) override;
   /// Starts a substep with the contact impulses of the last one, before joints and chains are solved, so that these
   /// balance them and gravity. Otherwise they would take up contact forces after friction, and bodies at rest would
   /// creep or hum. Moves only islands of jointed and touching bodies that have joints solved directly, or ties to
@@ -52,14 +53,15 @@ class BodySolver {
   /// each [object]; empty if there are none.
   const std::vector<char>& press_joints(Substep& s);
   /// Corrects displacements and rotations of bodies, and of points that touch them. In the first iteration of a
-  /// substep, starts from the impulses of the last one, unless press_joints has, and makes bodies bounce.
-  void project(Substep& s, bool is_first);
+  /// substep, starts from the impulses of the last one, unless press_joints has, and makes bodies bounce. Closes joints
+  /// that are solved directly after that.
+  void project(Substep& s, bool is_first) override;
   /// Projects the contacts of points of the objects for which `of` is not zero once more.
   void project_points(Substep& s, const std::vector<char>& of) { points_.project(s, motions_.present(), &of); }
   /// Keeps bodies and cloth from passing one another on the way that the iterations have given them.
-  void stop_passing(Substep& s) { points_.stop_passing(s, motions_.present()); }
+  void stop_passing(Substep& s) override { points_.stop_passing(s, motions_.present()); }
   /// The same after the filter of surfaces, which may have truncated steps of cloth in front of a body.
-  void hold_bodies(Substep& s);
+  void end_filter(Substep& s) override;
   /// After that: bodies and surfaces have been moved on by at most so far [m].
   void note_shift(float farthest) { points_.note_shift(farthest); }
   /// Finds the particles that carry bodies, for the next solve of chains.
@@ -85,19 +87,21 @@ class BodySolver {
   /// What is deep inside of a body in this substep.
   const std::vector<PointDepenetration::Inside>& points_inside() const { return points_.inside(); }
   const std::vector<Contact>& point_contacts() const { return points_.impulses().contacts(); }
-  /// The pass over velocities. `gravity` is what the velocities of an object lack of this frame's gravity [m/s].
-  void respond(Substep& s, FunctionRef<Vec3f(int object)> gravity);
-  /// Puts the impulses of the last substep into contacts().
-  void end_frame(Substep& s);
-
-  /// In ascending order of parts. The State takes them at a frame's end; the next frame makes new ones.
-  std::vector<BodyContact>& contacts() { return contacts_.all(); }
-  int contacts_that_press() const;
-  int points_that_press() const;  ///< of these, the contacts of particles, edges and triangles with solids
-  /// Adds the impulses of the current substep, after respond, with those of impacts with restitution.
-  void log_contacts(const Substep& s, ContactLog& log);
+  /// The pass over velocities. Logs the contacts of the substep if somebody asks for them.
+  void respond(Substep& s, FunctionRef<Vec3f(int object)> gravity) override;
+  void count_contacts(Report& report) const override;
+  /// Of the frame, in ascending order of parts.
+  const std::vector<BodyContact>& contacts() const { return contacts_.all(); }
+  /// Gives the State the contacts, with the impulses of the last substep.
+  void end_frame(Substep& s) override;
+  void order(State& state) const override;
 
  private:
+  /// Adds the impulses of the current substep, after respond, with those of impacts with restitution.
+  void log_contacts(const Substep& s, ContactLog& log);
+  void project_contacts(Substep& s, bool is_first);
+  void respond_at_contacts(Substep& s, FunctionRef<Vec3f(int object)> gravity);
+  void put_to_sleep(Substep& s);
   void take_impulses(const Substep& s);
   void follow_meshes(const Substep& s);
   void make_manifolds(const Substep& s);

@@ -75,9 +75,9 @@ Tie tie_of(const ConstraintPlace& at, const std::int32_t* number, const SweepArg
 }
 
 /// The symmetric system in the body's scaled motion.
-class System {
+class LinearSystem {
  public:
-  explicit System(const Body& body) : root_(std::sqrt(static_cast<double>(body.inverse_mass))) {
+  explicit LinearSystem(const Body& body) : root_(std::sqrt(static_cast<double>(body.inverse_mass))) {
     const Vec3d i = convert<double>(body.inverse_inertia);
     roots_ = {std::sqrt(i.x), std::sqrt(i.y), std::sqrt(i.z)};
   }
@@ -169,7 +169,7 @@ void project_tied_body(const CompiledObject& object, const Segment& segment, con
       visit(tie_of(at, number, points, body, multipliers), number[2], multipliers);
     });
   };
-  System system(body);
+  LinearSystem system(body);
   for_ties([&](const Tie& tie, std::int32_t, float*) { system.add(tie); });
   Vec3d move{}, turn{};
   system.solve(move, turn);

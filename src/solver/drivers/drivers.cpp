@@ -15,8 +15,6 @@ constexpr std::array<PhaseDriver, driver_count> drivers{{
     {Turn::sweep, false, &project_volumes},
     {Turn::stencil, false, &project_stencils},
     {Turn::stencil, false, &project_clusters},
-    {Turn::stencil, false, &project_fluids},
-    {Turn::stencil, false, &project_grains},
     {Turn::last, false, &hold_tethers},
     {Turn::last, false, &project_surface_contacts},
     {Turn::last, false, &project_collider_contacts},

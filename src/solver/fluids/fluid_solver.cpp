@@ -92,7 +92,7 @@ void FluidSolver::list_points(const Model& model, const State& state, FluidPool&
   }
 }
 
-void FluidSolver::begin_frame(const Substep& s) {
+void FluidSolver::begin_frame(Substep& s) {
   for (auto& pool : pools_) {
     pool->age = -1;
     pool->viscosity.begin_frame();
@@ -191,7 +191,7 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
   if (a.squares != nullptr) pool.bodies.push(s, pool.walls, pool.weighted, pool.lightness, pool.mass);
 }
 
-void FluidSolver::project(Substep& s, bool is_first) {
+void FluidSolver::project_neighbours(Substep& s, bool is_first) {
   for (auto& pool : pools_) {
     project(s, *pool, is_first);
     pool->viscosity.solve(s, *pool, is_first);
@@ -204,6 +204,33 @@ void FluidSolver::respond(Substep& s, FunctionRef<Vec3f(int)> gravity) {
     pool->overlaps.end_substep(s.state, *pool);
   }
 }
+
+namespace {
+
+/// Liquids of several groups: the mean of the worst.
+void add_compression(const Compression& c, Compression& sum) {
+  sum.mean = std::max(sum.mean, c.mean);
+  sum.largest = std::max(sum.largest, c.largest);
+  sum.crowded += c.crowded;
+}
+
+void add_viscosity(const ViscositySolves& solves, Report& sum) {
+  sum.viscosity += solves;
+  if (solves.unfinished == 0) return;
+  sum.warnings.push_back("the viscosity of liquids was not solved to the end in " + std::to_string(solves.unfinished) +
+                         " solves, at worst to " + std::to_string(100 * solves.residual) +
+                         " % of its residual; use more substeps, a larger spacing, or a lower viscosity");
+}
+
+void add_tension(const TensionActs& acts, Report& sum) {
+  sum.tension += acts;
+  if (acts.share == 1) return;
+  sum.warnings.push_back("substeps are too long for the surface tension of a liquid, so " +
+                         std::to_string(100 * acts.share) + " % of it acts; use " +
+                         std::to_string(std::sqrt(1 / acts.share)) + " times as many substeps, or a larger spacing");
+}
+
+}  // namespace
 
 ViscositySolves FluidSolver::viscosity() const {
   ViscositySolves all;
@@ -231,6 +258,12 @@ Compression FluidSolver::compression() const {
   }
   if (count > 0) all.mean /= count;
   return all;
+}
+
+void FluidSolver::report(Report& report) const {
+  add_compression(compression(), report.compression);
+  add_viscosity(viscosity(), report);
+  add_tension(tension(), report);
 }
 
 }  // namespace pliant

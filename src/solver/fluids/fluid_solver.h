@@ -16,6 +16,7 @@
 #include "solver/fluids/tension.h"
 #include "solver/fluids/viscosity.h"
 #include "solver/fluids/vorticity.h"
+#include "solver/systems/system.h"
 
 namespace pliant {
 
@@ -48,24 +49,26 @@ struct FluidPool {
   int age = -1;                               ///< substeps since neighbours were found; -1: they must be
 };
 
-class FluidSolver {
+class FluidSolver : public System {
  public:
   /// For the liquids of the given objects, or of all if it is null. Those of different sets (solver/near_sets.h) have
   /// pools of their own; null: all are of one set.
   FluidSolver(const Model& model, const std::vector<int>* objects, const std::vector<int>* sets = nullptr);
-  ~FluidSolver();
+  ~FluidSolver() override;
 
-  bool has_fluids() const { return !pools_.empty(); }
+  bool has_any() const { return !pools_.empty(); }
 
   /// Starts a frame: neighbours are found in its first substep, so that they follow from the State.
-  void begin_frame(const Substep& s);
+  void begin_frame(Substep& s) override;
   /// After the prediction: finds neighbours, if those known are too old, and adds surface tension.
-  void collide(Substep& s);
+  void collide(Substep& s) override;
   /// Projects all density constraints once.
-  void project(Substep& s, bool is_first);
-  /// After the update: vorticity confinement. `gravity(object)` is the part of gravity that velocities do not include
-  /// yet [m/s].
-  void respond(Substep& s, FunctionRef<Vec3f(int)> gravity);
+  void project_neighbours(Substep& s, bool is_first) override;
+  /// Vorticity confinement.
+  void respond(Substep& s, FunctionRef<Vec3f(int)> gravity) override;
+  /// Compression, of several groups the worst, and the solves of viscosity and tension.
+  void report(Report& report) const override;
+
   /// Of the last projection.
   Compression compression() const;
   /// Of all pools in this frame.

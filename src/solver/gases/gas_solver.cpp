@@ -92,7 +92,7 @@ std::vector<float>& channel_of(State& state, std::string_view name) {
       ->values;
 }
 
-GasSolver::GasSolver(const Model& model, const std::vector<int>* objects) {
+GasSolver::GasSolver(const Model& model, const std::vector<int>* objects, const FluidSolver* fluids) : fluids_(fluids) {
   const int count = static_cast<int>(objects != nullptr ? objects->size() : model.objects.size());
   for (int i = 0; i < count; ++i) {
     const int o = objects != nullptr ? (*objects)[at(i)] : i;
@@ -104,13 +104,17 @@ GasSolver::GasSolver(const Model& model, const std::vector<int>* objects) {
 
 GasSolver::~GasSolver() = default;
 
-void GasSolver::begin_frame() {
-  substeps_ = 0;
-  seconds_ = 0;
+void GasSolver::begin_frame(Substep& /*s*/) {
+  begin_pass();
   last_pass_ = -1;
 }
 
-void GasSolver::bear_up(Substep& s) const {
+void GasSolver::begin_pass() {
+  substeps_ = 0;
+  seconds_ = 0;
+}
+
+void GasSolver::apply_forces(Substep& s) {
   const Vec3f gravity = s.model.gravity * s.h;
   const auto accelerate = [&](int particle, float by) {
     Record& v = s.state.velocities[at(particle)];
@@ -175,8 +179,8 @@ void GasSolver::respond(Substep& s, FunctionRef<Vec3f(int)> gravity) {
   if (++substeps_ < substeps_of_gas && !s.is_last() && !ends_quarter(s))
     return;  // a frame may stop where a quarter ends
   std::size_t used = 0;
-  if (s.fluids != nullptr)
-    for (const auto& pool : s.fluids->pools()) {
+  if (fluids_ != nullptr)
+    for (const auto& pool : fluids_->pools()) {
       if (!has_gas(s.model, *pool)) continue;
       if (passes_.size() == used) passes_.emplace_back();
       GasPass& pass = passes_[used++];
@@ -189,7 +193,7 @@ void GasSolver::respond(Substep& s, FunctionRef<Vec3f(int)> gravity) {
   passes_.resize(used);
   for (const int o : tracers_)
     advance_tracers(s, passes_, {o, last_pass_ < 0 ? s.frame_start : last_pass_, seconds_, gravity(o)});
-  begin_frame();
+  begin_pass();
   last_pass_ = time_of(s, s.number + 1);
 }
 

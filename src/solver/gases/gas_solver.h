@@ -38,25 +38,29 @@ struct GasPass {
   std::vector<GasChange> changes;
 };
 
-class GasSolver {
+class GasSolver : public System {
  public:
-  /// For the gases, tracers and balloons of the given objects, or of all if it is null.
-  GasSolver(const Model& model, const std::vector<int>* objects);
-  ~GasSolver();
+  /// For the gases, tracers and balloons of the given objects, or of all if it is null. `fluids` has the pools of gases;
+  /// null: there are none.
+  GasSolver(const Model& model, const std::vector<int>* objects, const FluidSolver* fluids);
+  ~GasSolver() override;
 
-  bool has_gases() const { return !gases_.empty() || !tracers_.empty() || !balloons_.empty(); }
+  bool has_any() const { return !gases_.empty() || !tracers_.empty() || !balloons_.empty(); }
 
-  void begin_frame();
-  /// Before the prediction: buoyancy of gases; tracers have no weight.
-  void bear_up(Substep& s) const;
-  /// After the update. `gravity(object)` is the part of gravity that velocities do not include yet [m/s].
-  void respond(Substep& s, FunctionRef<Vec3f(int)> gravity);
+  void begin_frame(Substep& s) override;
+  /// Buoyancy of gases; tracers have no weight.
+  void apply_forces(Substep& s) override;
+  /// All else, every few substeps.
+  void respond(Substep& s, FunctionRef<Vec3f(int)> gravity) override;
+  bool changes_velocities() const override { return true; }
 
  private:
+  void begin_pass();
   void load(Substep& s, GasPass& pass, FunctionRef<Vec3f(int)> gravity) const;
   void change(Substep& s, GasPass& pass, float seconds) const;
   void store(Substep& s, const GasPass& pass, FunctionRef<Vec3f(int)> gravity) const;
 
+  const FluidSolver* fluids_ = nullptr;
   std::vector<int> gases_, tracers_, balloons_;  ///< objects, ascending; of the last, closed surfaces that hold gas
   std::vector<GasPass> passes_;                  ///< of pools with gases
   double last_pass_ = -1;                        ///< when it was; -1: none in this frame [s]

@@ -82,7 +82,7 @@ void GrainSolver::list_points(const Model& model, const State& state) {
   }
 }
 
-void GrainSolver::begin_frame(const Substep& s) {
+void GrainSolver::begin_frame(Substep& s) {
   is_new_frame_ = true;
   if (!s.state.births.empty()) list_points(s.model, s.state);
 }
@@ -193,7 +193,7 @@ void GrainSolver::collide(Substep& s) {
   });
 }
 
-void GrainSolver::project(Substep& s, bool is_first) {
+void GrainSolver::project_neighbours(Substep& s, bool is_first) {
   for_all_slots(s, "solve: places of grains", lists_, [&](int slot) {
     const Record &d = s.work.displacements[at(of_slot_[at(slot)])], &r = residues_[at(slot)];
     places_[at(slot)] = predicted_position(s, of_slot_[at(slot)]);
@@ -243,10 +243,16 @@ void GrainSolver::list_contacts(std::vector<GrainContact>& to) const {
     }
 }
 
-void GrainSolver::append_contacts(const State& state, std::vector<GrainContact>& to) {
+void GrainSolver::end_frame(Substep& s) {
   if (is_new_frame_) return;  // no substep was made
-  for (int slot = 0; slot < lists_.slots(); ++slot) slide(state, slot);
-  list_contacts(to);
+  for (int slot = 0; slot < lists_.slots(); ++slot) slide(s.state, slot);
+  list_contacts(s.state.grain_contacts);
+}
+
+void GrainSolver::order(State& state) const {
+  std::vector<GrainContact>& all = state.grain_contacts;
+  if (!std::is_sorted(all.begin(), all.end(), in_order_of_particles))
+    std::sort(all.begin(), all.end(), in_order_of_particles);
 }
 
 }  // namespace pliant

@@ -16,6 +16,7 @@
 
 #include "collision/neighbours/neighbour_lists.h"
 #include "model/model.h"
+#include "solver/systems/system.h"
 
 namespace pliant {
 
@@ -51,22 +52,23 @@ inline bool in_order_of_particles(const GrainContact& a, const GrainContact& b) 
 float contact_friction(float of_bulk);
 
 /// Grains are numbered by slots, in the order of cells.
-class GrainSolver {
+class GrainSolver : public System {
  public:
   /// For the grains of the given objects, or of all if it is null.
   GrainSolver(const Model& model, const std::vector<int>* objects);
-  ~GrainSolver();
+  ~GrainSolver() override;
 
-  bool has_grains() const { return !objects_.empty(); }
+  bool has_any() const { return !objects_.empty(); }
 
   /// Starts a frame: neighbours are found in its first substep, so that they follow from the State.
-  void begin_frame(const Substep& s);
+  void begin_frame(Substep& s) override;
   /// After the prediction: finds neighbours, if grains have moved too far since.
-  void collide(Substep& s);
+  void collide(Substep& s) override;
   /// Projects all contacts once.
-  void project(Substep& s, bool is_first);
-  /// Appends the contacts that press at the end of a frame, in no order.
-  void append_contacts(const State& state, std::vector<GrainContact>& to);
+  void project_neighbours(Substep& s, bool is_first) override;
+  /// Gives the State the contacts that press.
+  void end_frame(Substep& s) override;
+  void order(State& state) const override;
 
  private:
   void list_points(const Model& model, const State& state);

@@ -27,9 +27,9 @@ bool settles(const Substep& s) { return s.is_last() || ends_quarter(s); }
 /// True if a stage between update and predict reads velocities, or if phases are timed separately; then update is not
 /// deferred. Nor is it where a share of the corrections becomes velocity, because the pass of both knows one h.
 bool velocities_are_read(const Substep& s) {
-  return settles(s) || s.is_guarded || s.has_pairs() || s.bodies != nullptr || s.fluids != nullptr ||
-         s.grains != nullptr || s.gases != nullptr || !s.ways_out.empty() || !s.own->shape_contacts.empty() ||
-         has_forces(s.model, s.work.control) || s.context.separate_phases;
+  return settles(s) || s.is_guarded || s.has_pairs() || (s.systems != nullptr && !s.systems->empty()) ||
+         !s.ways_out.empty() || !s.own->shape_contacts.empty() || has_forces(s.model, s.work.control) ||
+         s.context.separate_phases;
 }
 
 /// Moves a kinematic particle to its position at the substep's end.

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "solver/forces.h"
-#include "solver/gases/gas_solver.h"
 #include "solver/stages/stages.h"
 
 namespace pliant {
@@ -21,7 +20,7 @@ void keep_velocities(Substep& s) {
 
 void apply_forces(Substep& s) {
   if (changes_velocities(s)) keep_velocities(s);
-  if (s.gases != nullptr) s.gases->bear_up(s);
+  for_systems(s, [&](System& system) { system.apply_forces(s); });
   if (!has_forces(s.model, s.work.control)) return;
   apply_forces(
       s.model, s.context.kernels, s.state, s.work, s.context.executor, time_of(s, s.number), s.h,

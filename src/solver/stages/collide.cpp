@@ -1,8 +1,5 @@
 #include "model/surface_velocity.h"
-#include "solver/bodies/body_solver.h"
 #include "solver/collider_depenetration.h"
-#include "solver/fluids/fluid_solver.h"
-#include "solver/grains/grain_solver.h"
 #include "solver/stages/stages.h"
 
 namespace pliant {
@@ -44,10 +41,8 @@ void add_slides_of_meshes(Substep& s) {
 
 void collide(Substep& s) {
   collide_with_shapes(s);
-  if (s.bodies != nullptr) s.bodies->collide(s);
   note_speeds(s);
-  if (s.fluids != nullptr) s.fluids->collide(s);
-  if (s.grains != nullptr) s.grains->collide(s);
+  for_systems(s, [&](System& system) { system.collide(s); });
   if (!s.has_pairs()) return;
   s.pairs->detect(s.context.executor, all_particles(s));
   add_slides_of_meshes(s);

@@ -1,5 +1,4 @@
 #include "math/vector.h"
-#include "solver/bodies/body_solver.h"
 #include "solver/drivers/contacts.h"
 #include "solver/free_objects.h"
 #include "solver/group_lag.h"
@@ -32,7 +31,7 @@ void filter(Substep& s) {
 }
 
 void end_filter(Substep& s) {
-  if (s.bodies != nullptr) s.bodies->hold_bodies(s);
+  for_systems(s, [&](System& system) { system.end_filter(s); });
   const bool has_moved = move_by_lag(s);
   take_from_velocities(s);
   if (s.has_pairs()) s.pairs->end_substep(s.context.executor, all_particles(s), has_moved);

@@ -4,11 +4,7 @@
 #include <iterator>
 #include <string>
 
-#include "solver/bodies/body_solver.h"
 #include "solver/diagnose.h"
-#include "solver/fluids/fluid_solver.h"
-#include "solver/gases/gas_solver.h"
-#include "solver/grains/grain_solver.h"
 #include "solver/pair_words.h"
 #include "solver/sheets/sheet_solver.h"
 #include "solver/stages/stages.h"
@@ -37,11 +33,11 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   s.least = of.substeps;
   s.most = of.most_substeps;
   s.least_hanging = of.least_hanging;
-  if (of.group != nullptr) s.bodies = of.group->bodies.get();
-  if (of.group != nullptr) s.fluids = of.group->fluids.get();
-  if (of.group != nullptr) s.grains = of.group->grains.get();
-  if (of.group != nullptr) s.gases = of.group->gases.get();
-  if (of.group != nullptr) s.own_lengths = &of.group->lengths;
+  if (of.group != nullptr) {
+    s.systems = &of.group->systems;
+    s.bodies = of.group->systems.bodies();
+    s.own_lengths = &of.group->lengths;
+  }
   for_objects(s, [&](int o) {
     s.work.gravity[o] = {0, static_cast<double>(s.h), 0, velocity_kept(s.h, s.model.objects[o].damping)};
     s.work.last_h[o] = s.h;
@@ -49,10 +45,7 @@ Substep begin_group(const StepContext& context, const GroupFrame& of, double dt)
   forget_substeps(s);
   begin_quarter(s);
   if (s.has_pairs()) s.pairs->begin_frame(s.state.positions.data(), s.work.look_for_tangles);
-  if (s.bodies != nullptr) s.bodies->begin_frame(s);
-  if (s.fluids != nullptr) s.fluids->begin_frame(s);
-  if (s.grains != nullptr) s.grains->begin_frame(s);
-  if (s.gases != nullptr) s.gases->begin_frame();
+  for_systems(s, [&](System& system) { system.begin_frame(s); });
   s.sweeps_on_entry = may_sweep_on_entry(s) && !has_sheets(s);
   return s;
 }
@@ -102,9 +95,7 @@ void count_contacts(Substep& s) {
   };
   for_each_tile(s, [&](int task) { count(s.work.tiles[task].contacts); });
   count(s.own->shape_contacts);
-  if (s.bodies == nullptr) return;
-  s.report.contacts += s.bodies->contacts_that_press();
-  s.report.pairs.contacts = s.bodies->points_that_press();
+  for_systems(s, [&](const System& system) { system.count_contacts(s.report); });
 }
 
 namespace {
@@ -133,29 +124,6 @@ void add(const PairCounts& c, PairReport& sum) {
   sum.deepest = std::max(sum.deepest, c.deepest);
 }
 
-/// Liquids of several groups: the mean of the worst.
-void add(const Compression& c, Compression& sum) {
-  sum.mean = std::max(sum.mean, c.mean);
-  sum.largest = std::max(sum.largest, c.largest);
-  sum.crowded += c.crowded;
-}
-
-void add(const ViscositySolves& solves, Report& sum) {
-  sum.viscosity += solves;
-  if (solves.unfinished == 0) return;
-  sum.warnings.push_back("the viscosity of liquids was not solved to the end in " + std::to_string(solves.unfinished) +
-                         " solves, at worst to " + std::to_string(100 * solves.residual) +
-                         " % of its residual; use more substeps, a larger spacing, or a lower viscosity");
-}
-
-void add(const TensionActs& acts, Report& sum) {
-  sum.tension += acts;
-  if (acts.share == 1) return;
-  sum.warnings.push_back("substeps are too long for the surface tension of a liquid, so " +
-                         std::to_string(100 * acts.share) + " % of it acts; use " +
-                         std::to_string(std::sqrt(1 / acts.share)) + " times as many substeps, or a larger spacing");
-}
-
 void add(Substep& s, Report& sum) {
   Report& own = s.report;
   sum.substeps = std::max(sum.substeps, s.made);
@@ -165,42 +133,20 @@ void add(Substep& s, Report& sum) {
   sum.sleeping_bodies += own.sleeping_bodies;
   std::move(own.broken_joints.begin(), own.broken_joints.end(), std::back_inserter(sum.broken_joints));
   std::move(own.warnings.begin(), own.warnings.end(), std::back_inserter(sum.warnings));
-  if (s.fluids != nullptr) add(s.fluids->compression(), sum.compression);
-  if (s.fluids != nullptr) add(s.fluids->viscosity(), sum);
-  if (s.fluids != nullptr) add(s.fluids->tension(), sum);
+  for_systems(s, [&](const System& system) { system.report(sum); });
   sum.pairs.contacts += own.pairs.contacts;
   if (!s.has_pairs()) return;
   add(s.pairs->counts(), sum.pairs);
   warn_of_pairs(s.model, *s.pairs, sum.warnings);
 }
 
-/// Puts the contacts of rigid bodies of all groups into the State.
-void keep_body_contacts(std::vector<Substep>& groups) {
-  std::vector<BodyContact>& all = groups.front().state.body_contacts;
-  bool is_first = true;
-  for (Substep& s : groups) {
-    if (s.bodies == nullptr) continue;
-    s.bodies->end_frame(s);
-    std::vector<BodyContact>& own = s.bodies->contacts();
-    if (is_first) {
-      all.swap(own);  // usually the only group
-    } else {
-      all.insert(all.end(), own.begin(), own.end());
-    }
-    is_first = false;
-  }
-  if (is_first) all.clear();
-  if (groups.size() == 1) return;  // its contacts are in order
-  if (!std::is_sorted(all.begin(), all.end(), in_order)) std::sort(all.begin(), all.end(), in_order);
-}
-
-/// Puts the contacts of grains of all groups into the State.
-void keep_grain_contacts(std::vector<Substep>& groups) {
+/// Puts what lasts of the systems of all groups into the State.
+void end_systems(std::vector<Substep>& groups) {
   State& state = groups.front().state;
+  state.body_contacts.clear();
   state.grain_contacts.clear();
-  for (Substep& s : groups)
-    if (s.grains != nullptr) s.grains->append_contacts(state, state.grain_contacts);
-  std::sort(state.grain_contacts.begin(), state.grain_contacts.end(), in_order_of_particles);
+  for (Substep& s : groups) for_systems(s, [&](System& system) { system.end_frame(s); });
+  for (const Substep& s : groups) for_systems(s, [&](const System& system) { system.order(state); });
 }
 
 /// Puts the broken joints of all objects into the State, and orders those that the Report names.
@@ -216,8 +162,7 @@ void keep_broken_joints(const Substep& s, Report& report) {
 }  // namespace
 
 bool end_frame(std::vector<Substep>& groups, Report& report) {
-  keep_body_contacts(groups);
-  keep_grain_contacts(groups);
+  end_systems(groups);
   add(groups, report.iterations);
   for (Substep& s : groups) add(s, report);
   keep_broken_joints(groups.front(), report);

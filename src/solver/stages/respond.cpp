@@ -1,10 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "solver/bodies/body_solver.h"
 #include "solver/collider_depenetration.h"
-#include "solver/fluids/fluid_solver.h"
-#include "solver/gases/gas_solver.h"
 #include "solver/stages/stages.h"
 #include "solver/substep_law.h"
 
@@ -66,11 +63,8 @@ void respond_to_shapes(Substep& s, float slow, FunctionRef<Vec3f(int object)> gr
 
 void respond_to_all(Substep& s, FunctionRef<Vec3f(int object)> gravity) {
   const float slow = 2 * length(s.model.gravity) * s.h;
-  if (s.bodies != nullptr) s.bodies->respond(s, gravity);
-  if (s.bodies != nullptr && s.work.contact_log != nullptr) s.bodies->log_contacts(s, *s.work.contact_log);
+  for_systems(s, [&](System& system) { system.respond(s, gravity); });
   respond_to_shapes(s, slow, gravity);
-  if (s.fluids != nullptr) s.fluids->respond(s, gravity);
-  if (s.gases != nullptr) s.gases->respond(s, gravity);
   if (!s.has_pairs()) return;
   Record* velocities = s.state.velocities.data();
   s.own->contact_solver.for_each(s.context.executor, "respond", s.pairs->contacts(), [&](const Contact& contact) {

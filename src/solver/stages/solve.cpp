@@ -34,6 +34,7 @@ void walk_stencils(Substep& s, bool first, const std::vector<char>& tied) {
     if (uses(s, sweep)) passes = std::max(passes, group.method->passes);
   for (int pass = 0; pass < passes; ++pass) {
     walk(s, Turn::stencil, {first && pass == 0, Order::forward, pass, nullptr, tied.empty() ? nullptr : &tied});
+    for_systems(s, [&](System& system) { system.project_neighbours(s, first && pass == 0); });
     solve_joint_trees(s, first && pass == 0);
   }
 }
@@ -68,10 +69,7 @@ void iterate(Substep& s, int iteration) {
   }
   s.group = nullptr;
   walk_stencils(s, iteration == 0, pressed);
-  if (s.bodies != nullptr) {
-    s.bodies->project(s, iteration == 0);
-    close_joint_trees(s);
-  }
+  for_systems(s, [&](System& system) { system.project(s, iteration == 0); });
   walk(s, Turn::last, {});
 }
 
