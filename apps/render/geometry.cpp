@@ -16,7 +16,6 @@ namespace pliant::render {
 
 namespace {
 
-constexpr float pi = 3.14159265f;
 constexpr int around_steps = 64;  // segments of round shapes around their axis
 constexpr int tube_sides = 12;
 
@@ -85,13 +84,16 @@ void append(Geometry& geometry, const Geometry& other) {
 }
 
 /// Makes a tube: rings along the line in a frame without twist, and a ball at each end.
-Geometry build_tube(const RenderTube& tube, float radius) {
+Geometry build_tube(const RenderTube& tube, float least_radius) {
   Geometry result{.vertices = {}, .indices = {}, .colour = tube.colour, .material = Material::solid};
   const std::size_t count = tube.points.size();
   if (count == 0) return result;
-  append(result, build_ball(tube.points.front(), radius, tube.colour));
+  const auto radius = [&](std::size_t i) {
+    return std::max(tube.radii.empty() ? tube.radius : tube.radii[i], least_radius);
+  };
+  append(result, build_ball(tube.points.front(), radius(0), tube.colour));
   if (count == 1) return result;
-  append(result, build_ball(tube.points.back(), radius, tube.colour));
+  append(result, build_ball(tube.points.back(), radius(count - 1), tube.colour));
   const auto first = static_cast<std::uint32_t>(result.vertices.size());
   Vec3f side = view_frame(tube.points[1] - tube.points[0]).right;
   for (std::size_t i = 0; i < count; ++i) {
@@ -102,7 +104,7 @@ Geometry build_tube(const RenderTube& tube, float radius) {
     for (int k = 0; k < tube_sides; ++k) {
       const float angle = 2 * pi * static_cast<float>(k) / tube_sides;
       const Vec3f normal = side * std::cos(angle) + other * std::sin(angle);
-      result.vertices.push_back({tube.points[i] + normal * radius, normal});
+      result.vertices.push_back({tube.points[i] + normal * radius(i), normal});
     }
   }
   join_rings(result, first, static_cast<std::uint32_t>(count), tube_sides);
@@ -356,7 +358,12 @@ std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
     else if (!mesh.is_solid)
       points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
   }
-  for (const RenderTube& tube : scene.tubes) points.insert(points.end(), tube.points.begin(), tube.points.end());
+  std::vector<Vec3f> of_strays;
+  for (const RenderTube& tube : scene.tubes) {
+    std::vector<Vec3f>& into = tube.may_stray ? of_strays : points;
+    into.insert(into.end(), tube.points.begin(), tube.points.end());
+  }
+  include_most(of_strays, points);
   for (const RenderBalls& balls : scene.balls) include_most(balls.centres, points);
   for (const RenderSmoke& smoke : scene.smokes) points.insert(points.end(), smoke.centres.begin(), smoke.centres.end());
   points.insert(points.end(), scene.unseen.begin(), scene.unseen.end());
@@ -403,7 +410,7 @@ std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& arou
                                      const Vec3f& eye) {
   std::vector<Geometry> result;
   for (const RenderMesh& mesh : scene.meshes) result.push_back(build_mesh(mesh));
-  for (const RenderTube& tube : scene.tubes) result.push_back(build_tube(tube, std::max(tube.radius, least_radius)));
+  for (const RenderTube& tube : scene.tubes) result.push_back(build_tube(tube, least_radius));
   for (const RenderBalls& balls : scene.balls)
     if (!balls.centres.empty()) result.push_back(build_balls(balls, least_radius));
   add_bodies(scene.bodies, result);
@@ -427,7 +434,10 @@ void check(const RenderScene& scene) {
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) check_mesh(scene.meshes[m], m);
   for (std::size_t t = 0; t < scene.tubes.size(); ++t) {
     const RenderTube& tube = scene.tubes[t];
-    const bool fine = std::all_of(tube.points.begin(), tube.points.end(), finite) && std::isfinite(tube.radius);
+    const bool fine = std::all_of(tube.points.begin(), tube.points.end(), finite) && std::isfinite(tube.radius) &&
+                      std::all_of(tube.radii.begin(), tube.radii.end(), [](float r) { return std::isfinite(r); });
+    if (!tube.radii.empty() && tube.radii.size() != tube.points.size())
+      refuse("tube", t, "has another number of radii than of points");
     if (!fine) refuse("tube", t, "has a position that is not finite");
   }
   for (std::size_t b = 0; b < scene.balls.size(); ++b) {

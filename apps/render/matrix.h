@@ -8,7 +8,8 @@
 
 namespace pliant::render {
 
-inline constexpr float degree = 3.14159265f / 180;  ///< [rad]
+inline constexpr float pi = 3.14159265f;
+inline constexpr float degree = pi / 180;  ///< [rad]
 
 inline float length(const Vec3f& v) { return std::sqrt(length_squared(v)); }
 

@@ -36,6 +36,8 @@ struct RenderTube {
   std::vector<Vec3f> points;
   float radius = 0.005f;  ///< radius of the tube [m]; it is drawn at least about a pixel wide
   Vec3f colour{0.75f, 0.35f, 0.30f};
+  std::vector<float> radii{};  ///< of each point, if the tube tapers [m]; empty: `radius`
+  bool may_stray = false;      ///< true: the camera may leave it out where it is far from the others
 };
 
 /// Balls of one radius and colour, for particles. All share one mesh on the graphics card.

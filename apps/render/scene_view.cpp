@@ -8,11 +8,13 @@
 
 #include "geometry.h"
 #include "io/write_frames.h"
+#include "joint_view.h"
 #include "matrix.h"
 #include "pliant/edit.h"
 #include "pliant/soft_body.h"
 #include "pliant/surface.h"
 #include "render.h"
+#include "rod_view.h"
 
 namespace pliant::render {
 
@@ -99,35 +101,20 @@ void add_bodies(RenderScene& result, const Object& object, const output::FrameOb
   std::vector<std::shared_ptr<const TriangleMesh>> meshes;
   for (const TriangleMesh& solid : shape.solids) meshes.push_back(std::make_shared<const TriangleMesh>(solid));
   const std::vector<output::BodyMotion> motions = output::body_motions(object, view);
+  const std::vector<char> segments = rod_segments(object);
+  const auto colour_of = [&](std::size_t body, std::size_t number) {
+    const Vec3f awake = body_colour(shape.colour, number);
+    return view.body_is_asleep(static_cast<int>(body)) ? sleeping_colour(awake) : awake;
+  };
   for (std::size_t b = 0; b < motions.size(); ++b) {
+    if (segments[b] != 0) continue;
     const bool is_fixed = !std::isfinite(object.masses[static_cast<std::size_t>(object.bodies[b].particle)]);
-    const Vec3f awake = body_colour(shape.colour, b);
-    const Vec3f colour = view.body_is_asleep(static_cast<int>(b)) ? sleeping_colour(awake) : awake;
     result.bodies.push_back(
-        {meshes[static_cast<std::size_t>(shape.bodies[b].solid)], motions[b].pose, colour, is_fixed});
+        {meshes[static_cast<std::size_t>(shape.bodies[b].solid)], motions[b].pose, colour_of(b, b), is_fixed});
   }
-}
-
-/// Draws threads, rods and springs between bodies: joints that set the distance of two anchors, unless they are broken.
-void add_threads(RenderScene& result, const Object& object, const ObjectView& view) {
-  constexpr float radius = 0.001f;
-  constexpr std::size_t slots = 4, fields = 8;  // body, frame, body, frame; two anchors in their frames, and bounds
-  const std::vector<Vec3f> positions = view.positions();
-  const std::vector<Quatf> turns = view.orientations();
-  for (std::size_t j = 0; j < object.joints.size(); ++j) {
-    if (view.joint_is_broken(static_cast<int>(j))) continue;
-    for (const auto& [group, index] : object.joints[j].constraints) {
-      const ConstraintGroup& of = object.constraints[static_cast<std::size_t>(group)];
-      if (of.type != "joint_distance" || of.rest.size() < fields * (static_cast<std::size_t>(index) + 1)) continue;
-      const int* const at = &of.particles[slots * static_cast<std::size_t>(index)];
-      const float* const rest = &of.rest[fields * static_cast<std::size_t>(index)];
-      const auto end = [&](int i) {
-        const Vec3f anchor{rest[3 * i], rest[3 * i + 1], rest[3 * i + 2]};
-        return positions[static_cast<std::size_t>(at[2 * i])] +
-               rotate(turns[static_cast<std::size_t>(at[2 * i + 1])], anchor);
-      };
-      result.tubes.push_back({.points = {end(0), end(1)}, .radius = radius, .colour = {0.2f, 0.2f, 0.22f}});
-    }
+  for (RodPart& part : rod_parts(object, view, motions, segments)) {
+    part.tube.colour = colour_of(part.first, part.rod);
+    result.tubes.push_back(std::move(part.tube));
   }
 }
 
@@ -202,7 +189,7 @@ void add_object(RenderScene& result, const Object& described, const ObjectView& 
   const output::FrameObject shape = output::describe(object);
   std::vector<Vec3f> positions = view.present_positions();
   add_bodies(result, object, shape, view);
-  add_threads(result, object, view);
+  add_joints(result, object, shape, view);
   if (!shape.has_matter()) return;
   if (object.tracers) return add_smoke(result, object, view, positions);
   if (object.gas) {  // clear, but smoke will be where it is
