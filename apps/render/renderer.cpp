@@ -217,6 +217,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("spiral", spiral(16));
   // If the centre of a pixel is outside the triangle that is visible in it, its position is up to a pixel away from the
   // surface.
+  program.set("pixel", 2 * eye.half_height / static_cast<float>(height));
   program.set("bias", std::max(5 * size / static_cast<float>(shadow_map_size), 2 * pixel));
   for (const Range& range : buffers.ranges()) {
     if (range.material == Material::liquid) continue;
@@ -283,7 +284,7 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
     for (const RenderCollider& c : scene.colliders)
       if (is_level_plane(c) && std::abs(c.position.y - *scene.ground) < 1e-6f) colour = c.colour;
     const Vec3f centre = extent.centre;
-    const float sink = 0.002f * extent.radius;  // keeps objects that lie on the ground visible
+    const float sink = 0.0007f * extent.radius;  // keeps objects that lie on the ground visible
     geometries.push_back(build_ground({centre.x, *scene.ground - sink, centre.z}, 30 * extent.radius, colour));
   }
   buffers.upload(geometries);

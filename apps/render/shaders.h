@@ -123,8 +123,9 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 place;
 layout(location = 3) in float brightness;
 uniform mat4 view_projection;
-out vec3 at, facing;
-out float shade;
+// At the edge of a triangle the centre of a pixel may lie outside of it, where position and normal are wrong.
+centroid out vec3 at, facing;
+centroid out float shade;
 void main() {
   at = position * place.w + place.xyz;
   facing = normal;
@@ -136,8 +137,8 @@ void main() {
 /// Shades cloth, solids and ground: sunlight with soft shadows, light from the sky (blue from above), and for cloth a
 /// sheen at grazing angles and some translucency.
 inline constexpr const char* surface_fragment = R"(
-in vec3 at, facing;
-in float shade;
+centroid in vec3 at, facing;
+centroid in float shade;
 out vec4 colour;
 uniform vec3 albedo, sun, centre;
 uniform int material;      // 0 cloth, 1 solid, 2 ground
@@ -151,8 +152,18 @@ uniform sampler2D liquid_shadow;   // length of the way in liquid [m], and absor
 uniform float in_liquid;   // 1 if there is liquid
 uniform float widest, softness;  // largest blur of shadows [texels]; its growth with depth
 uniform float bias, radius, spacing;
+uniform float pixel;       // angle that a pixel takes up
+/// Where the shadow of a point is looked up. Ground that is visible in a part of a pixel alone is nearer to the eye than
+/// the centre of the pixel, which may be beneath what stands there.
+vec3 off_surface(vec3 normal) {
+  if (material != 2) return at + normal * bias;
+  vec3 view = eye - at;
+  vec2 level = view.xz / max(length(view.xz), 1e-6);
+  float shift = pixel * dot(view, view) / max(abs(view.y), 0.1 * length(view));
+  return at + normal * bias + vec3(level.x, 0.0, level.y) * shift;
+}
 float lit(vec3 normal) {
-  vec3 place = (light * vec4(at + normal * bias, 1.0)).xyz;
+  vec3 place = (light * vec4(off_surface(normal), 1.0)).xyz;
   // Outside the shadow map the loop does nothing; in software rendering a branch would save no time.
   int probes = any(greaterThan(abs(place - 0.5), vec3(0.5))) ? 0 : 10;
   float gap = 0.0, found = 0.0, texels = float(textureSize(shadow_depth, 0).x);
@@ -162,6 +173,8 @@ float lit(vec3 normal) {
     gap += (place.z - blocker) * covers;
     found += covers;
   }
+  // A shadow that is narrower than the probes are apart, as that of a rod.
+  if (found == 0.0 && probes > 0) found = 0.5 * (1.0 - texture(shadow, vec3(place.xy, place.z - 0.0005)));
   // Shadows get softer with the distance of the object that casts them (Fernando 2005).
   float wide = clamp(gap / max(found, 1.0) * softness, 1.2, widest) / texels;
   int taps = found > 0.0 && found < 9.5 ? 16 : 0;
@@ -256,7 +269,7 @@ void main() {
 /// Shades the surface of a liquid: what is behind it, shifted as a refracted ray is (Snell), absorbed by thickness
 /// (Beer and Lambert), and the sky's reflection by angle (Schlick 1994).
 inline constexpr const char* liquid_fragment = R"(
-in vec3 at, facing;
+centroid in vec3 at, facing;
 out vec4 colour;
 uniform vec3 albedo, sun, right, up, forward;
 uniform vec2 picture, slope, near_far;

@@ -341,6 +341,19 @@ TEST_F(Picture, ShowsWhatLiesFlatOnTheGround) {
   EXPECT_GT(red, width * height / 20);
 }
 
+// The centre of a pixel at the lower edge of a box is beneath the box, where the ground is dark.
+TEST_F(Picture, HasNoDarkDashesBeneathABoxOnTheGround) {
+  RenderScene scene;
+  scene.camera = Camera{{1.5f, 1.2f, 5}, {0, 0.2f, 0}, 30};
+  scene.extent = Extent{{0, 0.2f, 0}, 4};
+  scene.colliders.push_back({Box{{2, 0.2f, 0.2f}}, {0, 0.2f, 0}, {}, {0.8f, 0.6f, 0.4f}});
+  const auto picture = renderer->draw(scene);
+  int darkest = 765;
+  for (int y = height / 3; y < height; ++y)
+    for (int x = width / 4; x < 3 * width / 4; ++x) darkest = std::min(darkest, at(picture, x, y).brightness());
+  EXPECT_GT(darkest, 300);
+}
+
 // If a pixel's centre is outside the triangle that it shows, its position in the shadow map is wrong.
 TEST_F(Picture, OfAWavySheetInTheSunHasNoSpecks) {
   RenderScene scene;
