@@ -10,6 +10,7 @@
 #include "io/write_frames.h"
 #include "matrix.h"
 #include "pliant/error.h"
+#include "stones.h"
 #include "walls.h"
 
 namespace pliant::render {
@@ -146,11 +147,16 @@ float shade_of(const RenderMesh& mesh, std::size_t vertex) {
   return mesh.wetness.empty() ? 1 : 1 - dark * std::min(mesh.wetness[vertex], 1.f);
 }
 
+std::array<float, 2> checks_of(const RenderMesh& mesh, std::size_t vertex) {
+  return mesh.checks.empty() ? std::array<float, 2>{} : mesh.checks[vertex];
+}
+
 /// Makes a mesh in which triangles share no vertices. A normal is the mean over adjacent faces that have similar
 /// directions in the mesh's own shape, so round shapes look smooth and edges sharp.
 Geometry build_creased(const RenderMesh& mesh, Material material) {
   constexpr float about = 0.8f;  // cosine of the largest angle between faces that are smoothed
-  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = material};
+  Geometry geometry{
+      .vertices = {}, .indices = {}, .colour = mesh.colour, .material = material, .clarity = mesh.clarity};
   const std::vector<Vec3f> faces = face_normals(mesh.positions, mesh.triangles);
   std::vector<Vec3f> directions = mesh.creased.empty() ? faces : face_normals(mesh.creased, mesh.triangles);
   for (Vec3f& direction : directions) direction = unit(direction);
@@ -257,8 +263,10 @@ void include_most(const std::vector<Vec3f>& positions, std::vector<Vec3f>& point
 
 /// Makes one ball of radius 1, coarser if there are many, and the place of each.
 Geometry build_balls(const RenderBalls& balls, float least_radius) {
-  Geometry geometry{.vertices = {}, .indices = {}, .colour = balls.colour, .material = Material::solid};
+  const Material material = balls.are_grains ? Material::grains : Material::solid;
+  Geometry geometry{.vertices = {}, .indices = {}, .colour = balls.colour, .material = material};
   add_capsule(geometry, 1, 0, balls.centres.size() < 10000 ? 16 : 8);
+  if (balls.are_grains) make_uneven(geometry);
   const float radius = std::max(balls.radius, least_radius);
   for (const Vec3f& centre : balls.centres) geometry.places.push_back({centre.x, centre.y, centre.z, radius});
   return geometry;
@@ -266,13 +274,14 @@ Geometry build_balls(const RenderBalls& balls, float least_radius) {
 
 Geometry build_mesh(const RenderMesh& mesh) {
   if (mesh.is_solid) return build_creased(mesh, Material::solid);
-  if (!mesh.creased.empty()) return build_creased(mesh, Material::cloth);
-  const Material material = mesh.is_liquid ? Material::liquid : Material::cloth;
+  const Material material = mesh.is_liquid ? Material::liquid : mesh.clarity > 0 ? Material::jelly : Material::cloth;
+  if (!mesh.creased.empty()) return build_creased(mesh, material);
   Geometry geometry{
       .vertices = {}, .indices = {}, .colour = mesh.colour, .material = material, .clarity = mesh.clarity};
+  geometry.checked = !mesh.checks.empty();
   const std::vector<Vec3f> normals = output::vertex_normals(mesh.positions, mesh.triangles);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    geometry.vertices.push_back({mesh.positions[i], normals[i], shade_of(mesh, i)});
+    geometry.vertices.push_back({mesh.positions[i], normals[i], shade_of(mesh, i), checks_of(mesh, i)});
   for (const auto& triangle : mesh.triangles)
     for (const int i : triangle) geometry.indices.push_back(static_cast<std::uint32_t>(i));
   return geometry;
@@ -309,6 +318,8 @@ void check_mesh(const RenderMesh& mesh, std::size_t index) {
   check_triangles("mesh", index, mesh.positions, mesh.triangles);
   if (!mesh.creased.empty() && mesh.creased.size() != mesh.positions.size())
     refuse("mesh", index, "has another number of positions in its creased shape");
+  if (!mesh.checks.empty() && mesh.checks.size() != mesh.positions.size())
+    refuse("mesh", index, "has another number of places in its pattern");
 }
 
 void check_body(const RenderBody& body, std::size_t index) {

@@ -75,4 +75,10 @@ inline Matrix orthographic(const Vec3f& low, const Vec3f& high) {
            -(high.y + low.y) / size.y, (high.z + low.z) / size.z, 1}};
 }
 
+/// The coordinates 0 to 1 of a texture instead of -1 to 1.
+inline Matrix to_texture(const Matrix& clip) {
+  const Matrix halve{{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
+  return halve * clip;
+}
+
 }  // namespace pliant::render

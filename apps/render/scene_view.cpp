@@ -153,6 +153,50 @@ void add_liquid(RenderScene& result, const Object& object, std::vector<Vec3f> po
                            .clarity = object.fluid->clarity});
 }
 
+/// Places in a pattern of checks on a sheet that is flat at rest, along the axes of the world in which it extends; none
+/// on other surfaces. The pattern shows how the sheet bends, which an even colour hides.
+std::vector<std::array<float, 2>> checks_of(const Object& object) {
+  constexpr float along_the_longer_side = 16;
+  Bounds box;
+  for (const Vec3f& p : object.positions) box.include(p);
+  const Vec3f size = box.high - box.low;
+  std::array<float Vec3f::*, 3> axes{&Vec3f::x, &Vec3f::y, &Vec3f::z};
+  std::sort(axes.begin(), axes.end(), [&](auto a, auto b) { return size.*a > size.*b; });
+  if (object.volume || !(size.*axes[1] > 0) || size.*axes[2] > 1e-3f * size.*axes[1]) return {};
+  const float scale = along_the_longer_side / (size.*axes[0]);
+  std::vector<std::array<float, 2>> checks;
+  for (const Vec3f& p : object.positions)
+    checks.push_back({(p.*axes[0] - box.low.*axes[0]) * scale, (p.*axes[1] - box.low.*axes[1]) * scale});
+  return checks;
+}
+
+/// The clarity of an object's surface, which must be closed to have an inside [m].
+float clarity_of(const Object& object) {
+  const bool is_closed = object.skin || object.volume || !object.clusters.empty() || !tetrahedra_of(object).empty();
+  return is_closed ? object.clarity : 0;
+}
+
+/// True for grains of which each belongs to a cluster.
+bool keeps_shape(const Object& object) {
+  std::vector<char> is_in(object.positions.size(), 0);
+  for (const Cluster& cluster : object.clusters)
+    for (const int i : cluster.particles) is_in[static_cast<std::size_t>(i)] = 1;
+  return object.grains && !is_in.empty() && std::count(is_in.begin(), is_in.end(), 0) == 0;
+}
+
+/// Draws grains that keep a shape as the surface around them: a stone, a jelly, clay.
+void add_block(RenderScene& result, const Object& object, const std::vector<Vec3f>& positions, const Vec3f& colour) {
+  const bool is_finite = std::all_of(positions.begin(), positions.end(), [](const Vec3f& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  });
+  if (!is_finite) return;
+  TriangleMesh surface = liquid_surface(positions, {.spacing = 2 * object.thickness});
+  result.meshes.push_back({.positions = std::move(surface.positions),
+                           .triangles = std::move(surface.triangles),
+                           .colour = colour,
+                           .clarity = object.clarity});
+}
+
 /// Draws tracers as smoke that thins out with age.
 void add_smoke(RenderScene& result, const Object& object, const ObjectView& view, const std::vector<Vec3f>& positions) {
   const std::vector<float> ages = view.channel("age");
@@ -203,8 +247,12 @@ void add_object(RenderScene& result, const Object& described, const ObjectView& 
   if (object.fluid) return add_liquid(result, object, std::move(positions), shape.colour);
   if (!shape.triangles.empty()) {
     if (object.skin) positions = skinned(*object.skin, positions);
-    result.meshes.push_back({std::move(positions), shape.triangles, shape.colour, false});
+    result.meshes.push_back({.positions = std::move(positions),
+                             .triangles = shape.triangles,
+                             .colour = shape.colour,
+                             .clarity = clarity_of(object)});
     if (!object.skin && !tetrahedra_of(object).empty()) result.meshes.back().creased = object.positions;
+    if (!object.skin && tetrahedra_of(object).empty()) result.meshes.back().checks = checks_of(object);
     if (object.absorbency && !object.skin) result.meshes.back().wetness = wetness_of(object, view);
     return;
   }
@@ -219,7 +267,11 @@ void add_object(RenderScene& result, const Object& described, const ObjectView& 
       result.tubes.push_back({.points = {position}, .radius = object.thickness, .colour = shape.colour});
     return;
   }
-  result.balls.push_back({.centres = std::move(positions), .radius = object.thickness, .colour = shape.colour});
+  if (keeps_shape(object)) return add_block(result, object, positions, shape.colour);
+  result.balls.push_back({.centres = std::move(positions),
+                          .radius = object.thickness,
+                          .colour = shape.colour,
+                          .are_grains = object.grains.has_value()});
 }
 
 }  // namespace
