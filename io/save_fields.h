@@ -228,12 +228,12 @@ void fields(A& a, Is<Object> auto& of) {
   auto& [name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid, grains,
          clusters, gas, tracers, absorbency, flow, pins, attachments, tearing, cuts, skin, thickness, self_collision,
          collides, groups, mask, static_friction, kinetic_friction, restitution, rolling_friction, spinning_friction,
-         drag, lift, sweep, damping, colour] = of;
+         drag, lift, sweep, damping, colour, clarity] = of;
   PLIANT_FIELDS(a, name, positions, velocities, masses, frames, bodies, constraints, joints, triangles, volume, fluid,
                 grains, clusters, gas, tracers, absorbency, flow, pins, attachments, tearing, cuts, thickness,
                 self_collision, collides, groups, mask, static_friction, kinetic_friction, restitution,
                 rolling_friction, spinning_friction, drag, lift, sweep, damping);
-  PLIANT_FIELDS(a.aside, skin, colour);
+  PLIANT_FIELDS(a.aside, skin, colour, clarity);
 }
 template <class A>
 void fields(A&, Is<Plane> auto&) {}

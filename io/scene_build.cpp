@@ -123,6 +123,7 @@ void set_properties(const JsonDocument& document, const JsonValue& at, Object& o
   set(at, "lift", object.lift);
   set(at, "damping", object.damping);
   set(at, "colour", object.colour);
+  set(at, "clarity", object.clarity);
 }
 
 /// Gives the object's velocity to all particles but those of bodies that have their own, or are fixed.

@@ -245,7 +245,11 @@ const Record& object_record() {
        field("lift", number("-", 0, 1000), Object{}.lift, "Lift coefficient."),
        field("damping", number("1/s", 0, 1e6), Object{}.damping,
              "Velocity damping: in a second a share of 1 - exp(-damping) is lost."),
-       field("colour", colour(), Object{}.colour, "Colour as linear red, green and blue.")},
+       field("colour", colour(), Object{}.colour, "Colour as linear red, green and blue."),
+       field(
+           "clarity", number("m", 0, largest_place), Object{}.clarity,
+           "In pictures of solids, clusters and closed surfaces: the way in them that leaves a third of the light that "
+           "is not of their colour. Jelly 0.05. 0: opaque.")},
       {"cloth", "soft_body", "rope", "rod", "liquid", "gas", "tracers", "grains", "particles", "bodies", "urdf"}};
   return result;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "apps/plot/font.h"
 #include "pliant/error.h"
 
 #if defined(__GNUC__)
@@ -23,6 +24,9 @@ namespace pliant::plot {
 namespace {
 
 constexpr int largest_side = 16384;
+
+// Of a font, for text of size 1: its size, and where its baseline is below the upper edge of the text [pixels].
+constexpr double em = 8.2, baseline = 6.6;
 
 // A corner of a rectangle as stb_easy_font returns it.
 struct FontCorner {
@@ -127,13 +131,27 @@ void Canvas::rectangle(Point upper_left, Point lower_right, Colour colour, doubl
       blend(x, y, colour, opacity * overlap(x, upper_left.x, lower_right.x) * overlap(y, upper_left.y, lower_right.y));
 }
 
+void Canvas::letter_pixel(int x, int y, Colour colour, double share) {
+  if (x >= left_ && x < right_ && y >= top_ && y < bottom_) blend(x, y, colour, share);
+}
+
 void Canvas::text(Point at, const std::string& words, double size, Colour colour) {
+  if (has_font()) {
+    const int left = static_cast<int>(std::floor(at.x)), base = static_cast<int>(std::lround(at.y + baseline * size));
+    const auto paint = [&](int x, int y, double share) { letter_pixel(left + x, base + y, colour, share); };
+    return paint_letters(printable(words), em * size, at.x - left, paint);
+  }
   for (const FontBox& box : letter_boxes(words))
     rectangle({at.x + size * static_cast<double>(box[0].x), at.y + size * static_cast<double>(box[0].y)},
               {at.x + size * static_cast<double>(box[2].x), at.y + size * static_cast<double>(box[2].y)}, colour);
 }
 
 void Canvas::text_upwards(Point at, const std::string& words, double size, Colour colour) {
+  if (has_font()) {
+    const int low = static_cast<int>(std::floor(at.y)), base = static_cast<int>(std::lround(at.x + baseline * size));
+    const auto paint = [&](int x, int y, double share) { letter_pixel(base + y, low - x, colour, share); };
+    return paint_letters(printable(words), em * size, 0, paint);
+  }
   for (const FontBox& box : letter_boxes(words))
     rectangle({at.x + size * static_cast<double>(box[0].y), at.y - size * static_cast<double>(box[2].x)},
               {at.x + size * static_cast<double>(box[2].y), at.y - size * static_cast<double>(box[0].x)}, colour);
@@ -141,7 +159,7 @@ void Canvas::text_upwards(Point at, const std::string& words, double size, Colou
 
 double Canvas::text_width(const std::string& words, double size) {
   std::string line = printable(words);
-  return size * stb_easy_font_width(line.data());
+  return has_font() ? font_width(line, em * size) : size * stb_easy_font_width(line.data());
 }
 
 void write_png(const std::string& path, const Canvas& canvas) {

@@ -19,7 +19,7 @@ constexpr double title_left = 16, title_right = title_left + 12 * text_size, lab
 
 // Colours that can be told apart with any colour vision (Okabe and Ito 2008).
 constexpr Colour palette[] = {{0, 114, 178},  {213, 94, 0},    {0, 158, 115}, {204, 121, 167}, {230, 159, 0},
-                              {86, 180, 233}, {110, 110, 110}, {0, 0, 0},     {150, 156, 164}};
+                              {86, 180, 233}, {110, 110, 110}, {0, 0, 0},     {150, 156, 164}, {136, 34, 85}};
 
 Colour colour_of(const Chart& chart, std::size_t series) {
   const int chosen = chart.series[series].colour;
@@ -115,6 +115,7 @@ Layout lay_out(const Chart& chart, Point corner, int width, int height) {
       x.include(u);
       y.include(v);
     }
+  if (chart.shows_zero) y.include(0);
   x = padded(x, 0.02);
   y = padded(y, 0.08);
   return {chart,
@@ -153,8 +154,10 @@ void draw_frame(Canvas& canvas, const Layout& layout, Point corner, int height) 
   canvas.text({a.x, corner.y + 20}, chart.title, title_size, ink);
   const double x_width = Canvas::text_width(chart.x_label, text_size);
   canvas.text({(a.x + b.x - x_width) / 2, corner.y + height - 28}, chart.x_label, text_size, ink);
-  const double y_width = Canvas::text_width(chart.y_label, text_size);
-  canvas.text_upwards({corner.x + title_left, (a.y + b.y + y_width) / 2}, chart.y_label, text_size, ink);
+  // Beside the axis, or where the title is longer than that, within the chart.
+  const double y_width = Canvas::text_width(chart.y_label, text_size), low = corner.y + height - 6;
+  const double start = std::min((a.y + b.y + y_width) / 2, low);
+  canvas.text_upwards({corner.x + title_left, start}, chart.y_label, text_size, ink);
 }
 
 // Draws a segment of a dashed line from `offset` in the dash pattern. Returns the offset at its end.

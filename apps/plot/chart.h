@@ -22,6 +22,7 @@ struct Chart {
   std::string title, x_label, y_label;
   bool logarithmic_x = false, logarithmic_y = false;
   std::vector<Series> series;
+  bool shows_zero = false;  ///< true: the y-axis has 0, so that small differences look small; not for a logarithmic one
 };
 
 /// The positions of ticks on an axis, and their labels.

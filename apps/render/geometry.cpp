@@ -10,13 +10,13 @@
 #include "io/write_frames.h"
 #include "matrix.h"
 #include "pliant/error.h"
+#include "stones.h"
 #include "walls.h"
 
 namespace pliant::render {
 
 namespace {
 
-constexpr float pi = 3.14159265f;
 constexpr int around_steps = 64;  // segments of round shapes around their axis
 constexpr int tube_sides = 12;
 
@@ -85,13 +85,16 @@ void append(Geometry& geometry, const Geometry& other) {
 }
 
 /// Makes a tube: rings along the line in a frame without twist, and a ball at each end.
-Geometry build_tube(const RenderTube& tube, float radius) {
+Geometry build_tube(const RenderTube& tube, float least_radius) {
   Geometry result{.vertices = {}, .indices = {}, .colour = tube.colour, .material = Material::solid};
   const std::size_t count = tube.points.size();
   if (count == 0) return result;
-  append(result, build_ball(tube.points.front(), radius, tube.colour));
+  const auto radius = [&](std::size_t i) {
+    return std::max(tube.radii.empty() ? tube.radius : tube.radii[i], least_radius);
+  };
+  append(result, build_ball(tube.points.front(), radius(0), tube.colour));
   if (count == 1) return result;
-  append(result, build_ball(tube.points.back(), radius, tube.colour));
+  append(result, build_ball(tube.points.back(), radius(count - 1), tube.colour));
   const auto first = static_cast<std::uint32_t>(result.vertices.size());
   Vec3f side = view_frame(tube.points[1] - tube.points[0]).right;
   for (std::size_t i = 0; i < count; ++i) {
@@ -102,7 +105,7 @@ Geometry build_tube(const RenderTube& tube, float radius) {
     for (int k = 0; k < tube_sides; ++k) {
       const float angle = 2 * pi * static_cast<float>(k) / tube_sides;
       const Vec3f normal = side * std::cos(angle) + other * std::sin(angle);
-      result.vertices.push_back({tube.points[i] + normal * radius, normal});
+      result.vertices.push_back({tube.points[i] + normal * radius(i), normal});
     }
   }
   join_rings(result, first, static_cast<std::uint32_t>(count), tube_sides);
@@ -144,11 +147,16 @@ float shade_of(const RenderMesh& mesh, std::size_t vertex) {
   return mesh.wetness.empty() ? 1 : 1 - dark * std::min(mesh.wetness[vertex], 1.f);
 }
 
+std::array<float, 2> checks_of(const RenderMesh& mesh, std::size_t vertex) {
+  return mesh.checks.empty() ? std::array<float, 2>{} : mesh.checks[vertex];
+}
+
 /// Makes a mesh in which triangles share no vertices. A normal is the mean over adjacent faces that have similar
 /// directions in the mesh's own shape, so round shapes look smooth and edges sharp.
 Geometry build_creased(const RenderMesh& mesh, Material material) {
   constexpr float about = 0.8f;  // cosine of the largest angle between faces that are smoothed
-  Geometry geometry{.vertices = {}, .indices = {}, .colour = mesh.colour, .material = material};
+  Geometry geometry{
+      .vertices = {}, .indices = {}, .colour = mesh.colour, .material = material, .clarity = mesh.clarity};
   const std::vector<Vec3f> faces = face_normals(mesh.positions, mesh.triangles);
   std::vector<Vec3f> directions = mesh.creased.empty() ? faces : face_normals(mesh.creased, mesh.triangles);
   for (Vec3f& direction : directions) direction = unit(direction);
@@ -255,8 +263,10 @@ void include_most(const std::vector<Vec3f>& positions, std::vector<Vec3f>& point
 
 /// Makes one ball of radius 1, coarser if there are many, and the place of each.
 Geometry build_balls(const RenderBalls& balls, float least_radius) {
-  Geometry geometry{.vertices = {}, .indices = {}, .colour = balls.colour, .material = Material::solid};
+  const Material material = balls.are_grains ? Material::grains : Material::solid;
+  Geometry geometry{.vertices = {}, .indices = {}, .colour = balls.colour, .material = material};
   add_capsule(geometry, 1, 0, balls.centres.size() < 10000 ? 16 : 8);
+  if (balls.are_grains) make_uneven(geometry);
   const float radius = std::max(balls.radius, least_radius);
   for (const Vec3f& centre : balls.centres) geometry.places.push_back({centre.x, centre.y, centre.z, radius});
   return geometry;
@@ -264,13 +274,14 @@ Geometry build_balls(const RenderBalls& balls, float least_radius) {
 
 Geometry build_mesh(const RenderMesh& mesh) {
   if (mesh.is_solid) return build_creased(mesh, Material::solid);
-  if (!mesh.creased.empty()) return build_creased(mesh, Material::cloth);
-  const Material material = mesh.is_liquid ? Material::liquid : Material::cloth;
+  const Material material = mesh.is_liquid ? Material::liquid : mesh.clarity > 0 ? Material::jelly : Material::cloth;
+  if (!mesh.creased.empty()) return build_creased(mesh, material);
   Geometry geometry{
       .vertices = {}, .indices = {}, .colour = mesh.colour, .material = material, .clarity = mesh.clarity};
+  geometry.checked = !mesh.checks.empty();
   const std::vector<Vec3f> normals = output::vertex_normals(mesh.positions, mesh.triangles);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-    geometry.vertices.push_back({mesh.positions[i], normals[i], shade_of(mesh, i)});
+    geometry.vertices.push_back({mesh.positions[i], normals[i], shade_of(mesh, i), checks_of(mesh, i)});
   for (const auto& triangle : mesh.triangles)
     for (const int i : triangle) geometry.indices.push_back(static_cast<std::uint32_t>(i));
   return geometry;
@@ -307,6 +318,8 @@ void check_mesh(const RenderMesh& mesh, std::size_t index) {
   check_triangles("mesh", index, mesh.positions, mesh.triangles);
   if (!mesh.creased.empty() && mesh.creased.size() != mesh.positions.size())
     refuse("mesh", index, "has another number of positions in its creased shape");
+  if (!mesh.checks.empty() && mesh.checks.size() != mesh.positions.size())
+    refuse("mesh", index, "has another number of places in its pattern");
 }
 
 void check_body(const RenderBody& body, std::size_t index) {
@@ -356,7 +369,12 @@ std::vector<Vec3f> points_of_interest(const RenderScene& scene) {
     else if (!mesh.is_solid)
       points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
   }
-  for (const RenderTube& tube : scene.tubes) points.insert(points.end(), tube.points.begin(), tube.points.end());
+  std::vector<Vec3f> of_strays;
+  for (const RenderTube& tube : scene.tubes) {
+    std::vector<Vec3f>& into = tube.may_stray ? of_strays : points;
+    into.insert(into.end(), tube.points.begin(), tube.points.end());
+  }
+  include_most(of_strays, points);
   for (const RenderBalls& balls : scene.balls) include_most(balls.centres, points);
   for (const RenderSmoke& smoke : scene.smokes) points.insert(points.end(), smoke.centres.begin(), smoke.centres.end());
   points.insert(points.end(), scene.unseen.begin(), scene.unseen.end());
@@ -403,7 +421,7 @@ std::vector<Geometry> build_geometry(const RenderScene& scene, const Vec3f& arou
                                      const Vec3f& eye) {
   std::vector<Geometry> result;
   for (const RenderMesh& mesh : scene.meshes) result.push_back(build_mesh(mesh));
-  for (const RenderTube& tube : scene.tubes) result.push_back(build_tube(tube, std::max(tube.radius, least_radius)));
+  for (const RenderTube& tube : scene.tubes) result.push_back(build_tube(tube, least_radius));
   for (const RenderBalls& balls : scene.balls)
     if (!balls.centres.empty()) result.push_back(build_balls(balls, least_radius));
   add_bodies(scene.bodies, result);
@@ -427,7 +445,10 @@ void check(const RenderScene& scene) {
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) check_mesh(scene.meshes[m], m);
   for (std::size_t t = 0; t < scene.tubes.size(); ++t) {
     const RenderTube& tube = scene.tubes[t];
-    const bool fine = std::all_of(tube.points.begin(), tube.points.end(), finite) && std::isfinite(tube.radius);
+    const bool fine = std::all_of(tube.points.begin(), tube.points.end(), finite) && std::isfinite(tube.radius) &&
+                      std::all_of(tube.radii.begin(), tube.radii.end(), [](float r) { return std::isfinite(r); });
+    if (!tube.radii.empty() && tube.radii.size() != tube.points.size())
+      refuse("tube", t, "has another number of radii than of points");
     if (!fine) refuse("tube", t, "has a position that is not finite");
   }
   for (std::size_t b = 0; b < scene.balls.size(); ++b) {

@@ -12,10 +12,15 @@ namespace pliant::render {
 struct Vertex {
   Vec3f position, normal;
   float shade = 1;  ///< factor of the colour: less where cloth is wet
+  std::array<float, 2>
+      checks{};  ///< place in the pattern of cloth, one from line to line; without a pattern all are equal
 };
 
 /// How a surface is shaded.
-enum class Material { cloth, solid, ground, liquid };
+enum class Material { cloth, solid, ground, grains, liquid, jelly };
+
+/// True for what light passes through.
+inline bool is_clear(Material material) { return material == Material::liquid || material == Material::jelly; }
 
 /// Triangles of one colour.
 struct Geometry {
@@ -23,7 +28,8 @@ struct Geometry {
   std::vector<std::uint32_t> indices;
   Vec3f colour{};
   Material material = Material::solid;
-  float clarity = 0;                           ///< of a liquid [m]; 0: by the size of the picture
+  float clarity = 0;                           ///< of what is clear [m]; 0: by the size of the picture
+  bool checked = false;                        ///< true: cloth with a pattern
   std::vector<std::array<float, 4>> places{};  ///< a copy is drawn at each: shift and scale; none: once, as it is
 };
 

@@ -1,8 +1,9 @@
-// The passes that draw liquids: their shadows, how much of them each ray passes, and their surfaces.
+// The passes that draw liquids and jelly: their shadows, how much of them each ray passes, and their surfaces.
 #pragma once
 
 #include <string>
 
+#include "clear_shaders.h"
 #include "eye_and_sun.h"
 #include "gl_objects.h"
 #include "scene_buffers.h"
@@ -30,14 +31,18 @@ class LiquidPasses {
                      const OpaquePicture& opaque) const;
 
  private:
+  void draw_entries(const SceneBuffers& scene, const Sun& sun) const;
   void draw_thickness(const SceneBuffers& scene, const Range& range, const Eye& eye, float middle) const;
   void draw_surface(const SceneBuffers& scene, const Range& range, const Eye& eye, const Sun& sun, float size) const;
 
   int width_, height_;
-  Program of_shadows_{depth_vertex, liquid_shadow_fragment};
-  Program of_thickness_{depth_vertex, thickness_fragment};
-  Program of_surfaces_{surface_vertex, std::string(light_functions) + liquid_fragment};
+  Program of_shadows_{std::string(copy_functions) + depth_vertex, liquid_shadow_fragment};
+  Program of_thickness_{std::string(copy_functions) + depth_vertex, thickness_fragment};
+  Program of_entries_{std::string(copy_functions) + depth_vertex, depth_fragment};
+  Program of_surfaces_{std::string(copy_functions) + surface_vertex, std::string(light_functions) + liquid_fragment};
+  Program of_jelly_{std::string(copy_functions) + surface_vertex, std::string(light_functions) + jelly_fragment};
   Target shadow_, thickness_, behind_;
+  Target entry_;  // depths at which the sun sees jelly
 };
 
 }  // namespace pliant::render

@@ -8,7 +8,8 @@
 
 namespace pliant::render {
 
-inline constexpr float degree = 3.14159265f / 180;  ///< [rad]
+inline constexpr float pi = 3.14159265f;
+inline constexpr float degree = pi / 180;  ///< [rad]
 
 inline float length(const Vec3f& v) { return std::sqrt(length_squared(v)); }
 
@@ -72,6 +73,12 @@ inline Matrix orthographic(const Vec3f& low, const Vec3f& high) {
   const Vec3f size = high - low;
   return {{2 / size.x, 0, 0, 0, 0, 2 / size.y, 0, 0, 0, 0, -2 / size.z, 0, -(high.x + low.x) / size.x,
            -(high.y + low.y) / size.y, (high.z + low.z) / size.z, 1}};
+}
+
+/// The coordinates 0 to 1 of a texture instead of -1 to 1.
+inline Matrix to_texture(const Matrix& clip) {
+  const Matrix halve{{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
+  return halve * clip;
 }
 
 }  // namespace pliant::render

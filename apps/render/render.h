@@ -26,8 +26,9 @@ struct RenderMesh {
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< colour as linear RGB, 0..1
   bool is_solid = false;              ///< true: a collider, drawn with sharp edges
   bool is_liquid = false;        ///< true: the closed surface of a liquid, drawn clear, deeper in colour where thick
-  float clarity = 0;             ///< of a liquid, as Fluid::clarity [m]
+  float clarity = 0;             ///< of a liquid, as Fluid::clarity; of another closed surface, as Object::clarity [m]
   std::vector<float> wetness{};  ///< of each vertex, 0 dry to 1 full of liquid, which darkens it; empty: dry
+  std::vector<std::array<float, 2>> checks{};  ///< of each vertex: place in a pattern of checks; empty: plain
   std::vector<Vec3f> creased{};  ///< positions in which sharp edges are those of the shape; empty: none is sharp
 };
 
@@ -36,6 +37,8 @@ struct RenderTube {
   std::vector<Vec3f> points;
   float radius = 0.005f;  ///< radius of the tube [m]; it is drawn at least about a pixel wide
   Vec3f colour{0.75f, 0.35f, 0.30f};
+  std::vector<float> radii{};  ///< of each point, if the tube tapers [m]; empty: `radius`
+  bool may_stray = false;      ///< true: the camera may leave it out where it is far from the others
 };
 
 /// Balls of one radius and colour, for particles. All share one mesh on the graphics card.
@@ -43,6 +46,7 @@ struct RenderBalls {
   std::vector<Vec3f> centres;
   float radius = 0.005f;  ///< [m]
   Vec3f colour{0.75f, 0.35f, 0.30f};
+  bool are_grains = false;  ///< true: drawn as matt, uneven stones of various tones
 };
 
 /// Puffs of smoke, drawn as one volume with self-shadow.

@@ -24,11 +24,6 @@ namespace {
 
 int shadow_map_size_of(Quality quality) { return quality == Quality::draft ? 1024 : 2048; }
 
-Matrix to_texture(const Matrix& clip) {
-  const Matrix halve{{0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1}};
-  return halve * clip;
-}
-
 /// Points that are evenly distributed over the unit disc: a golden-angle spiral (Vogel 1979).
 std::vector<std::pair<float, float>> spiral(int count) {
   std::vector<std::pair<float, float>> places;
@@ -59,11 +54,11 @@ float grid_spacing(float radius) {
 /// Over fifteen members: the OpenGL objects that the passes of a picture use.
 struct Renderer::Implementation {
   struct Programs {
-    Program depth{depth_vertex, depth_fragment};
+    Program depth{std::string(copy_functions) + depth_vertex, depth_fragment};
     Program occlusion{screen_vertex, occlusion_fragment};
     Program blur{screen_vertex, blur_fragment};
     Program sky{screen_vertex, std::string(light_functions) + sky_fragment};
-    Program surface{surface_vertex, std::string(light_functions) + surface_fragment};
+    Program surface{std::string(copy_functions) + surface_vertex, std::string(light_functions) + surface_fragment};
   };
 
   Implementation(int w, int h, Quality quality);
@@ -121,7 +116,8 @@ Renderer::Implementation::Implementation(int w, int h, Quality quality)
 
 void Renderer::Implementation::draw_ranges(bool ground) const {
   for (const Range& range : buffers.ranges()) {
-    if ((range.material == Material::ground && !ground) || range.material == Material::liquid) continue;
+    if ((range.material == Material::ground && !ground) || is_clear(range.material)) continue;
+    programs.depth.set("uneven", range.material == Material::grains ? 1.f : 0.f);
     buffers.draw(range);
   }
 }
@@ -203,7 +199,7 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("shadow_depth", 2);
   program.set("occlusion", 1);
   program.set("liquid_shadow", 3);
-  program.set("in_liquid", buffers.has_liquid() ? 1.f : 0.f);
+  program.set("in_liquid", buffers.has_clear() ? 1.f : 0.f);
   program.set("view_projection", eye.view_projection);
   program.set("light", to_texture(sun.clip));
   program.set("eye", eye.camera.eye);
@@ -217,10 +213,13 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("spiral", spiral(16));
   // If the centre of a pixel is outside the triangle that is visible in it, its position is up to a pixel away from the
   // surface.
+  program.set("pixel", 2 * eye.half_height / static_cast<float>(height));
   program.set("bias", std::max(5 * size / static_cast<float>(shadow_map_size), 2 * pixel));
   for (const Range& range : buffers.ranges()) {
-    if (range.material == Material::liquid) continue;
+    if (is_clear(range.material)) continue;
+    program.set("uneven", range.material == Material::grains ? 1.f : 0.f);
     program.set("albedo", range.colour);
+    program.set("checked", range.checked ? 1.f : 0.f);
     program.set("material", static_cast<int>(range.material));
     draw_both_sides(range);
   }
@@ -283,13 +282,13 @@ std::vector<std::uint8_t> Renderer::Implementation::draw(const RenderScene& scen
     for (const RenderCollider& c : scene.colliders)
       if (is_level_plane(c) && std::abs(c.position.y - *scene.ground) < 1e-6f) colour = c.colour;
     const Vec3f centre = extent.centre;
-    const float sink = 0.002f * extent.radius;  // keeps objects that lie on the ground visible
+    const float sink = 0.0007f * extent.radius;  // keeps objects that lie on the ground visible
     geometries.push_back(build_ground({centre.x, *scene.ground - sink, centre.z}, 30 * extent.radius, colour));
   }
   buffers.upload(geometries);
   glEnable(GL_DEPTH_TEST);
   draw_shadows(sun.clip);
-  if (buffers.has_liquid()) liquids.draw_shadows(buffers, sun, extent.radius, opaque());
+  if (buffers.has_clear()) liquids.draw_shadows(buffers, sun, extent.radius, opaque());
   draw_depth(eye);
   draw_occlusion(eye, 0.08f * extent.radius);
   glBindFramebuffer(GL_FRAMEBUFFER, sampled.framebuffer.get());

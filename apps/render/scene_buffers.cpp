@@ -24,6 +24,9 @@ SceneBuffers::SceneBuffers() {
   glEnableVertexAttribArray(3);
   glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, sizeof(Vertex),
                         reinterpret_cast<const void*>(offsetof(Vertex, shade)));
+  glEnableVertexAttribArray(4);
+  glVertexAttribPointer(4, 2, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                        reinterpret_cast<const void*>(offsetof(Vertex, checks)));
   glVertexAttribDivisor(2, 1);
 }
 
@@ -35,8 +38,8 @@ void SceneBuffers::upload(const std::vector<Geometry>& geometries) {
   for (const Geometry& geometry : geometries) {
     const auto first = static_cast<std::uint32_t>(all_vertices.size());
     ranges_.push_back({static_cast<GLsizei>(geometry.indices.size()), all_indices.size() * sizeof(std::uint32_t),
-                       geometry.colour, geometry.material, geometry.clarity, all_places.size() * sizeof(all_places[0]),
-                       static_cast<GLsizei>(geometry.places.size())});
+                       geometry.colour, geometry.material, geometry.clarity, geometry.checked,
+                       all_places.size() * sizeof(all_places[0]), static_cast<GLsizei>(geometry.places.size())});
     all_places.insert(all_places.end(), geometry.places.begin(), geometry.places.end());
     all_vertices.insert(all_vertices.end(), geometry.vertices.begin(), geometry.vertices.end());
     for (const std::uint32_t i : geometry.indices) all_indices.push_back(first + i);
@@ -52,9 +55,9 @@ void SceneBuffers::upload(const std::vector<Geometry>& geometries) {
                GL_STREAM_DRAW);
 }
 
-bool SceneBuffers::has_liquid() const {
+bool SceneBuffers::has(Material material) const {
   return std::any_of(ranges_.begin(), ranges_.end(),
-                     [](const Range& range) { return range.material == Material::liquid; });
+                     [material](const Range& range) { return range.material == material; });
 }
 
 void SceneBuffers::draw(const Range& range) const {

@@ -15,7 +15,8 @@ struct Range {
   std::size_t first = 0;  // offset in the index buffer [bytes]
   Vec3f colour{};
   Material material = Material::solid;
-  float clarity = 0;            // of a liquid [m]
+  float clarity = 0;  // of what is clear [m]
+  bool checked = false;
   std::size_t first_place = 0;  // offset in the buffer of places [bytes]
   GLsizei places = 0;
 };
@@ -27,7 +28,8 @@ class SceneBuffers {
 
   void upload(const std::vector<Geometry>& geometries);
   const std::vector<Range>& ranges() const { return ranges_; }
-  bool has_liquid() const;
+  bool has(Material material) const;
+  bool has_clear() const { return has(Material::liquid) || has(Material::jelly); }
   /// Makes the vertex attributes current.
   void bind() const { glBindVertexArray(array_.get()); }
   /// Draws a range once, or at each of its places.

@@ -8,11 +8,13 @@
 
 #include "geometry.h"
 #include "io/write_frames.h"
+#include "joint_view.h"
 #include "matrix.h"
 #include "pliant/edit.h"
 #include "pliant/soft_body.h"
 #include "pliant/surface.h"
 #include "render.h"
+#include "rod_view.h"
 
 namespace pliant::render {
 
@@ -99,35 +101,20 @@ void add_bodies(RenderScene& result, const Object& object, const output::FrameOb
   std::vector<std::shared_ptr<const TriangleMesh>> meshes;
   for (const TriangleMesh& solid : shape.solids) meshes.push_back(std::make_shared<const TriangleMesh>(solid));
   const std::vector<output::BodyMotion> motions = output::body_motions(object, view);
+  const std::vector<char> segments = rod_segments(object);
+  const auto colour_of = [&](std::size_t body, std::size_t number) {
+    const Vec3f awake = body_colour(shape.colour, number);
+    return view.body_is_asleep(static_cast<int>(body)) ? sleeping_colour(awake) : awake;
+  };
   for (std::size_t b = 0; b < motions.size(); ++b) {
+    if (segments[b] != 0) continue;
     const bool is_fixed = !std::isfinite(object.masses[static_cast<std::size_t>(object.bodies[b].particle)]);
-    const Vec3f awake = body_colour(shape.colour, b);
-    const Vec3f colour = view.body_is_asleep(static_cast<int>(b)) ? sleeping_colour(awake) : awake;
     result.bodies.push_back(
-        {meshes[static_cast<std::size_t>(shape.bodies[b].solid)], motions[b].pose, colour, is_fixed});
+        {meshes[static_cast<std::size_t>(shape.bodies[b].solid)], motions[b].pose, colour_of(b, b), is_fixed});
   }
-}
-
-/// Draws threads, rods and springs between bodies: joints that set the distance of two anchors, unless they are broken.
-void add_threads(RenderScene& result, const Object& object, const ObjectView& view) {
-  constexpr float radius = 0.001f;
-  constexpr std::size_t slots = 4, fields = 8;  // body, frame, body, frame; two anchors in their frames, and bounds
-  const std::vector<Vec3f> positions = view.positions();
-  const std::vector<Quatf> turns = view.orientations();
-  for (std::size_t j = 0; j < object.joints.size(); ++j) {
-    if (view.joint_is_broken(static_cast<int>(j))) continue;
-    for (const auto& [group, index] : object.joints[j].constraints) {
-      const ConstraintGroup& of = object.constraints[static_cast<std::size_t>(group)];
-      if (of.type != "joint_distance" || of.rest.size() < fields * (static_cast<std::size_t>(index) + 1)) continue;
-      const int* const at = &of.particles[slots * static_cast<std::size_t>(index)];
-      const float* const rest = &of.rest[fields * static_cast<std::size_t>(index)];
-      const auto end = [&](int i) {
-        const Vec3f anchor{rest[3 * i], rest[3 * i + 1], rest[3 * i + 2]};
-        return positions[static_cast<std::size_t>(at[2 * i])] +
-               rotate(turns[static_cast<std::size_t>(at[2 * i + 1])], anchor);
-      };
-      result.tubes.push_back({.points = {end(0), end(1)}, .radius = radius, .colour = {0.2f, 0.2f, 0.22f}});
-    }
+  for (RodPart& part : rod_parts(object, view, motions, segments)) {
+    part.tube.colour = colour_of(part.first, part.rod);
+    result.tubes.push_back(std::move(part.tube));
   }
 }
 
@@ -166,6 +153,50 @@ void add_liquid(RenderScene& result, const Object& object, std::vector<Vec3f> po
                            .clarity = object.fluid->clarity});
 }
 
+/// Places in a pattern of checks on a sheet that is flat at rest, along the axes of the world in which it extends; none
+/// on other surfaces. The pattern shows how the sheet bends, which an even colour hides.
+std::vector<std::array<float, 2>> checks_of(const Object& object) {
+  constexpr float along_the_longer_side = 16;
+  Bounds box;
+  for (const Vec3f& p : object.positions) box.include(p);
+  const Vec3f size = box.high - box.low;
+  std::array<float Vec3f::*, 3> axes{&Vec3f::x, &Vec3f::y, &Vec3f::z};
+  std::sort(axes.begin(), axes.end(), [&](auto a, auto b) { return size.*a > size.*b; });
+  if (object.volume || !(size.*axes[1] > 0) || size.*axes[2] > 1e-3f * size.*axes[1]) return {};
+  const float scale = along_the_longer_side / (size.*axes[0]);
+  std::vector<std::array<float, 2>> checks;
+  for (const Vec3f& p : object.positions)
+    checks.push_back({(p.*axes[0] - box.low.*axes[0]) * scale, (p.*axes[1] - box.low.*axes[1]) * scale});
+  return checks;
+}
+
+/// The clarity of an object's surface, which must be closed to have an inside [m].
+float clarity_of(const Object& object) {
+  const bool is_closed = object.skin || object.volume || !object.clusters.empty() || !tetrahedra_of(object).empty();
+  return is_closed ? object.clarity : 0;
+}
+
+/// True for grains of which each belongs to a cluster.
+bool keeps_shape(const Object& object) {
+  std::vector<char> is_in(object.positions.size(), 0);
+  for (const Cluster& cluster : object.clusters)
+    for (const int i : cluster.particles) is_in[static_cast<std::size_t>(i)] = 1;
+  return object.grains && !is_in.empty() && std::count(is_in.begin(), is_in.end(), 0) == 0;
+}
+
+/// Draws grains that keep a shape as the surface around them: a stone, a jelly, clay.
+void add_block(RenderScene& result, const Object& object, const std::vector<Vec3f>& positions, const Vec3f& colour) {
+  const bool is_finite = std::all_of(positions.begin(), positions.end(), [](const Vec3f& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  });
+  if (!is_finite) return;
+  TriangleMesh surface = liquid_surface(positions, {.spacing = 2 * object.thickness});
+  result.meshes.push_back({.positions = std::move(surface.positions),
+                           .triangles = std::move(surface.triangles),
+                           .colour = colour,
+                           .clarity = object.clarity});
+}
+
 /// Draws tracers as smoke that thins out with age.
 void add_smoke(RenderScene& result, const Object& object, const ObjectView& view, const std::vector<Vec3f>& positions) {
   const std::vector<float> ages = view.channel("age");
@@ -202,7 +233,7 @@ void add_object(RenderScene& result, const Object& described, const ObjectView& 
   const output::FrameObject shape = output::describe(object);
   std::vector<Vec3f> positions = view.present_positions();
   add_bodies(result, object, shape, view);
-  add_threads(result, object, view);
+  add_joints(result, object, shape, view);
   if (!shape.has_matter()) return;
   if (object.tracers) return add_smoke(result, object, view, positions);
   if (object.gas) {  // clear, but smoke will be where it is
@@ -216,8 +247,12 @@ void add_object(RenderScene& result, const Object& described, const ObjectView& 
   if (object.fluid) return add_liquid(result, object, std::move(positions), shape.colour);
   if (!shape.triangles.empty()) {
     if (object.skin) positions = skinned(*object.skin, positions);
-    result.meshes.push_back({std::move(positions), shape.triangles, shape.colour, false});
+    result.meshes.push_back({.positions = std::move(positions),
+                             .triangles = shape.triangles,
+                             .colour = shape.colour,
+                             .clarity = clarity_of(object)});
     if (!object.skin && !tetrahedra_of(object).empty()) result.meshes.back().creased = object.positions;
+    if (!object.skin && tetrahedra_of(object).empty()) result.meshes.back().checks = checks_of(object);
     if (object.absorbency && !object.skin) result.meshes.back().wetness = wetness_of(object, view);
     return;
   }
@@ -232,7 +267,11 @@ void add_object(RenderScene& result, const Object& described, const ObjectView& 
       result.tubes.push_back({.points = {position}, .radius = object.thickness, .colour = shape.colour});
     return;
   }
-  result.balls.push_back({.centres = std::move(positions), .radius = object.thickness, .colour = shape.colour});
+  if (keeps_shape(object)) return add_block(result, object, positions, shape.colour);
+  result.balls.push_back({.centres = std::move(positions),
+                          .radius = object.thickness,
+                          .colour = shape.colour,
+                          .are_grains = object.grains.has_value()});
 }
 
 }  // namespace

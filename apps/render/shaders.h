@@ -3,14 +3,35 @@
 
 namespace pliant::render {
 
-/// Vertex shader with positions only, for the shadow map and the depth pass.
-inline constexpr const char* depth_vertex = R"(#version 330 core
+/// Grains of sand share a mesh, but each copy is turned, and has a size and a tone of its own, by its number.
+inline constexpr const char* copy_functions = R"(#version 330 core
+uniform float uneven;  // 1 for grains, 0 for all else
+float random(uint seed) {  // 0 to 1 (O'Neill 2014, PCG)
+  uint state = (uint(gl_InstanceID) * 4u + seed) * 747796405u + 2891336453u;
+  uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+  return float((word >> 22u) ^ word) / 4294967295.0;
+}
+vec2 turned(vec2 v, float angle) {
+  return vec2(cos(angle) * v.x - sin(angle) * v.y, sin(angle) * v.x + cos(angle) * v.y);
+}
+vec3 turned_copy(vec3 v) {
+  if (uneven == 0.0) return v;
+  v.xz = turned(v.xz, 6.2831853 * random(0u));
+  v.xy = turned(v.xy, 6.2831853 * random(1u));
+  return v;
+}
+float size_of_copy() { return uneven == 0.0 ? 1.0 : 0.86 + 0.16 * random(2u); }
+float tone_of_copy() { return uneven == 0.0 ? 1.0 : 0.62 + 0.6 * random(3u); }
+)";
+
+/// Vertex shader with positions only, for the shadow map and the depth pass; after copy_functions.
+inline constexpr const char* depth_vertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec4 place;
 uniform mat4 view_projection;
 out vec3 at;
 void main() {
-  at = position * place.w + place.xyz;
+  at = turned_copy(position) * size_of_copy() * place.w + place.xyz;
   gl_Position = view_projection * vec4(at, 1.0);
 }
 )";
@@ -117,18 +138,23 @@ void main() {
 }
 )";
 
-inline constexpr const char* surface_vertex = R"(#version 330 core
+/// After copy_functions.
+inline constexpr const char* surface_vertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 place;
 layout(location = 3) in float brightness;
+layout(location = 4) in vec2 place_in_checks;
 uniform mat4 view_projection;
-out vec3 at, facing;
-out float shade;
+// At the edge of a triangle the centre of a pixel may lie outside of it, where position and normal are wrong.
+centroid out vec3 at, facing;
+centroid out float shade;
+centroid out vec2 checks;
 void main() {
-  at = position * place.w + place.xyz;
-  facing = normal;
-  shade = brightness;
+  at = turned_copy(position) * size_of_copy() * place.w + place.xyz;
+  facing = turned_copy(normal);
+  shade = brightness * tone_of_copy();
+  checks = place_in_checks;
   gl_Position = view_projection * vec4(at, 1.0);
 }
 )";
@@ -136,11 +162,13 @@ void main() {
 /// Shades cloth, solids and ground: sunlight with soft shadows, light from the sky (blue from above), and for cloth a
 /// sheen at grazing angles and some translucency.
 inline constexpr const char* surface_fragment = R"(
-in vec3 at, facing;
-in float shade;
+centroid in vec3 at, facing;
+centroid in float shade;
+centroid in vec2 checks;
 out vec4 colour;
 uniform vec3 albedo, sun, centre;
-uniform int material;      // 0 cloth, 1 solid, 2 ground
+uniform float checked;     // 1 if the cloth has a pattern
+uniform int material;      // 0 cloth, 1 solid, 2 ground, 3 grains
 uniform mat4 light;        // transform from the world into the shadow map, 0..1
 uniform sampler2DShadow shadow;
 uniform sampler2D shadow_depth;
@@ -151,8 +179,18 @@ uniform sampler2D liquid_shadow;   // length of the way in liquid [m], and absor
 uniform float in_liquid;   // 1 if there is liquid
 uniform float widest, softness;  // largest blur of shadows [texels]; its growth with depth
 uniform float bias, radius, spacing;
+uniform float pixel;       // angle that a pixel takes up
+/// Where the shadow of a point is looked up. Ground that is visible in a part of a pixel alone is nearer to the eye than
+/// the centre of the pixel, which may be beneath what stands there.
+vec3 off_surface(vec3 normal) {
+  if (material != 2) return at + normal * bias;
+  vec3 view = eye - at;
+  vec2 level = view.xz / max(length(view.xz), 1e-6);
+  float shift = pixel * dot(view, view) / max(abs(view.y), 0.1 * length(view));
+  return at + normal * bias + vec3(level.x, 0.0, level.y) * shift;
+}
 float lit(vec3 normal) {
-  vec3 place = (light * vec4(at + normal * bias, 1.0)).xyz;
+  vec3 place = (light * vec4(off_surface(normal), 1.0)).xyz;
   // Outside the shadow map the loop does nothing; in software rendering a branch would save no time.
   int probes = any(greaterThan(abs(place - 0.5), vec3(0.5))) ? 0 : 10;
   float gap = 0.0, found = 0.0, texels = float(textureSize(shadow_depth, 0).x);
@@ -162,6 +200,8 @@ float lit(vec3 normal) {
     gap += (place.z - blocker) * covers;
     found += covers;
   }
+  // A shadow that is narrower than the probes are apart, as that of a rod.
+  if (found == 0.0 && probes > 0) found = 0.5 * (1.0 - texture(shadow, vec3(place.xy, place.z - 0.0005)));
   // Shadows get softer with the distance of the object that casts them (Fernando 2005).
   float wide = clamp(gap / max(found, 1.0) * softness, 1.2, widest) / texels;
   int taps = found > 0.0 && found < 9.5 ? 16 : 0;
@@ -184,14 +224,20 @@ float lines(float x) {
   float away = abs(fract(x + 0.5) - 0.5) / max(width, 1e-6);
   return clamp(1.2 - away, 0.0, 1.0) * clamp(1.0 - width * 6.0, 0.0, 1.0);
 }
+/// The share of a pixel that stripes cover, a fifth of the cloth, in one direction.
+float stripes(float x) {
+  float width = max(fwidth(x), 1e-4), away = abs(fract(x) - 0.5);
+  return mix(clamp((0.1 - away) / width + 0.5, 0.0, 1.0), 0.2, clamp(2.0 * width - 0.5, 0.0, 1.0));
+}
 void main() {
   vec3 normal = normalize(facing), view = normalize(eye - at);
   float open = texture(occlusion, gl_FragCoord.xy / picture).r;
   vec3 base = albedo * shade;
   bool back = material == 0 && !gl_FrontFacing;
+  if (checked > 0.0) base *= 1.0 - 0.22 * 0.5 * (stripes(checks.x) + stripes(checks.y));
   if (back) {
     normal = -normal;
-    base = mix(base, vec3(dot(base, vec3(0.3, 0.5, 0.2))), 0.30) * 0.72;
+    base = mix(base, vec3(dot(base, vec3(0.3, 0.5, 0.2))), 0.12) * 0.72;
   }
   float toward = dot(normal, sun), across = max(dot(normal, view), 0.0);
   float seen = lit(toward < 0.0 && material == 0 ? -normal : normal);
@@ -212,77 +258,13 @@ void main() {
     float graze = pow(1.0 - across, 5.0);
     result += sunlight * 0.10 * pow(max(dot(normal, half_way), 0.0), 60.0) * seen * max(toward, 0.0);
     result += (0.03 + 0.25 * graze) * sky(reflect(-view, normal)) * open * 0.45;
-  } else {
+  } else if (material == 2) {
     float grid = max(lines(at.x / spacing), lines(at.z / spacing));
     result *= 1.0 - 0.13 * grid;
     float away = length(at.xz - centre.xz) / radius;
     result = mix(result, sky(normalize(at - eye)), smoothstep(2.5, 13.0, away));
   }
   colour = vec4(developed(result), 1.0);
-}
-)";
-
-/// How much liquid a ray passes before it meets what is opaque: the distances at which it leaves the closed surface,
-/// less those at which it enters it. Distances are taken from `middle`, so that their sum keeps more digits.
-inline constexpr const char* thickness_fragment = R"(#version 330 core
-in vec3 at;
-out float length_within;
-uniform vec3 eye, forward;
-uniform sampler2D depth;
-uniform vec2 near_far, picture;
-uniform float middle;
-void main() {
-  float d = texture(depth, gl_FragCoord.xy / picture).r * 2.0 - 1.0;
-  float opaque = 2.0 * near_far.x * near_far.y / (near_far.y + near_far.x - d * (near_far.y - near_far.x));
-  float ahead = dot(at - eye, forward), stretch = length(at - eye) / ahead;
-  float away = min(ahead, opaque) * stretch - middle;
-  length_within = gl_FrontFacing ? -away : away;
-}
-)";
-
-/// What sunlight passes of a liquid before it meets what is opaque: the length [m] in the fourth component, and its
-/// product with the coefficients of absorption in the others.
-inline constexpr const char* liquid_shadow_fragment = R"(#version 330 core
-out vec4 passed;
-uniform sampler2D opaque;
-uniform vec3 absorption;
-uniform float depth, texels;
-void main() {
-  float away = min(gl_FragCoord.z, texture(opaque, gl_FragCoord.xy / texels).r) * depth;
-  passed = vec4(absorption, 1.0) * (gl_FrontFacing ? -away : away);
-}
-)";
-
-/// Shades the surface of a liquid: what is behind it, shifted as a refracted ray is (Snell), absorbed by thickness
-/// (Beer and Lambert), and the sky's reflection by angle (Schlick 1994).
-inline constexpr const char* liquid_fragment = R"(
-in vec3 at, facing;
-out vec4 colour;
-uniform vec3 albedo, sun, right, up, forward;
-uniform vec2 picture, slope, near_far;
-uniform sampler2D behind, thickness, depth;
-uniform float clarity;  // length over which the light of other colours falls to a third [m]
-void main() {
-  vec3 normal = normalize(facing), view = normalize(eye - at);
-  if (dot(normal, view) < 0.0) normal = -normal;
-  vec2 place = gl_FragCoord.xy / picture;
-  float deep = max(texture(thickness, place).r, 0.0);
-  vec3 bend = refract(-view, normal, 1.0 / 1.33) + view;
-  vec2 shift = vec2(dot(bend, right), dot(bend, up)) * min(deep, clarity) * 0.5 / (slope * dot(at - eye, forward));
-  shift = clamp(shift, vec2(-0.1), vec2(0.1));
-  if (texture(depth, place + shift).r < gl_FragCoord.z) shift = vec2(0.0);  // an object before the liquid
-  // Of the way that the refracted ray takes: no farther than what it meets.
-  float d = texture(depth, place + shift).r * 2.0 - 1.0, ahead = dot(at - eye, forward);
-  float opaque = 2.0 * near_far.x * near_far.y / (near_far.y + near_far.x - d * (near_far.y - near_far.x));
-  deep = clamp((opaque - ahead) * length(at - eye) / ahead, 0.0, max(deep, texture(thickness, place + shift).r));
-  vec3 water = developed(albedo * (1.2 + 1.2 * max(dot(normal, sun), 0.0)));  // light that is scattered back
-  vec3 seen = texture(behind, place + shift).rgb * exp(-1.3 * (1.0 - albedo) * deep / clarity);
-  seen = mix(water, seen, exp(-0.6 * deep / clarity));
-  vec3 mirrored = reflect(-view, normal);
-  vec3 sky_light = developed(sky(mirrored) * mix(0.35, 1.0, smoothstep(-0.3, 0.1, mirrored.y)));
-  float reflected = 0.02 + 0.98 * pow(1.0 - max(dot(normal, view), 0.0), 5.0);
-  float glint = pow(max(dot(normal, normalize(sun + view)), 0.0), 250.0);
-  colour = vec4(mix(seen, sky_light, reflected) + vec3(0.8, 0.78, 0.72) * glint, 1.0);
 }
 )";
 

@@ -124,7 +124,7 @@ void reference_rows(Result& result) {
   };
   plot::Chart chart{"A free chain of 100 links: sweeps to a thousandth",
                     "sweeps",
-                    "error of a link, root mean square [m]",
+                    "rms error [m]",
                     true,
                     true,
                     {}};

@@ -70,7 +70,8 @@ void iteration_rows(Result& result, double expected) {
                            "sinking [mm]",
                            true,
                            false,
-                           {line, curve}});
+                           {line, curve},
+                           true});
 }
 
 void time_step_rows(Result& result, double expected) {

@@ -267,6 +267,9 @@ struct Object {
   Sweep sweep = Sweep::automatic;     ///< how its constraints are projected
   float damping = 0;                  ///< rate of decay of velocities, linear and angular: exp(-damping t) [1/s]
   Vec3f colour{0.75f, 0.35f, 0.30f};  ///< linear RGB, 0..1
+  /// In pictures of a solid or a closed surface: the way in it that leaves a third of the light that is not of its
+  /// colour, as Fluid::clarity; 0: opaque [m]
+  float clarity = 0;
 };
 
 }  // namespace pliant

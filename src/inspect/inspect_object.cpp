@@ -496,6 +496,7 @@ void check_object(Problems& problems, const Object& object) {
   require_range(problems, "drag", object.drag, 0, largest_place);
   require_range(problems, "lift", object.lift, 0, largest_place);
   require_range(problems, "damping", object.damping, 0, largest_place);
+  require_range(problems, "clarity", object.clarity, 0, largest_place);
   if (!is_finite(object.colour)) problems.grave("colour", "is not finite", "give red, green and blue from 0 to 1");
 }
 

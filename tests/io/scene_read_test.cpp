@@ -125,6 +125,7 @@ TEST_F(FullScene, HasItsSheetInPlace) {
   EXPECT_EQ(sheet.lift, 1.f);
   EXPECT_EQ(sheet.damping, 0.75f);
   EXPECT_EQ(sheet.colour, (Vec3f{0.25f, 0.5f, 0.75f}));
+  EXPECT_EQ(sheet.clarity, 0.125f);
 }
 
 TEST_F(FullScene, HasItsConstraintsAsStiffAsTold) {

@@ -249,6 +249,65 @@ TEST_F(Picture, OfALiquidHasItsShadowByItsClarity) {
   EXPECT_NEAR(dark.b, shadow.b, 4);
 }
 
+TEST_F(Picture, OfJellyIsClearWhereItIsThinAndSunlitWithin) {
+  const RenderScene bare = grey_wall(straight());
+  const auto with_ball = [&](float depth, float clarity) {
+    RenderScene scene = bare;
+    scene.meshes.push_back(blue_liquid({0.6f, 0.6f, depth}, {}, clarity));
+    scene.meshes.back().is_liquid = false;
+    return scene;
+  };
+  const auto drawn = [&](float depth, float clarity) { return renderer->draw(with_ball(depth, clarity)); };
+  const Pixel wall = at(renderer->draw(bare), width / 2, height / 2);
+  const auto thin = drawn(0.005f, 0.2f), thick = drawn(0.5f, 0.2f), opaque = drawn(0.5f, 0);
+  EXPECT_LT(wall.r - at(thin, width / 2, height / 2).r, 60) << "the wall is seen through it";
+  EXPECT_LT(at(thick, width / 2, height / 2).r, wall.r - 80);
+  EXPECT_LT(at(thick, width / 2, height / 2).r, at(thick, width / 2, height / 2).b - 40) << "it has its colour";
+  // The side away from the sun, right and below, is lit through the ball.
+  const int x = width / 2 + 22, y = height / 2 + 18;
+  EXPECT_GT(at(thick, x, y).brightness(), at(opaque, x, y).brightness() + 40);
+}
+
+TEST_F(Picture, OfGrainsIsUnevenWithVariousTones) {
+  RenderScene balls;
+  balls.ground.reset();
+  balls.camera = straight();
+  balls.balls.push_back({{{-0.4f, 0, 0}, {0.4f, 0, 0}}, 0.3f, {0.6f, 0.5f, 0.3f}});
+  RenderScene grains = balls;
+  grains.balls[0].are_grains = true;
+  const auto brightness_of = [&](const std::vector<std::uint8_t>& picture, int middle) {
+    int sum = 0;
+    for (int y = height / 2 - 10; y < height / 2 + 10; ++y)
+      for (int x = middle - 10; x < middle + 10; ++x) sum += at(picture, x, y).brightness();
+    return sum / 400;
+  };
+  const auto even = renderer->draw(balls), uneven = renderer->draw(grains);
+  // The sun lights both alike, but for the place in the picture.
+  const auto apart = [&](const auto& picture) {
+    return brightness_of(picture, width / 2 - 33) - brightness_of(picture, width / 2 + 33);
+  };
+  EXPECT_GT(std::abs(apart(uneven) - apart(even)), 25);
+  EXPECT_EQ(uneven, renderer->draw(grains)) << "their tones are the same in each picture of a movie";
+}
+
+TEST_F(Picture, OfASheetWithChecksHasDarkerStripes) {
+  RenderScene plain;
+  plain.ground.reset();
+  plain.camera = straight();
+  plain.meshes.push_back(square(0.8f, {}, {0.8f, 0.1f, 0.1f}));
+  RenderScene checked = plain;
+  for (const Vec3f& p : plain.meshes[0].positions) checked.meshes[0].checks.push_back({3 * p.x, 3 * p.y});
+  const auto a = renderer->draw(plain), b = renderer->draw(checked);
+  int darker = 0, brighter = 0;
+  for (int x = 0; x < width; ++x) {
+    darker += at(b, x, height / 2 + 3).r < at(a, x, height / 2 + 3).r - 3;
+    brighter += at(b, x, height / 2 + 3).r > at(a, x, height / 2 + 3).r + 2;
+  }
+  EXPECT_GT(darker, 10);
+  EXPECT_LT(darker, 60) << "a fifth of the sheet";
+  EXPECT_EQ(brighter, 0);
+}
+
 TEST_F(Picture, LeavesOutAWallBetweenTheCameraAndWhatItHolds) {
   const float half = std::sqrt(0.5f);
   RenderScene bare = with_sphere(0.5f), front = bare, back = bare;
@@ -339,6 +398,19 @@ TEST_F(Picture, ShowsWhatLiesFlatOnTheGround) {
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) red += at(picture, x, y).r > at(picture, x, y).g + 60;
   EXPECT_GT(red, width * height / 20);
+}
+
+// The centre of a pixel at the lower edge of a box is beneath the box, where the ground is dark.
+TEST_F(Picture, HasNoDarkDashesBeneathABoxOnTheGround) {
+  RenderScene scene;
+  scene.camera = Camera{{1.5f, 1.2f, 5}, {0, 0.2f, 0}, 30};
+  scene.extent = Extent{{0, 0.2f, 0}, 4};
+  scene.colliders.push_back({Box{{2, 0.2f, 0.2f}}, {0, 0.2f, 0}, {}, {0.8f, 0.6f, 0.4f}});
+  const auto picture = renderer->draw(scene);
+  int darkest = 765;
+  for (int y = height / 3; y < height; ++y)
+    for (int x = width / 4; x < 3 * width / 4; ++x) darkest = std::min(darkest, at(picture, x, y).brightness());
+  EXPECT_GT(darkest, 300);
 }
 
 // If a pixel's centre is outside the triangle that it shows, its position in the shadow map is wrong.

@@ -1,9 +1,12 @@
 // Tests what of a Scene and a World is drawn, and at which height the ground is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "pliant/body.h"
+#include "pliant/cluster.h"
+#include "pliant/grains.h"
 #include "pliant/soft_body.h"
 #include "pliant/surface.h"
 #include "render/render.h"
@@ -111,6 +114,48 @@ TEST(SceneView, ShowsFreeParticlesAsBalls) {
   EXPECT_EQ(picture.balls[0].radius, object.thickness);
   const Extent extent = extent_of({picture});
   EXPECT_NEAR(extent.centre.x, 0.25f, 1e-5f);
+}
+
+std::vector<Vec3f> lattice(int side, float spacing) {
+  std::vector<Vec3f> places;
+  for (int i = 0; i < side * side * side; ++i)
+    places.push_back(Vec3f{static_cast<float>(i % side), static_cast<float>(i / side % side) + 1,
+                           static_cast<float>(i / side / side)} *
+                     spacing);
+  return places;
+}
+
+TEST(SceneView, ShowsGrainsAsGrainsAndThoseThatKeepAShapeAsASurface) {
+  Scene scene;
+  scene.add(make_grains(lattice(4, 0.02f)));
+  RenderScene picture = make_render_scene(scene, World(scene));
+  ASSERT_EQ(picture.balls.size(), 1u);
+  EXPECT_TRUE(picture.balls[0].are_grains);
+  scene.objects[0].clarity = 0.03f;
+  add_clusters(scene.objects[0], 1);
+  picture = make_render_scene(scene, World(scene));
+  EXPECT_TRUE(picture.balls.empty());
+  ASSERT_EQ(picture.meshes.size(), 1u);
+  EXPECT_FALSE(picture.meshes[0].is_liquid);
+  EXPECT_EQ(picture.meshes[0].clarity, 0.03f);
+  scene.objects[0].clusters[0].particles.pop_back();
+  EXPECT_EQ(make_render_scene(scene, World(scene)).balls.size(), 1u) << "one grain is loose";
+}
+
+TEST(SceneView, GivesFlatSheetsChecksAndNoOtherSurfaces) {
+  Scene scene;
+  scene.add_cloth(grid_mesh(4, 2, 8, 4));
+  scene.add_cloth(sphere_mesh(2));
+  scene.objects[0].clarity = 0.1f;
+  const RenderScene picture = make_render_scene(scene, World(scene));
+  ASSERT_EQ(picture.meshes.size(), 2u);
+  ASSERT_EQ(picture.meshes[0].checks.size(), picture.meshes[0].positions.size());
+  float most[2] = {0, 0};
+  for (const auto& place : picture.meshes[0].checks)
+    for (std::size_t k = 0; k < 2; ++k) most[k] = std::max(most[k], place[k]);
+  EXPECT_NEAR(most[0], 2 * most[1], 1e-3f) << "checks are squares";
+  EXPECT_TRUE(picture.meshes[1].checks.empty());
+  EXPECT_EQ(picture.meshes[0].clarity, 0) << "an open sheet has no inside";
 }
 
 TEST(SceneView, ShowsALiquidAsItsSurface) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 #include "apps/plot/chart.h"
 #include "pliant/error.h"
@@ -53,6 +54,51 @@ TEST(Plot, LettersLeaveInkAndOthersAreLeftOut) {
   canvas.text({2, 2}, "Pliant", 2, {0, 0, 0});
   EXPECT_NE(canvas.pixels(), Canvas(200, 20, {255, 255, 255}).pixels());
   EXPECT_EQ(Canvas::text_width("\xff\n", 2), 0);
+}
+
+/// A chart of constant curves at these heights.
+Chart of_levels(const std::vector<double>& levels) {
+  Chart chart;
+  for (const double y : levels) chart.series.push_back({"", {0, 1}, {y, y}, Series::Style::line});
+  return chart;
+}
+
+/// The first row in which a pixel has a colour; -1 if none has.
+int first_row_of(const Canvas& canvas, Colour colour) {
+  for (int y = 0; y < canvas.height(); ++y)
+    for (int x = 0; x < canvas.width(); ++x)
+      if (is(canvas, x, y, colour)) return y;
+  return -1;
+}
+
+TEST(Plot, TenCurvesHaveTenColours) {
+  std::set<std::vector<std::uint8_t>> pictures;
+  for (int colour = 0; colour < 10; ++colour) {
+    Chart chart = of_levels({0});
+    chart.series[0].colour = colour;
+    pictures.insert(paint({chart}, 1, 400, 300).pixels());
+  }
+  EXPECT_EQ(pictures.size(), 10u);
+}
+
+TEST(Plot, AnAxisWithZeroShowsASmallDifferenceSmall) {
+  constexpr Colour blue{0, 114, 178}, orange{213, 94, 0};
+  Chart chart = of_levels({89.7, 89.9});
+  const auto apart = [&] {
+    const Canvas canvas = paint({chart}, 1, 400, 300);
+    return first_row_of(canvas, blue) - first_row_of(canvas, orange);
+  };
+  EXPECT_GT(apart(), 100);
+  chart.shows_zero = true;
+  EXPECT_LT(apart(), 3);
+}
+
+TEST(Plot, ALongTitleOfTheYAxisStaysInItsChart) {
+  Chart chart = of_levels({0, 1});
+  chart.y_label = "a title that is longer than the axis which it is written beside";
+  const Canvas canvas = paint({chart, of_levels({0, 1})}, 1, 400, 200);
+  for (int y = 200; y < 400; ++y)
+    for (int x = 0; x < 45; ++x) ASSERT_TRUE(is(canvas, x, y, {255, 255, 255})) << x << ' ' << y;
 }
 
 TEST(Plot, AnyDataMakesAPicture) {

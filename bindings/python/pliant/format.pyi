@@ -230,6 +230,9 @@ class Object(TypedDict, total=False):
     """Velocity damping: in a second a share of 1 - exp(-damping) is lost. [1/s] Default: 0."""
     colour: Sequence[float] | AnyArray
     """Colour as linear red, green and blue. Default: [0.75, 0.35, 0.3]."""
+    clarity: float
+    """In pictures of solids, clusters and closed surfaces: the way in them that leaves a third of the light that is
+    not of their colour. Jelly 0.05. 0: opaque. [m] Default: 0."""
 
 class Cloth(TypedDict, total=False):
     """A surface that resists stretching and bending; with `volume`, a balloon."""
