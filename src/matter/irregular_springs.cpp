@@ -194,7 +194,7 @@ Values apply(const SpringSystem& system, const std::vector<Tangential>& p, std::
   Values energy{};
   for (const MeshSpring& s : system.springs) {
     const Tangential &pa = p[s.a], &pb = p[s.b];
-    Values force;  // apart from `out`, so that compilers need not expect an overlap
+    Values force{};  // apart from `out`, so that compilers need not expect an overlap
     for (std::size_t k = 0; k < strain_count; ++k) {
       const double stretch = s.at_b[0] * pb.x[k] + s.at_b[1] * pb.y[k] - s.at_a[0] * pa.x[k] - s.at_a[1] * pa.y[k];
       force[k] = s.stiffness * stretch;
