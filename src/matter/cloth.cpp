@@ -12,6 +12,7 @@
 #include "constraints/dihedral_bending.h"
 #include "constraints/isometric_bending.h"
 #include "math/vector.h"
+#include "matter/irregular_springs.h"
 #include "matter/strain_limit.h"
 #include "pliant/error.h"
 #include "pliant/scene.h"
@@ -174,13 +175,25 @@ void lump_masses(ClothDraft& piece) {
 
 // ------------------------------------------------------------------------------------------------ constraints
 
+/// How much softer the springs are than Y says, because the triangles are irregular (matter/irregular_springs.h).
+double softness_of_springs(const ClothDraft& piece) {
+  std::vector<Vec3d> positions;
+  std::vector<double> areas;
+  positions.reserve(piece.mesh.positions.size());
+  areas.reserve(piece.edges.size());
+  for (int v = 0; v < piece.vertex_count(); ++v) positions.push_back(piece.at(v));
+  for (const Edge& edge : piece.edges) areas.push_back(piece.area_at(edge));
+  return softness_of({positions, piece.triangles, piece.edges, areas});
+}
+
 /// Makes the distance constraints. An edge represents the strip of material beside it: alpha = L^2 / (Y (A1 + A2)) (Van
-/// Gelder 1998).
+/// Gelder 1998), over the softness of the mesh.
 ConstraintGroup stretch_group(const ClothDraft& piece) {
   ConstraintGroup group;
   group.type = "distance";
-  const double stiffness = piece.options.material.stretch_stiffness;
+  double stiffness = piece.options.material.stretch_stiffness;
   const bool measured = !piece.options.stretch && std::isfinite(stiffness);
+  if (measured) stiffness *= softness_of_springs(piece);
   if (piece.options.stretch) group.stiffness = *piece.options.stretch;
   group.particles.reserve(2 * piece.edges.size());
   group.rest.reserve(piece.edges.size());

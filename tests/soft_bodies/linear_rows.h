@@ -21,6 +21,12 @@ class LinearRows {
     std::vector<Vec3d> load;
     load.reserve(object_.masses.size());
     for (const float mass : object_.masses) load.push_back(static_cast<double>(mass) * gravity);
+    return yield_to(load, pinned);
+  }
+
+  /// The displacements [m] of particles under forces [N], while those of `pinned` stay. Without pins, forces must be in
+  /// equilibrium.
+  std::vector<Vec3d> yield_to(const std::vector<Vec3d>& load, const std::vector<int>& pinned) const {
     std::vector<double> free(load.size(), 1);
     for (const int i : pinned) free[static_cast<std::size_t>(i)] = 0;
     return solve(load, free);
