@@ -122,12 +122,7 @@ void reference_rows(Result& result) {
       {"Chebyshev over symmetric", 117, curve_of(symmetric, gauss_seidel_radius * gauss_seidel_radius)},
       {"Chebyshev over symmetric after 10", 66, curve_of(symmetric, gauss_seidel_radius * gauss_seidel_radius, 10)},
   };
-  plot::Chart chart{"A free chain of 100 links: sweeps to a thousandth",
-                    "sweeps",
-                    "rms error [m]",
-                    true,
-                    true,
-                    {}};
+  plot::Chart chart{"A free chain of 100 links: sweeps to a thousandth", "sweeps", "rms error [m]", true, true, {}};
   for (const auto& at : cases) {
     result.rows.push_back(relative("convergence: " + std::string(at.name), at.expected, sweeps_in(at.curve), 0.1,
                                    "sweeps", "to 1e-3 of the start; 100 links, free ends, in double"));
