@@ -197,7 +197,7 @@ Simplex nearest_simplex(const Difference& difference, const Vec3d& first, double
 struct PolytopeFace {
   std::array<int, 3> corners{};
   Vec3d normal{};
-  double distance = 0;  ///< of its plane from the origin
+  double distance = 0;   ///< of its plane from the origin
   bool is_valid = true;  ///< it has an area
   bool is_seen = false;  ///< by the last point
 };
