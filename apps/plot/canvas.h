@@ -34,8 +34,8 @@ class Canvas {
   void disc(Point centre, double radius, Colour colour);
   void rectangle(Point upper_left, Point lower_right, Colour colour, double opacity = 1);
 
-  /// Draws text that is `size` times 7 pixels high, with its upper left corner at `at`, in DejaVu Sans where the machine
-  /// has it, else in strokes. Characters that are not ASCII are skipped.
+  /// Draws text that is `size` times 7 pixels high, with its upper left corner at `at`, in DejaVu Sans where the
+  /// machine has it, else in strokes. Characters that are not ASCII are skipped.
   void text(Point at, const std::string& words, double size, Colour colour);
   /// Draws text that runs upwards, with its lower left corner at `at`.
   void text_upwards(Point at, const std::string& words, double size, Colour colour);

@@ -61,7 +61,7 @@ RenderTube coil(const Vec3f& a, const Vec3f& b, float rest_length, float body) {
   constexpr float end_share = 0.1f, wire_share = 0.13f;
   constexpr int steps = 20;  // of a turn
   const float radius = std::min(0.3f * body, 0.25f * rest_length);
-  const int turns = std::clamp(static_cast<int>(rest_length / (0.75f * radius)), 6, 12);
+  const int turns = static_cast<int>(std::clamp(rest_length / (0.75f * radius), 6.f, 12.f));
   const ViewFrame frame = view_frame(b - a);
   std::vector<Vec3f> points{a};
   for (int i = 0; i <= turns * steps; ++i) {

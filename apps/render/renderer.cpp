@@ -211,9 +211,9 @@ void Renderer::Implementation::draw_surfaces(const Eye& eye, const Sun& sun, con
   program.set("widest", 18.f);
   program.set("softness", sun.softness * static_cast<float>(shadow_map_size));
   program.set("spiral", spiral(16));
+  program.set("pixel", 2 * eye.half_height / static_cast<float>(height));
   // If the centre of a pixel is outside the triangle that is visible in it, its position is up to a pixel away from the
   // surface.
-  program.set("pixel", 2 * eye.half_height / static_cast<float>(height));
   program.set("bias", std::max(5 * size / static_cast<float>(shadow_map_size), 2 * pixel));
   for (const Range& range : buffers.ranges()) {
     if (is_clear(range.material)) continue;

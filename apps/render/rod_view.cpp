@@ -19,8 +19,8 @@ Vec3f cap(const ObjectBody& body, float side) {
   return solid.position + rotate(solid.rotation, {0, side * capsule_of(body)->half_length, 0});
 }
 
-/// True if a joint joins a segment of a rod to the next one, which add_rod makes after it: at the end of its capsule, as
-/// a body that holds a rod does not.
+/// True if a joint joins a segment of a rod to the next one, which add_rod makes after it: at the end of its capsule,
+/// as a body that holds a rod does not.
 bool joins_segments(const Object& object, const ObjectJoint& joint) {
   if (joint.kind != "rod" || joint.a < 0 || joint.b != joint.a + 1) return false;
   const ObjectBody &a = object.bodies[static_cast<std::size_t>(joint.a)],

@@ -180,8 +180,8 @@ uniform float in_liquid;   // 1 if there is liquid
 uniform float widest, softness;  // largest blur of shadows [texels]; its growth with depth
 uniform float bias, radius, spacing;
 uniform float pixel;       // angle that a pixel takes up
-/// Where the shadow of a point is looked up. Ground that is visible in a part of a pixel alone is nearer to the eye than
-/// the centre of the pixel, which may be beneath what stands there.
+/// Where the shadow of a point is looked up. Ground that is visible in a part of a pixel alone is nearer to the eye
+/// than the centre of the pixel, which may be beneath what stands there.
 vec3 off_surface(vec3 normal) {
   if (material != 2) return at + normal * bias;
   vec3 view = eye - at;

@@ -1,4 +1,4 @@
-// The shape of a grain of sand.
+// The form of a grain of sand.
 #pragma once
 
 #include "geometry.h"

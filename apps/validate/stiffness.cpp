@@ -26,20 +26,14 @@ TriangleMesh upright(int side) {
 bool at_top(const Vec3f& x) { return x.y > 0.4999f; }
 bool at_bottom(const Vec3f& x) { return x.y < -0.4999f; }
 
-// The mean sag of the lower edge at rest [m].
-double sinking(const Run& run) {
-  ClothOptions options;
-  options.material.area_density = static_cast<float>(cloth_density);
-  options.material.stretch_stiffness = static_cast<float>(membrane);
-  options.bending_model = ClothOptions::Bending::none;
-  Object object = make_cloth(upright(run.side), options);
-  object.damping = 6;
-  for (std::size_t i = 0; i < object.positions.size(); ++i)
-    if (at_top(object.positions[i])) object.pins.push_back({static_cast<int>(i), {}});
-  const std::vector<Vec3f> start = object.positions;
-  World world(scene_with(std::move(object), standard_gravity, run.substeps, run.iterations));
-  for (int i = 0; i * run.dt < 4; ++i) world.step(static_cast<float>(run.dt));
-  const std::vector<Vec3f> end = world.object(0).positions();
+void hang_by_top(Object& sheet) {
+  sheet.damping = 6;
+  for (std::size_t i = 0; i < sheet.positions.size(); ++i)
+    if (at_top(sheet.positions[i])) sheet.pins.push_back({static_cast<int>(i), {}});
+}
+
+/// By how much the lower edge of a sheet has sunk [m].
+double mean_sinking(const std::vector<Vec3f>& start, const std::vector<Vec3f>& end) {
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < start.size(); ++i)
@@ -48,6 +42,20 @@ double sinking(const Run& run) {
       ++count;
     }
   return sum / count;
+}
+
+// The mean sag of the lower edge at rest [m].
+double sinking(const Run& run) {
+  ClothOptions options;
+  options.material.area_density = static_cast<float>(cloth_density);
+  options.material.stretch_stiffness = static_cast<float>(membrane);
+  options.bending_model = ClothOptions::Bending::none;
+  Object object = make_cloth(upright(run.side), options);
+  hang_by_top(object);
+  const std::vector<Vec3f> start = object.positions;
+  World world(scene_with(std::move(object), standard_gravity, run.substeps, run.iterations));
+  for (int i = 0; i * run.dt < 4; ++i) world.step(static_cast<float>(run.dt));
+  return mean_sinking(start, world.object(0).positions());
 }
 
 plot::Series empty(const std::string& name) { return {name, {}, {}, plot::Series::Style::points}; }
@@ -114,24 +122,14 @@ double irregular_sag_over_known(int side, double stiffness) {
     x.y += static_cast<float>(random.uniform(-by, by));
   }
   Object object = make_cloth(mesh, options);
-  object.damping = 6;
-  for (std::size_t i = 0; i < object.positions.size(); ++i)
-    if (at_top(object.positions[i])) object.pins.push_back({static_cast<int>(i), {}});
+  hang_by_top(object);
   const std::vector<Vec3f> start = object.positions;
   Scene scene;
   scene.settings.threads = 1;
   scene.add(std::move(object));
   World world(scene);
   for (int frame = 0; frame < 240; ++frame) world.step(frame_time);
-  const std::vector<Vec3f> end = world.object(0).positions();
-  double sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < start.size(); ++i)
-    if (at_bottom(start[i])) {
-      sum += static_cast<double>(start[i].y - end[i].y);
-      ++count;
-    }
-  return sum / count / (0.2 * standard_gravity / (2 * stiffness));
+  return mean_sinking(start, world.object(0).positions()) / (0.2 * standard_gravity / (2 * stiffness));
 }
 
 void irregular_rows(Result& result) {

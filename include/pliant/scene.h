@@ -50,7 +50,7 @@ struct ClothOptions {
 /// Makes cloth of any triangle mesh, flat or curved, which becomes its rest shape: a distance constraint for each edge,
 /// a bending constraint for each inner edge, a third of a triangle's mass at each corner. From the material, the
 /// compliance of an edge is L^2 / (Y (A1 + A2)) (Van Gelder 1998), less by a factor of irregular meshes, that of a hinge
-/// (A1 + A2) / (|e|^2 B) or, isometric, 3/B: the same on every mesh. Throws an Error with the triangle or edge at fault.
+/// (A1 + A2) / (|e|^2 B) or, isometric, 3/B: alike on all meshes. Throws an Error with the triangle or edge at fault.
 Object make_cloth(const TriangleMesh& mesh, const ClothOptions& options = {});
 
 /// Options of make_rope.

@@ -276,7 +276,7 @@ double softness_of(const SpringMesh& mesh) {
   const double energy = load(system, forces);
   if (!(energy > 0)) return 1;  // all vertices are held
   const double left = 1 - yielded(system, forces, least_yield * energy) / energy;
-  if (left * least_softness > 1) return 1;
+  if (!std::isfinite(left) || left * least_softness > 1) return 1;
   return left * largest_softness > 1 ? 1 / left : largest_softness;
 }
 

@@ -98,11 +98,11 @@ TEST(IrregularSprings, SliversStayWithinTheLargestFactor) {
   TriangleMesh mesh = moved_grid(0.25);
   for (Vec3f& p : mesh.positions) p.z = p.z > 0 ? p.z * p.z * p.z : p.z;
   const double soft = softness(mesh);
-  EXPECT_GE(soft, 1);
+  EXPECT_GT(soft, softness(moved_grid(0.25)));
   EXPECT_LE(soft, 2);
 }
 
-TEST(IrregularSprings, ClothOfAGridKeepsItsBits) {
+TEST(IrregularSprings, ClothOfAGridHasTheStiffnessOfItsCells) {
   ClothOptions options;
   options.material.stretch_stiffness = 300;
   const TriangleMesh mesh = grid_mesh(14, 9, 0.7f, 0.3f);

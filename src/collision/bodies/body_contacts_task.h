@@ -65,12 +65,6 @@ struct BodyContacts::Task {
   bool are_surely_apart(const Pair& pair, const BodyPart& one, const BodyPart& other, const Posed& relative,
                         float speed) const;
 
-  /// True if two parts that only meet where something stops one of them do not come near on these paths, even if they
-  /// rebound. A plane of this normal, in the frame of the first one's body, separates them by `gap` [m].
-  bool stays_apart(int pair, double gap, const Vec3d& normal) const;
-  /// The same by a plane between balls around them.
-  bool balls_stay_apart(int pair, const Posed& relative) const;
-
   /// True if the contacts `old` of a pair are found again.
   bool is_renewed(const Pair& pair, std::span<const BodyContact> old) const;
   /// True if contacts of a body are looked for where it has none.

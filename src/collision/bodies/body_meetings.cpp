@@ -66,7 +66,6 @@ void BodyContacts::Task::find(int number, std::span<const BodyContact> old, Foun
   const bool stays_anyway = !is_renewed(pair, old) && (far >= unlimited || !one.is_convex());
   Posed relative = stays_anyway ? Posed{} : relative_to(a.pose, b.pose);
   if (old.empty() && are_surely_apart(pair, one, other, relative, speed)) return;
-  if (old.empty() && found.is_opened && balls_stay_apart(number, relative)) return;
   if (stays_anyway || stay(pair, old, a, b, relative)) {
     found.pieces.push_back({old, one.body, other.body});
     found.count += old.size();
@@ -127,31 +126,11 @@ void BodyContacts::Task::add(const Meeting& m, const Touch& touching, const Vec3
   ++found.count;
 }
 
-bool BodyContacts::Task::stays_apart(int number, double gap, const Vec3d& normal) const {
-  const Pair& pair = of.pairs_.pairs()[at(number)];
-  const int a = of.parts_[at(pair.first)].body, b = of.parts_[at(pair.second)].body;
-  const double approach = 2 * path_of(a, b, number).least_along(normal);  // twice: both may rebound
-  const auto turning =
-      static_cast<double>(turning_of(pair.first, bodies[at(a)]) + turning_of(pair.second, bodies[at(b)]));
-  return gap + approach >
-         static_cast<double>(BodyPairs::margin_share) * size_of(pair) + static_cast<double>(dt) * turning + fall();
-}
-
-bool BodyContacts::Task::balls_stay_apart(int number, const Posed& relative) const {
-  const Pair& pair = of.pairs_.pairs()[at(number)];
-  const PartBall &one = of.balls_[at(pair.first)], &other = of.balls_[at(pair.second)];
-  const Vec3d between = to_world(relative, other.centre) - one.centre;
-  const double distance = length(between);
-  return distance > one.radius + other.radius &&
-         stays_apart(number, distance - one.radius - other.radius, between * (1 / distance));
-}
-
 void BodyContacts::Task::meet(const Meeting& m, Found& found) const {
   const Reach within{m.reach, m.turning, rocking_of(m.a, m.b, dt, faster)};
   const Posed placed = apart(m.relative, m.one.body, m.other.body, m.size);
   const Touch now = found.start != nullptr ? *found.start : touch_of(m.one, m.other, placed, within);
-  found.is_apart =
-      (now.count == 0 && m.old.empty()) || (found.is_opened && stays_apart(m.number, least_gap(now), now.normal));
+  found.is_apart = now.count == 0 && m.old.empty();
   if (found.is_apart) return;
   if (m.one.is_half_space) {
     if (m.is_fast) note_first(first_on_plane(now, m.on), m, found);

@@ -33,13 +33,13 @@ double separation_along(const BodyPart& a, const BodyPart& b, const Posed& b_in_
   return dot(normal, on_b - on_a) - static_cast<double>(a.shape.radius) - static_cast<double>(b.shape.radius);
 }
 
-}  // namespace
-
 double least_gap(const Touch& now) {
   double least = 1e300;
   for (int i = 0; i < now.count; ++i) least = std::min(least, now.points[at(i)].separation);
   return least;
 }
+
+}  // namespace
 
 Posed relative_to(const Posed& a, const Posed& b) {
   return {to_local(a, b.position), multiply(conjugate(a.rotation), b.rotation)};

@@ -33,9 +33,6 @@ Touch touch_of(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const 
 PairTouch touch_on_path(const BodyPart& a, const BodyPart& b, const Posed& b_in_a, const Reach& reach, const Touch& now,
                         const SolidPath& on);
 
-/// The separation of the nearest points [m]; without end if there are none.
-double least_gap(const Touch& now);
-
 /// When b, on its path, first touches a half-space with which it has the contact `now`.
 PathContact first_on_plane(const Touch& now, const SolidPath& on);
 

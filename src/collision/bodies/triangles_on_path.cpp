@@ -153,7 +153,7 @@ void add_points(const Way& way, const ContactPath& path, const std::vector<Trian
   }
   if (met.at.touches) return;
   // What passes beside a triangle goes below its plane there.
-  if (!has_direction(way.solid, way.mesh, met.triangle, met.at.normal) &&
+  if (!has_direction(there, way.mesh, met.triangle, met.at.normal) &&
       way.goes_in(path, std::span(points).subspan(first)))
     points.resize(first);
   if (points.size() == first && way.stays(path, at_start, met))

@@ -40,9 +40,10 @@ class System {
   /// After the filter of surfaces, which may have truncated displacements.
   virtual void end_filter(Substep& /*s*/) {}
   /// After the update: changes velocities. `gravity(object)` is the part of gravity that the velocities of an object do
-  /// not include yet [m/s].
+  /// not include yet [m/s]. Contacts of surfaces respond after all systems.
   virtual void respond(Substep& /*s*/, FunctionRef<Vec3f(int object)> /*gravity*/) {}
-  /// After a substep that may be the last one of the frame: adds the contacts that press.
+  /// After a substep that may be the last one of the frame: adds the contacts that press. Bodies say which of them are
+  /// of points, edges and triangles.
   virtual void count_contacts(Report& /*report*/) const {}
   /// Adds to the State what lasts. All groups end a frame in turn, on empty lists of contacts.
   virtual void end_frame(Substep& /*s*/) {}
