@@ -20,22 +20,22 @@ namespace pliant {
 
 namespace {
 
-/// The strains are a a^T - poisson I in space, projected onto the surface. The axes a are the six diagonals of an
+/// The strains are a a^T - strain_across I in space, projected onto the surface. The axes a are the six diagonals of an
 /// icosahedron: their products of degree four average to those of all directions. So they weigh the directions within
 /// any plane alike.
 constexpr std::size_t strain_count = 6;
-constexpr double along = 0.85065080835203993, aside = 0.52573111211913361;
-constexpr std::array<std::array<double, 3>, strain_count> strain_axes{{{0, aside, along},
-                                                                       {0, -aside, along},
-                                                                       {aside, along, 0},
-                                                                       {-aside, along, 0},
-                                                                       {along, 0, aside},
-                                                                       {along, 0, -aside}}};
+constexpr double long_part = 0.85065080835203993, short_part = 0.52573111211913361;
+constexpr std::array<std::array<double, 3>, strain_count> strain_axes{{{0, short_part, long_part},
+                                                                       {0, -short_part, long_part},
+                                                                       {short_part, long_part, 0},
+                                                                       {-short_part, long_part, 0},
+                                                                       {long_part, 0, short_part},
+                                                                       {long_part, 0, -short_part}}};
 /// With this, dilation and shear store energy by 1 : 2, averaged over the axes, as in a sheet of Poisson's ratio 1/3
 /// that is pulled one way.
-constexpr double poisson = 0.22792408;
+constexpr double strain_across = 0.22792408;
 /// Conjugate gradient steps. Many more add 0.01 to the result where triangles differ at random, 0.03 in rings of a disc.
-constexpr int steps = 8;
+constexpr int gradient_steps = 8;
 /// A vertex is held where the surface bends by more than the angle of this cosine from its mean normal.
 constexpr double least_cosine = 0.85;
 /// Meshes softer by less than this count as regular: it is about the error.
@@ -152,7 +152,7 @@ Values strains_along(const VertexFrame& frame, const std::array<double, 2>& dire
   Values strains{};
   for (std::size_t k = 0; k < strain_count; ++k) {
     const double cosine = strain_axes[k][0] * d.x + strain_axes[k][1] * d.y + strain_axes[k][2] * d.z;
-    strains[k] = cosine * cosine - poisson;
+    strains[k] = cosine * cosine - strain_across;
   }
   return strains;
 }
@@ -253,7 +253,7 @@ double yielded(const SpringSystem& system, std::vector<Tangential>& r, double le
   const Values first = now;
   std::vector<Tangential> p(r.size()), q(r.size());
   double sum = 0;
-  for (int step = 0; step < steps; ++step) {
+  for (int step = 0; step < gradient_steps; ++step) {
     redirect(system, r, scale, p, q);
     const Values energy = apply(system, p, q);
     for (std::size_t k = 0; k < strain_count; ++k) {

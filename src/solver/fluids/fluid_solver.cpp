@@ -158,7 +158,7 @@ void FluidSolver::collide(Substep& s) {
   }
 }
 
-void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
+void FluidSolver::project_pool(Substep& s, FluidPool& pool, bool is_first) {
   if (is_first) std::fill(pool.multipliers.begin(), pool.multipliers.end(), 0.f);
   if (is_first) pool.overlaps.begin_substep(s, pool);
   const NeighbourLists& lists = pool.neighbours;
@@ -193,7 +193,7 @@ void FluidSolver::project(Substep& s, FluidPool& pool, bool is_first) {
 
 void FluidSolver::project_neighbours(Substep& s, bool is_first) {
   for (auto& pool : pools_) {
-    project(s, *pool, is_first);
+    project_pool(s, *pool, is_first);
     pool->viscosity.solve(s, *pool, is_first);
   }
 }

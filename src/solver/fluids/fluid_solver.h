@@ -80,7 +80,7 @@ class FluidSolver : public System {
   static void list_points(const Model& model, const State& state, FluidPool& pool);
   void find_neighbours(Substep& s, FluidPool& pool);
   void find_lightness(const State& state, FluidPool& pool) const;
-  void project(Substep& s, FluidPool& pool, bool is_first);
+  void project_pool(Substep& s, FluidPool& pool, bool is_first);
 
   std::vector<std::unique_ptr<FluidPool>> pools_;
 };
